@@ -1,0 +1,92 @@
+#pragma once
+// What a user says of motion and load: boundary sets, pressures, gravity, tools.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "forming_sim/config/field.h"
+#include "forming_sim/mesh/config.h"
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+/// What holds or drives a set of nodes.
+struct BoundaryConfig {
+  std::string set;
+  std::string kind;                 ///< fixed | symmetric | velocity
+  std::vector<std::string> axes;    ///< fixed, velocity: which of x y z; empty: all
+  Vec3 normal = Vec3::Zero();       ///< symmetric
+  std::vector<double> times;        ///< velocity: knots
+  std::vector<Vec3> velocities;     ///< velocity: values at the knots
+  std::string profile = "linear";   ///< velocity between knots: linear | smooth
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(set), Field().required().doc("name of a set of this body"));
+    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"fixed", "symmetric", "velocity"}).doc("fixed: no motion along the axes; symmetric: no motion along the normal; velocity: prescribed along the axes"));
+    visit(FORMING_SIM_FIELD(axes), Field().choices({"x", "y", "z"}).when("kind", {"fixed", "velocity"}).computed("all").doc("axes that are held or driven; the others stay free"));
+    visit(FORMING_SIM_FIELD(normal), Field().required().when("kind", {"symmetric"}).doc("normal of the plane of symmetry, any direction"));
+    visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().when("kind", {"velocity"}).doc("times of the knots, increasing; before the first and after the last the velocity stays"));
+    visit(FORMING_SIM_FIELD(velocities), Field().unit("m/s").required().when("kind", {"velocity"}).doc("velocity at each knot"));
+    visit(FORMING_SIM_FIELD(profile), Field().choices({"linear", "smooth"}).when("kind", {"velocity"}).doc("between knots: linear, or smooth (cubic with zero acceleration at the knots)"));
+  }
+};
+
+/// Pressure over time on a surface, normal to the deformed faces.
+struct PressureConfig {
+  std::string set;
+  std::vector<double> times, values;
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(set), Field().required().doc("name of a set: the pressure acts on the surface faces all of whose nodes are in it"));
+    visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().doc("times of the knots, increasing; straight lines between, level before the first and after the last"));
+    visit(FORMING_SIM_FIELD(values), Field().unit("Pa").required().doc("pressure at each knot, positive pushes into the body"));
+  }
+};
+
+/// A pose or velocity over time.
+struct MotionConfig {
+  std::string kind;                 ///< trajectory | velocity
+  std::vector<double> times;
+  std::vector<Vec3> positions;      ///< trajectory: displacement from the initial pose
+  std::vector<Vec3> rotations_deg;  ///< trajectory: rotation vectors, degrees
+  std::vector<Vec3> velocities;     ///< velocity
+  std::vector<Vec3> spins_deg_s;    ///< velocity: angular velocity
+  Vec3 centre = Vec3::Zero();
+  std::string profile = "smooth";
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"trajectory", "velocity"}).doc("trajectory: displacements and rotations at given times; velocity: velocities and spins at given times"));
+    visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().doc("times of the knots, increasing; a trajectory rests before the first and after the last, a velocity stays as at the nearest knot"));
+    visit(FORMING_SIM_FIELD(positions), Field().unit("m").when("kind", {"trajectory"}).doc("displacement from the initial place at each knot"));
+    visit(FORMING_SIM_FIELD(rotations_deg), Field().unit("deg").when("kind", {"trajectory"}).doc("rotation vector (axis times angle) about the centre at each knot; in plane strain [0, 0, angle]"));
+    visit(FORMING_SIM_FIELD(velocities), Field().unit("m/s").when("kind", {"velocity"}).doc("velocity at each knot"));
+    visit(FORMING_SIM_FIELD(spins_deg_s), Field().unit("deg/s").when("kind", {"velocity"}).doc("angular velocity about the centre at each knot"));
+    visit(FORMING_SIM_FIELD(centre), Field().unit("m").doc("centre of rotation at the start; it moves with the tool"));
+    visit(FORMING_SIM_FIELD(profile), Field().choices({"smooth", "linear", "spline"}).doc("smooth: from rest to rest between knots (quintic trajectory, cubic velocity); linear: straight lines; spline: a trajectory that passes the inner knots without stopping"));
+  }
+};
+
+/// A rigid tool.
+struct ToolConfig {
+  std::string name;
+  std::optional<MeshConfig> mesh;
+  std::optional<ProfileConfig> profile;
+  Vec3 point = Vec3::Zero(), normal = Vec3::Zero();  ///< plane without a mesh
+  Vec3 position = Vec3::Zero(), rotation_deg = Vec3::Zero();
+  std::optional<MotionConfig> motion;
+  double friction = 0;
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(name), Field().required().doc("name of the tool"));
+    visit(FORMING_SIM_FIELD(mesh), Field().doc("surface of a 3D tool. Give one of mesh, profile, normal"));
+    visit(FORMING_SIM_FIELD(profile), Field().doc("section of a tool in plane strain"));
+    visit(FORMING_SIM_FIELD(point), Field().unit("m").doc("rigid plane: a point of it"));
+    visit(FORMING_SIM_FIELD(normal), Field().doc("rigid plane: its normal, towards the side of the blank; no mesh is needed"));
+    visit(FORMING_SIM_FIELD(position), Field().unit("m").doc("where the origin of the tool's mesh or profile is put at the start"));
+    visit(FORMING_SIM_FIELD(rotation_deg), Field().unit("deg").doc("rotation vector of the tool's mesh or profile about its origin at the start"));
+    visit(FORMING_SIM_FIELD(motion), Field().doc("how the tool moves; absent: it rests"));
+    visit(FORMING_SIM_FIELD(friction), Field().at_least(0).at_most(10).doc("Coulomb friction of every body against this tool; 0: frictionless"));
+  }
+};
+
+}  // namespace forming_sim

@@ -1,0 +1,60 @@
+#pragma once
+// What a user says of a material.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "forming_sim/config/field.h"
+
+namespace forming_sim {
+
+/// Isotropic hardening sigma_s(p), p the equivalent plastic strain.
+struct HardeningConfig {
+  std::string curve;                 ///< perfect | linear | voce | swift | table
+  double yield_stress = 0;           ///< sigma_s(0)
+  double modulus = 0;                ///< linear: d sigma_s / d p
+  double saturation_stress = 0;      ///< voce: sigma_s(infinity)
+  double rate = 0;                   ///< voce: exponent per unit p
+  double strength = 0;               ///< swift: K of K (e0 + p)^n
+  double prestrain = 0;              ///< swift: e0
+  double exponent = 0;               ///< swift: n
+  std::vector<double> plastic_strains;  ///< table
+  std::vector<double> stresses;         ///< table
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(curve), Field().required().choices({"perfect", "linear", "voce", "swift", "table"})
+          .doc("shape of the hardening curve sigma_s(p): perfect: Y; linear: Y + modulus p; voce: saturation - (saturation - Y) exp(-rate p); swift: strength (prestrain + p)^exponent; table: straight lines between points, level after the last"));
+    visit(FORMING_SIM_FIELD(yield_stress), Field().unit("Pa").above(0).required().when("curve", {"perfect", "linear", "voce"}).doc("yield stress Y of the virgin material"));
+    visit(FORMING_SIM_FIELD(modulus), Field().unit("Pa").at_least(0).when("curve", {"linear"}).doc("plastic hardening modulus d sigma_s / d p"));
+    visit(FORMING_SIM_FIELD(saturation_stress), Field().unit("Pa").above(0).required().when("curve", {"voce"}).doc("stress that the Voce curve approaches"));
+    visit(FORMING_SIM_FIELD(rate), Field().unit("1").above(0).required().when("curve", {"voce"}).doc("exponent of the Voce curve per unit plastic strain"));
+    visit(FORMING_SIM_FIELD(strength), Field().unit("Pa").above(0).required().when("curve", {"swift"}).doc("K of K (e0 + p)^n"));
+    visit(FORMING_SIM_FIELD(prestrain), Field().unit("1").above(0).required().when("curve", {"swift"}).doc("e0 of K (e0 + p)^n"));
+    visit(FORMING_SIM_FIELD(exponent), Field().unit("1").at_least(0).at_most(1).when("curve", {"swift"}).doc("n of K (e0 + p)^n"));
+    visit(FORMING_SIM_FIELD(plastic_strains), Field().unit("1").at_least(0).required().when("curve", {"table"}).doc("plastic strains of the table, from 0, strictly increasing"));
+    visit(FORMING_SIM_FIELD(stresses), Field().unit("Pa").above(0).required().when("curve", {"table"}).doc("yield stresses of the table, one per plastic strain, not decreasing"));
+  }
+};
+
+/// An isotropic elastic or elastic-plastic solid.
+struct MaterialConfig {
+  double density = 0;
+  double youngs_modulus = 0;
+  double poissons_ratio = 0;
+  std::string law = "green_elastic";
+  std::optional<HardeningConfig> hardening;  ///< absent: elastic
+
+  double shear_modulus() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
+  double bulk_modulus() const { return youngs_modulus / (3 * (1 - 2 * poissons_ratio)); }
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(density), Field().unit("kg/m3").above(0).at_most(1e5).required().doc("mass density"));
+    visit(FORMING_SIM_FIELD(youngs_modulus), Field().unit("Pa").above(0).required().doc("Young's modulus E"));
+    visit(FORMING_SIM_FIELD(poissons_ratio), Field().unit("1").above(-1).below(0.5).doc("Poisson's ratio nu"));
+    visit(FORMING_SIM_FIELD(law), Field().choices({"green_elastic", "paper"})
+          .doc("deviatoric stress: green_elastic: mu J^(-5/3) dev B, which has a stored energy; paper: mu dev B as printed in (3.5)"));
+    visit(FORMING_SIM_FIELD(hardening), Field().doc("von Mises plasticity with this isotropic hardening; absent: elastic"));
+  }
+};
+
+}  // namespace forming_sim

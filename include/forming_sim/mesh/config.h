@@ -1,0 +1,108 @@
+#pragma once
+// What a user says of meshes: generated blanks, meshes from files or inline,
+// named sets, and 2D profiles of tools.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "forming_sim/config/field.h"
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+/// A blank that the package meshes itself.
+struct BlankConfig {
+  std::string shape;            ///< strip (2D) | plate (3D) | bar (3D)
+  Vec3 origin = Vec3::Zero();   ///< strip, plate: least corner; bar: centre of the end face
+  double length = 0;            ///< along x (strip, plate) or along z (bar)
+  double width = 0;             ///< plate: along y
+  double thickness = 0;         ///< strip: along y; plate: along z
+  double radius = 0;            ///< bar
+  std::string portion = "full"; ///< bar: full | half (x >= 0) | quarter (x, y >= 0)
+  int cells_along = 0, cells_across = 0, cells_through = 0, cells_radius = 0;
+  std::string pattern = "fine"; ///< fine: 4 crossed triangles | 24 tetrahedra; coarse: 2 triangles | 6 tetrahedra
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(shape), Field().required().choices({"strip", "plate", "bar"})
+          .doc("strip: rectangle in plane strain, length along x, thickness along y; plate: box, length along x, width along y, thickness along z; bar: round bar along z from its end face, O-grid"));
+    visit(FORMING_SIM_FIELD(origin), Field().unit("m").doc("least corner of a strip or plate; centre of the lower end face of a bar"));
+    visit(FORMING_SIM_FIELD(length), Field().unit("m").above(0).required().doc("length along x (strip, plate) or z (bar)"));
+    visit(FORMING_SIM_FIELD(width), Field().unit("m").above(0).required().when("shape", {"plate"}).doc("width along y"));
+    visit(FORMING_SIM_FIELD(thickness), Field().unit("m").above(0).required().when("shape", {"strip", "plate"}).doc("thickness along y (strip) or z (plate)"));
+    visit(FORMING_SIM_FIELD(radius), Field().unit("m").above(0).required().when("shape", {"bar"}).doc("radius of the bar"));
+    visit(FORMING_SIM_FIELD(portion), Field().choices({"full", "half", "quarter"}).when("shape", {"bar"}).doc("full bar, half (x >= 0) or quarter (x >= 0, y >= 0); cut faces are the sets symmetry_x and symmetry_y"));
+    visit(FORMING_SIM_FIELD(cells_along), Field().at_least(1).at_most(1e6).required().doc("cells along the length"));
+    visit(FORMING_SIM_FIELD(cells_across), Field().at_least(1).at_most(1e6).required().when("shape", {"plate"}).doc("cells along the width"));
+    visit(FORMING_SIM_FIELD(cells_through), Field().at_least(1).at_most(1e6).required().when("shape", {"strip", "plate"}).doc("cells through the thickness"));
+    visit(FORMING_SIM_FIELD(cells_radius), Field().at_least(2).at_most(1e4).required().when("shape", {"bar"}).doc("cells along a radius"));
+    visit(FORMING_SIM_FIELD(pattern), Field().choices({"fine", "coarse"}).doc("how a cell is split: fine: 4 crossed triangles or 24 tetrahedra; coarse: 2 triangles or 6 tetrahedra; the pressure is one per cell"));
+  }
+};
+
+/// A mesh from a file, or inline as points and cells.
+struct MeshConfig {
+  std::string url;
+  double unit_scale = 0;
+  std::string group;            ///< physical group to take; empty: all cells
+  std::vector<Vec3> points;     ///< inline
+  std::vector<int> cells;       ///< inline: corner indices, cell after cell
+  std::string cell_type;        ///< inline: triangle | quadrilateral | tetrahedron | hexahedron
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(url), Field().doc("file path (relative to the scene file), file:// or package:// URL: .msh for a body; .stl .obj .ply .dae for a tool. Give url or points, not both"));
+    visit(FORMING_SIM_FIELD(unit_scale), Field().unit("m").above(0).at_most(1e3).required().doc("metres per unit of the file: 0.001 for a file in millimetres; inline points too"));
+    visit(FORMING_SIM_FIELD(group), Field().doc("physical group of the .msh to take as the body; empty: every cell of the highest dimension"));
+    visit(FORMING_SIM_FIELD(points), Field().doc("inline mesh: nodes"));
+    visit(FORMING_SIM_FIELD(cells), Field().at_least(0).doc("inline mesh: corner indices from 0, cell after cell"));
+    visit(FORMING_SIM_FIELD(cell_type), Field().choices({"", "triangle", "quadrilateral", "tetrahedron", "hexahedron"}).doc("inline mesh: kind of its cells; a tool takes triangles"));
+  }
+};
+
+/// A named set of a body's nodes, chosen by a plane or a box.
+struct SetConfig {
+  std::string name;
+  std::string choose;           ///< plane | box
+  Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
+  Vec3 min = Vec3::Zero(), max = Vec3::Zero();
+  double tolerance = 0;
+  bool surface_only = false;
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(name), Field().required().doc("name by which boundaries, loads and probes refer to the set"));
+    visit(FORMING_SIM_FIELD(choose), Field().required().choices({"plane", "box"}).doc("plane: nodes on a plane; box: nodes inside an axis-parallel box (initial positions)"));
+    visit(FORMING_SIM_FIELD(point), Field().unit("m").when("choose", {"plane"}).doc("a point of the plane"));
+    visit(FORMING_SIM_FIELD(normal), Field().when("choose", {"plane"}).required().doc("normal of the plane, any length but zero"));
+    visit(FORMING_SIM_FIELD(min), Field().unit("m").when("choose", {"box"}).doc("least corner of the box"));
+    visit(FORMING_SIM_FIELD(max), Field().unit("m").when("choose", {"box"}).doc("greatest corner of the box; in plane strain z is ignored"));
+    visit(FORMING_SIM_FIELD(tolerance), Field().unit("m").at_least(0).computed("1e-6 of the body's size").doc("distance up to which a node counts as on the plane or in the box"));
+    visit(FORMING_SIM_FIELD(surface_only), Field().doc("take only nodes on the body's surface"));
+  }
+};
+
+/// One piece of a 2D profile.
+struct ProfilePieceConfig {
+  Vec3 to = Vec3::Zero();
+  double radius = 0;
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(to), Field().unit("m").required().doc("end point of the piece"));
+    visit(FORMING_SIM_FIELD(radius), Field().unit("m").doc("0: straight line; otherwise the arc of at most 180 degrees with this radius, positive: turning left (counter-clockwise) on the way, negative: turning right"));
+  }
+};
+
+/// The section of a tool in plane strain: lines and arcs.
+struct ProfileConfig {
+  Vec3 start = Vec3::Zero();
+  std::vector<ProfilePieceConfig> pieces;
+  bool closed = false;
+  double chord_error = 0;
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(start), Field().unit("m").doc("first point"));
+    visit(FORMING_SIM_FIELD(pieces), Field().required().doc("lines and arcs, one after the other"));
+    visit(FORMING_SIM_FIELD(closed), Field().doc("join the last point to the first by a line"));
+    visit(FORMING_SIM_FIELD(chord_error), Field().unit("m").at_least(0).computed("1e-3 of the arc's radius").doc("largest distance of an arc from the segments that stand for it"));
+  }
+};
+
+}  // namespace forming_sim

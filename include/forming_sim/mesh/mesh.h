@@ -1,0 +1,66 @@
+#pragma once
+// A meshed body: nodes, cells split into simplices, its surface and its sets.
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+/// How a cell is split into simplices; the cell carries one pressure.
+/// Node orders (all counter-clockwise, positive volume):
+///  triangle       3 corners
+///  quad2          4 corners; triangles 0 1 2, 0 2 3
+///  crossed        4 corners, centre; triangles 0 1 4, 1 2 4, 2 3 4, 3 0 4
+///  tetrahedron    4 corners
+///  hex6           8 corners (0-3 bottom, 4-7 above them); 6 tetrahedra about the diagonal 0-6
+///  hex24          8 corners, 6 face centres (bottom, top, front 0 1 5 4, right 1 2 6 5, back 2 3 7 6, left 3 0 4 7), cell centre
+enum class CellKind { triangle, quad2, crossed, tetrahedron, hex6, hex24 };
+constexpr int kCellKinds = 6;
+
+struct CellShape {
+  const char* name;
+  int dimension, nodes, simplices;
+  const int (*simplex)[4];  ///< node of the cell per corner of each simplex (3 used in 2D)
+};
+/// The table of the shapes above.
+const CellShape& shape_of(CellKind kind);
+
+/// Cells of one kind, `nodes` holding shape_of(kind).nodes indices per cell.
+struct Cells {
+  CellKind kind;
+  std::vector<int> nodes;
+  int count() const { return static_cast<int>(nodes.size()) / shape_of(kind).nodes; }
+};
+
+/// Boundary facet: segment (2 nodes) or triangle (3), ordered so that its normal
+/// points out of the body; `element` is the simplex it belongs to (numbered
+/// through all cells in order), -1 for a rigid tool. Unused node: -1.
+struct Facet {
+  std::array<int, 3> nodes{-1, -1, -1};
+  int element = -1;
+};
+
+struct Mesh {
+  int dimension = 3;
+  std::vector<Vec3> nodes;                      ///< m; z = 0 in plane strain
+  std::vector<Cells> cells;                     ///< empty for a rigid tool
+  std::vector<Facet> surface;
+  std::map<std::string, std::vector<int>> sets; ///< sorted node indices
+
+  int simplex_count() const;
+  /// Simplices in order: dimension + 1 node indices each.
+  std::vector<std::array<int, 4>> simplices() const;
+};
+
+/// Fills `surface` with the facets that belong to one simplex only.
+/// Throws Error(mesh_error) naming a facet shared by more than two.
+void find_surface(Mesh& mesh);
+
+/// Throws Error(mesh_error) naming the first cell with a simplex of volume <= 0
+/// (its nodes, its volume), a node that is not finite, or a node in no cell.
+void check_volumes(const Mesh& mesh);
+
+}  // namespace forming_sim

@@ -1,0 +1,78 @@
+#pragma once
+// A scene: all that a user says of a run. It composes the rooms' Configs.
+// YAML (scene/yaml.h) and the action goal (ros/) map to it one to one.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "forming_sim/config/fault.h"
+#include "forming_sim/config/field.h"
+#include "forming_sim/contact/config.h"
+#include "forming_sim/loads/config.h"
+#include "forming_sim/material/config.h"
+#include "forming_sim/mesh/config.h"
+#include "forming_sim/results/config.h"
+#include "forming_sim/simulation/config.h"
+
+namespace forming_sim {
+
+/// A deformable body.
+struct BodyConfig {
+  std::string name;
+  std::optional<BlankConfig> blank;
+  std::optional<MeshConfig> mesh;
+  std::string pressure_average = "cell";
+  MaterialConfig material;
+  std::vector<SetConfig> sets;
+  Vec3 initial_velocity = Vec3::Zero();
+  Vec3 initial_spin_deg_s = Vec3::Zero();
+  Vec3 spin_centre = Vec3::Zero();
+  std::vector<BoundaryConfig> boundaries;
+  std::vector<PressureConfig> pressures;
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(name), Field().required().doc("name of the body"));
+    visit(FORMING_SIM_FIELD(blank), Field().doc("a body that is meshed here. Give blank or mesh"));
+    visit(FORMING_SIM_FIELD(mesh), Field().doc("a body from a volume mesh; its physical groups become sets"));
+    visit(FORMING_SIM_FIELD(pressure_average), Field().choices({"cell", "node", "element"}).doc("over what the pressure is averaged: cell: one per quadrilateral or hexahedron, per node in free triangles and tetrahedra; node: everywhere per node; element: no average (locks in plastic flow)"));
+    visit(FORMING_SIM_FIELD(material), Field().required().doc("what the body is made of"));
+    visit(FORMING_SIM_FIELD(sets), Field().doc("named sets of nodes, beside those of the mesh"));
+    visit(FORMING_SIM_FIELD(initial_velocity), Field().unit("m/s").doc("uniform initial velocity"));
+    visit(FORMING_SIM_FIELD(initial_spin_deg_s), Field().unit("deg/s").doc("initial angular velocity, added to the uniform velocity"));
+    visit(FORMING_SIM_FIELD(spin_centre), Field().unit("m").doc("point about which the body spins"));
+    visit(FORMING_SIM_FIELD(boundaries), Field().doc("what holds or drives sets of nodes"));
+    visit(FORMING_SIM_FIELD(pressures), Field().doc("pressures on its surface"));
+  }
+};
+
+struct Scene {
+  std::string name;
+  int dimension = 0;
+  std::vector<BodyConfig> bodies;
+  std::vector<ToolConfig> tools;
+  Vec3 gravity = Vec3::Zero();
+  ContactConfig contact;
+  TimeStepConfig time_step;
+  std::vector<StageConfig> stages;
+  OutputConfig output;
+
+  /// Directory that relative file names refer to; set by whoever read the
+  /// scene, not by the user.
+  std::string base_directory = ".";
+  /// The text the scene was read from, kept in result.h5.
+  std::string text;
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(name), Field().required().doc("name of the scene"));
+    visit(FORMING_SIM_FIELD(dimension), Field().at_least(2).at_most(3).required().doc("2: plane strain in x-y (forces per metre of width); 3: solid"));
+    visit(FORMING_SIM_FIELD(bodies), Field().required().doc("deformable bodies"));
+    visit(FORMING_SIM_FIELD(tools), Field().doc("rigid tools"));
+    visit(FORMING_SIM_FIELD(gravity), Field().unit("m/s2").doc("acceleration of gravity"));
+    visit(FORMING_SIM_FIELD(contact), Field().doc("parameters of the mild contact; they are chosen from the mesh and the material"));
+    visit(FORMING_SIM_FIELD(time_step), Field().doc("time step, viscosity, damping, mass scaling"));
+    visit(FORMING_SIM_FIELD(stages), Field().required().doc("what happens, one stage after the other; times of motions and loads count from the start of the run"));
+    visit(FORMING_SIM_FIELD(output), Field().doc("what is written"));
+  }
+};
+
+}  // namespace forming_sim

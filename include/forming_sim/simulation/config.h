@@ -1,0 +1,50 @@
+#pragma once
+// What a user says of time: the step, damping, mass scaling, and the stages.
+#include <string>
+#include <vector>
+
+#include "forming_sim/config/field.h"
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+struct TimeStepConfig {
+  double safety = 0.9;
+  double maximum = 0;
+  double linear_viscosity = 0;
+  double quadratic_viscosity = 0;
+  double damping = 0;
+  double mass_scaling = 1;
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(safety), Field().above(0).at_most(1).doc("fraction of the stable time step to take"));
+    visit(FORMING_SIM_FIELD(maximum), Field().unit("s").at_least(0).computed("no limit but the stable step").doc("largest time step"));
+    visit(FORMING_SIM_FIELD(linear_viscosity), Field().at_least(0).at_most(2).doc("coefficient b1 of the bulk viscosity q = rho b1 c l D in compression and tension, D the volume rate; 0.06 is usual for impacts, 0: none"));
+    visit(FORMING_SIM_FIELD(quadratic_viscosity), Field().at_least(0).at_most(10).doc("coefficient b2 of the bulk viscosity q = rho (b2 l D)^2 in compression; 1.2 is usual for shocks, 0: none"));
+    visit(FORMING_SIM_FIELD(damping), Field().unit("1/s").at_least(0).doc("mass-proportional damping alpha: dv/dt = f/m - alpha v; 0: none"));
+    visit(FORMING_SIM_FIELD(mass_scaling), Field().above(0).at_most(1e6).doc("factor on all masses: the step grows with its square root, inertia with the factor; judge it by kinetic over internal energy"));
+  }
+};
+
+struct StageConfig {
+  std::string name;
+  std::string kind;             ///< form | withdraw | settle
+  double duration = 0;
+  std::vector<std::string> tools;
+  Vec3 displacement = Vec3::Zero();
+  double kinetic_fraction = 1e-5;
+  double limit = 0;
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(name), Field().computed("the kind").doc("name of the stage in feedback and files"));
+    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"form", "withdraw", "settle"})
+          .doc("form: run for a duration; withdraw: the tools move away from where they stand, then they are gone; settle: kinetic damping until the body rests"));
+    visit(FORMING_SIM_FIELD(duration), Field().unit("s").above(0).required().when("kind", {"form", "withdraw"}).doc("length of the stage in simulated time"));
+    visit(FORMING_SIM_FIELD(tools), Field().when("kind", {"withdraw"}).computed("all tools").doc("tools that leave"));
+    visit(FORMING_SIM_FIELD(displacement), Field().unit("m").when("kind", {"withdraw"}).doc("how far the tools move from where they stand, smoothly; [0, 0, 0]: they are lifted off at once"));
+    visit(FORMING_SIM_FIELD(kinetic_fraction), Field().above(0).below(1).when("kind", {"settle"}).doc("the body rests when its kinetic energy stays below this fraction of its elastic energy"));
+    visit(FORMING_SIM_FIELD(limit), Field().unit("s").above(0).required().when("kind", {"settle"}).doc("longest time of the stage; when it is reached the result says so"));
+  }
+};
+
+}  // namespace forming_sim

@@ -1,0 +1,65 @@
+#pragma once
+// Observers watch a run; none changes a number of it.
+#include <string>
+#include <vector>
+
+#include "forming_sim/config/fault.h"
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+class Simulation;
+
+/// The energy ledger, J (J per metre of width in plane strain).
+/// kinetic + elastic + contact + plastic + friction + damping = work + initial.
+struct Energies {
+  double kinetic = 0, elastic = 0;
+  double plastic = 0;   ///< dissipated by plastic flow
+  double contact = 0;   ///< potential of the mild layer plus what its implicit step dissipated
+  double friction = 0;  ///< dissipated by Coulomb friction
+  double damping = 0;   ///< dissipated by viscosity, damping and settling
+  double work = 0;      ///< of tools, prescribed motion, pressure, gravity and soft start
+  double initial = 0;   ///< kinetic + elastic at the start
+  double residual() const { return kinetic + elastic + contact + plastic + friction + damping - work - initial; }
+};
+
+/// What limits the time step.
+struct StepLimit {
+  double dt = 0;          ///< s, the stable step of the limiting element, safety included
+  int element = -1;       ///< simplex that limits it, -1: none (maximum or stage end)
+  std::string reason;     ///< "element 17 of body sheet", "time_step.maximum"
+};
+
+struct ContactStatus {
+  long halvings = 0;      ///< steps halved by the continuous check so far
+  long crossings = 0;     ///< found by the independent check of all pairs at output times; must be 0
+  double min_gap_over_layer = 1;  ///< smallest gap / h0 so far; 1 where nothing ever touched
+  double layer = 0;       ///< h0, m
+  long active_pairs = 0, listed_pairs = 0;
+};
+
+/// Where a rigid tool stands and what it feels.
+struct ToolStatus {
+  Vec3 position = Vec3::Zero();            ///< of the tool's frame, m
+  Mat3 rotation = Mat3::Identity();        ///< tool frame to world
+  Vec3 velocity = Vec3::Zero();
+  Vec3 force = Vec3::Zero();               ///< on the tool by the bodies, mean over the last 50 steps; N (N/m in plane strain)
+  Vec3 moment = Vec3::Zero();              ///< about `position`
+  Vec3 peak_force = Vec3::Zero();          ///< force of greatest magnitude so far
+  bool present = true;                     ///< false once withdrawn
+};
+
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// Before the first step (also after a resume).
+  virtual void on_start(const Simulation&) {}
+  /// After every step: decide cheaply whether anything is to be done.
+  virtual void on_step(const Simulation&) {}
+  /// When stage `index` has just ended.
+  virtual void on_stage_end(const Simulation&, int /*index*/) {}
+  /// At the end, whatever it was: success, cancel, error.
+  virtual void on_end(const Simulation&, Code, const std::string& /*message*/) {}
+};
+
+}  // namespace forming_sim

@@ -1,0 +1,28 @@
+#pragma once
+// What a scene compiles into for the time loop: its stages, loads and
+// parameters, with the meshes already in the Model.
+#include <string>
+#include <vector>
+
+#include "forming_sim/contact/config.h"
+#include "forming_sim/loads/config.h"
+#include "forming_sim/simulation/config.h"
+
+namespace forming_sim {
+
+/// Boundaries, pressures and initial motion of one body (same order as Model::bodies).
+struct BodyLoads {
+  Vec3 initial_velocity = Vec3::Zero(), initial_spin_deg_s = Vec3::Zero(), spin_centre = Vec3::Zero();
+  std::vector<BoundaryConfig> boundaries;
+  std::vector<PressureConfig> pressures;
+};
+
+struct RunPlan {
+  std::vector<BodyLoads> bodies;
+  Vec3 gravity = Vec3::Zero();
+  ContactConfig contact;
+  TimeStepConfig time_step;
+  std::vector<StageConfig> stages;
+};
+
+}  // namespace forming_sim

@@ -1,0 +1,87 @@
+#pragma once
+// A run: the model, its state, the plan of stages and the time loop.
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "forming_sim/simulation/plan.h"
+#include "forming_sim/simulation/model.h"
+#include "forming_sim/simulation/observer.h"
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+/// Symmetric tensor as xx yy zz xy yz zx.
+using Sym = Eigen::Matrix<double, 6, 1>;
+
+/// How a run ended.
+struct Outcome {
+  Code code = Code::none;
+  std::string message;
+};
+
+class Simulation {
+ public:
+  /// Builds the state of a scene at rest at its start.
+  /// Throws Error (mesh_error, initial_penetration).
+  /// threads: 1 or more; results do not depend on it.
+  Simulation(const RunPlan& plan, Model model, int threads);
+  ~Simulation();
+
+  /// Observers are called in the order of their adding; not owned.
+  void add(Observer& observer);
+
+  /// Runs to the end of the last stage, a cancel or an error; never throws for
+  /// what happens inside the run: it is in the outcome, told to the observers.
+  /// `cancel` is polled every step.
+  Outcome run(const std::atomic<bool>& cancel);
+  /// One step, for tests and drivers. False when the plan has ended.
+  bool step();
+
+  // ---- what does not change
+  const Model& model() const;
+  const RunPlan& plan() const;
+  const std::vector<std::array<int, 4>>& elements() const;  ///< simplices of the joined mesh
+  const std::vector<Facet>& surface() const;                ///< of the joined mesh, joined numbering
+  const std::vector<double>& nodal_mass() const;            ///< kg (kg/m), scaled
+
+  // ---- state
+  double time() const;
+  long steps() const;
+  double dt() const;
+  int stage() const;                 ///< index of the running stage; number of stages at the end
+  double progress() const;           ///< 0..1, by simulated time; a settle stage counts by its limit
+  double wall_time() const;          ///< s spent stepping, observers excluded
+  const NodeField& initial_positions() const;
+  const NodeField& positions() const;
+  const NodeField& velocities() const;   ///< at the half step before time()
+  const StepLimit& step_limit() const;
+  double first_dt() const;
+  const StepLimit& smallest_step() const;
+  const Energies& energies() const;  ///< at the last step (evaluated every step)
+  double balance_error() const;      ///< |residual| now over the largest work + initial so far
+  ContactStatus contact_status() const;
+  const std::vector<ToolStatus>& tools() const;
+  const std::vector<std::string>& warnings() const;  ///< "tool die was backed off by 1.2e-6 m"
+
+  // ---- fields per element, computed when asked
+  std::vector<double> plastic_strain() const;
+  std::vector<Sym> stress() const;              ///< Cauchy, Pa
+  std::vector<double> volume_ratio() const;     ///< V / V0
+  /// Log strain of the in-plane principal stretch that is largest on each
+  /// surface facet (same order as surface()), extrapolated to the surface.
+  std::vector<double> surface_strain() const;
+
+  // ---- checkpoint: every number that the next steps depend on
+  std::vector<char> save() const;
+  /// Throws Error(resume_error) when the data is not of this model.
+  void restore(const std::vector<char>& data);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace forming_sim
