@@ -29,7 +29,11 @@ template <class F> double lanewise(F&& f, double a) { return f(a); }
 namespace FORMING_SIM_ISA {
 
 typedef double Lanes __attribute__((vector_size(64)));
-typedef std::int64_t Mask __attribute__((vector_size(64)));
+typedef std::int64_t Bits __attribute__((vector_size(64)));
+
+struct Mask {
+  Bits v;  ///< all ones where true
+};
 
 struct Pack {
   Lanes v;
@@ -48,15 +52,15 @@ struct Pack {
   Pack& operator+=(Pack b) { v += b.v; return *this; }
   Pack& operator-=(Pack b) { v -= b.v; return *this; }
   Pack& operator*=(Pack b) { v *= b.v; return *this; }
-  friend Mask operator>(Pack a, Pack b) { return a.v > b.v; }
-  friend Mask operator<(Pack a, Pack b) { return a.v < b.v; }
-  friend Mask operator>=(Pack a, Pack b) { return a.v >= b.v; }
+  friend Mask operator>(Pack a, Pack b) { return {a.v > b.v}; }
+  friend Mask operator<(Pack a, Pack b) { return {a.v < b.v}; }
+  friend Mask operator>=(Pack a, Pack b) { return {a.v >= b.v}; }
 };
 
 inline bool any(Mask m) {
-  return (m[0] | m[1] | m[2] | m[3] | m[4] | m[5] | m[6] | m[7]) != 0;
+  return (m.v[0] | m.v[1] | m.v[2] | m.v[3] | m.v[4] | m.v[5] | m.v[6] | m.v[7]) != 0;
 }
-inline Pack select(Mask m, Pack a, Pack b) { return Pack(m ? a.v : b.v); }
+inline Pack select(Mask m, Pack a, Pack b) { return Pack(m.v ? a.v : b.v); }
 inline Pack larger(Pack a, Pack b) { return select(a > b, a, b); }
 inline Pack smaller(Pack a, Pack b) { return select(a < b, a, b); }
 inline Pack absolute(Pack a) { return larger(a, -a); }
@@ -87,8 +91,7 @@ inline Pack exp(Pack x) {
                                 1.0 / 5040,      1.0 / 720,      1.0 / 120,     1.0 / 24,     1.0 / 6,
                                 0.5,             1.0,            1.0};
   for (double c : coefficient) e = e * r + Pack(c);
-  const Mask bits = (reinterpret_cast<const Mask&>(shifted) << 52) + reinterpret_cast<const Mask&>(e.v);
-  return Pack(reinterpret_cast<const Lanes&>(bits));
+  return Pack((Lanes)(((Bits)shifted << 52) + (Bits)e.v));  // the low bits of `shifted` hold n
 }
 
 }  // namespace FORMING_SIM_ISA
