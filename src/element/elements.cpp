@@ -1,5 +1,6 @@
 #include "forming_sim/element/elements.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <sstream>
 
@@ -30,8 +31,8 @@ PressureMode mode_of(const BodyModel& body, CellKind kind) {
 Elements::~Elements() = default;
 
 Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x,
-                   const ElementOptions& options, int threads)
-    : kernels_(choose_kernels()), dimension_(dimension), threads_(std::max(1, threads)) {
+                   const ElementOptions& options, int threads, const char* kernels)
+    : kernels_(choose_kernels(kernels)), dimension_(dimension), threads_(std::max(1, threads)) {
   const int nodes = static_cast<int>(x.size()), D = dimension_;
   mass_.assign(nodes, 0.0);
   nodal_volume0_.assign(nodes, 0.0);

@@ -1,6 +1,7 @@
 #include "forming_sim/simulation/simulation.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <chrono>
 #include <cmath>

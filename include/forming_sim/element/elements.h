@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "forming_sim/element/cell_group.h"
+#include "forming_sim/config/fault.h"
 #include "forming_sim/element/body.h"
 #include "forming_sim/tensor/vec.h"
 
@@ -29,8 +30,9 @@ struct ElementOptions {
 class Elements {
  public:
   /// x: initial positions in the joined numbering; the memory starts there, free of stress.
-  /// Throws Error(mesh_error) for a volume that is not positive.
-  Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x, const ElementOptions& options, int threads);
+  /// kernels: see choose_kernels. Throws Error(mesh_error) for a volume that is not positive.
+  Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x, const ElementOptions& options, int threads,
+           const char* kernels = nullptr);
   ~Elements();
 
   const std::vector<std::array<int, 4>>& simplices() const { return simplices_; }
