@@ -13,6 +13,13 @@ enum class PressureMode { cell, element, node };
 /// Memory of a simplex: G^X (4 or 6 components), plastic strain p, V0.
 template <int D> constexpr int kMemory = D == 2 ? 6 : 8;
 
+/// One item of kLanes elements, aligned for the widest kernels.
+struct alignas(64) Lane {
+  double value[kLanes] = {};
+  double& operator[](int l) { return value[l]; }
+  double operator[](int l) const { return value[l]; }
+};
+
 struct CellGroup {
   int kind = 0;             ///< CellKind
   int dimension = 0;

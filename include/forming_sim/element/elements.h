@@ -69,7 +69,8 @@ class Elements {
   std::vector<std::array<int, 4>> simplices_;
   std::vector<double> mass_;
   std::vector<int> record_start_, record_index_;     ///< records of a node
-  mutable std::vector<double> records_;
+  std::vector<Lane> record_storage_;
+  double* records_ = nullptr;                        ///< [record][dimension]
   mutable std::vector<double> pressure_, nodal_volume0_, nodal_bulk_;  ///< nodal pressure only
   bool any_nodal_ = false;
   std::vector<std::string> body_of_group_;
