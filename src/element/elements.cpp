@@ -29,14 +29,15 @@ PressureMode mode_of(const BodyModel& body, CellKind kind) {
 
 Elements::~Elements() = default;
 
-Elements::Elements(const Model& model, const NodeField& x, const TimeStepConfig& config, int threads)
-    : kernels_(choose_kernels()), dimension_(model.dimension), threads_(std::max(1, threads)) {
-  const int nodes = model.node_count(), D = dimension_;
+Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x,
+                   const ElementOptions& options, int threads)
+    : kernels_(choose_kernels()), dimension_(dimension), threads_(std::max(1, threads)) {
+  const int nodes = static_cast<int>(x.size()), D = dimension_;
   mass_.assign(nodes, 0.0);
   nodal_volume0_.assign(nodes, 0.0);
   nodal_bulk_.assign(nodes, 0.0);
   long records = 0;
-  for (const BodyModel& body : model.bodies) {
+  for (const BodyModel& body : bodies) {
     int element = body.first_element;
     for (const Cells& cells : body.mesh.cells) {
       if (cells.count() == 0) continue;
@@ -51,9 +52,9 @@ Elements::Elements(const Model& model, const NodeField& x, const TimeStepConfig&
       g.pressure = mode_of(body, cells.kind);
       any_nodal_ |= g.pressure == PressureMode::node;
       g.solid = solid_constants(body.material, g.strain_table, g.stress_table);
-      g.density = body.material.density * config.mass_scaling;
-      g.linear_viscosity = config.linear_viscosity;
-      g.quadratic_viscosity = config.quadratic_viscosity;
+      g.density = body.material.density * options.mass_scaling;
+      g.linear_viscosity = options.linear_viscosity;
+      g.quadratic_viscosity = options.quadratic_viscosity;
       g.first_element = element;
       g.first_record = records;
       g.body = body.name;

@@ -94,7 +94,7 @@ template <class Config> void check_config(const Config& config, const std::strin
     const Applies where = applies(config, field);
     if (given && where == Applies::no) {
       std::string text = "something";
-      if constexpr (!is_config<T> && !is_optional<T>) text = given_text(value);
+      if constexpr (!is_group<T>) text = given_text(value);
       faults.add(here, text, "leave it out: it applies only " + when_text(field));
       return;
     }
@@ -110,12 +110,8 @@ template <class Config> void check_config(const Config& config, const std::strin
       }
       if constexpr (is_optional<T>) {
         check_config(*value, here, faults);
-      } else if constexpr (is_vector<T>) {
-        if constexpr (is_config<typename T::value_type>) {
-          for (std::size_t i = 0; i < value.size(); ++i) check_config(value[i], join_path(here, i), faults);
-        } else {
-          check_value(value, here, field, faults);
-        }
+      } else if constexpr (is_group<T>) {
+        for (std::size_t i = 0; i < value.size(); ++i) check_config(value[i], join_path(here, i), faults);
       } else {
         check_value(value, here, field, faults);
       }

@@ -29,6 +29,11 @@ template <class T> struct IsOptional : std::false_type {};
 template <class T> struct IsOptional<std::optional<T>> : std::true_type {};
 template <class T> constexpr bool is_optional = IsOptional<T>::value;
 
+/// A group of fields, one that may be absent, or a list of them: not a plain value.
+template <class T> struct IsGroup : std::bool_constant<is_config<T> || is_optional<T>> {};
+template <class T> struct IsGroup<std::vector<T>> : IsGroup<T> {};
+template <class T> constexpr bool is_group = IsGroup<T>::value;
+
 template <class T> constexpr bool is_number = std::is_same_v<T, double> || std::is_same_v<T, int>;
 
 /// Calls function(name, value, field) for every member of the config, in the

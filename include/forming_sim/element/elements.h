@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "forming_sim/element/cell_group.h"
-#include "forming_sim/simulation/model.h"
+#include "forming_sim/element/body.h"
 #include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
@@ -21,11 +21,16 @@ struct ElementFields {
   double stored_energy = 0;            ///< J
 };
 
+struct ElementOptions {
+  double mass_scaling = 1;
+  double linear_viscosity = 0, quadratic_viscosity = 0;
+};
+
 class Elements {
  public:
   /// x: initial positions in the joined numbering; the memory starts there, free of stress.
   /// Throws Error(mesh_error) for a volume that is not positive.
-  Elements(const Model& model, const NodeField& x, const TimeStepConfig& config, int threads);
+  Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x, const ElementOptions& options, int threads);
   ~Elements();
 
   const std::vector<std::array<int, 4>>& simplices() const { return simplices_; }
