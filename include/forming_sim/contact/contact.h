@@ -1,0 +1,127 @@
+#pragma once
+// The mild contact of deformable bodies with rigid moving tools: what the time
+// loop sees of it. The loop predicts, contact corrects the velocities so that
+// no pair of features ends the step closer than zero, and moves the nodes.
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "forming_sim/config/fault.h"
+#include "forming_sim/contact/config.h"
+#include "forming_sim/mesh/mesh.h"
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+/// A surface that takes part: a deformable body's, or a tool's.
+struct ContactSurface {
+  std::string name;
+  int dimension = 3;
+  bool rigid = false;
+  std::vector<Facet> facets;  ///< bodies: joined numbering; tools: the tool mesh's own numbering. Orientation is used of bodies only
+  double friction = 0;        ///< tools: Coulomb coefficient against every body
+  bool plane = false;         ///< rigid half space without facets
+  Vec3 point = Vec3::Zero(), normal = Vec3::Zero();  ///< plane, in the tool's frame; normal of length 1 towards the bodies
+};
+
+/// Where a rigid tool stands at the beginning and the end of a step:
+/// x = rotation * (place in the tool's frame) + position.
+struct ToolMotion {
+  Vec3 position0 = Vec3::Zero(), position1 = Vec3::Zero();
+  Mat3 rotation0 = Mat3::Identity(), rotation1 = Mat3::Identity();
+  bool present = true;  ///< false: the tool has left
+};
+
+/// A node with held or prescribed directions. Contact changes its velocity
+/// only within the range of the projector (identity minus the held directions).
+struct HeldNode {
+  int node = -1;
+  Mat3 projector = Mat3::Zero();  ///< symmetric, P P = P
+};
+
+struct ContactSetup {
+  int dimension = 3;
+  ContactConfig config;
+  std::vector<ContactSurface> bodies, tools;
+  std::vector<const Mesh*> tool_meshes;  ///< one per tool, positions in the tool's frame (not looked at for a plane); read in the constructor only
+  double softest_modulus = 0;            ///< E of the softest body, Pa
+  double thinnest = 0;                   ///< thickness of the thinnest body, m
+  double wave_speed = 0;                 ///< of the slowest body, m/s
+};
+
+/// What one step of contact did. Energies in J (J/m in plane strain), of this step.
+///
+/// They close to rounding: with J the impulses on the nodes and vm the mean of
+/// the velocities before the kick and after contact (leapfrog),
+///   sum J.vm (free directions) + held_work + (potential - potential before)
+///     + dissipated + friction_work = tool_work + soft_start_work.
+struct ContactStep {
+  double dt = 0;                  ///< the step taken; the asked one over 2^halvings
+  int halvings = 0;
+  int sweeps = 0;
+  long active = 0;                ///< pairs that carried an impulse
+  double min_gap_over_layer = 1;  ///< smallest end-of-step gap / h0, at most 1
+  double layer = 0;               ///< thickest layer in use, m: h0, or more where the closing is fast
+  double friction_work = 0;       ///< dissipated by friction
+  double soft_start_work = 0;     ///< of layers that grew (or shrank back) at a fixed gap
+  double tool_work = 0;           ///< of the tools on the bodies
+  double held_work = 0;           ///< of contact against prescribed motion of held nodes (taken up by what drives them)
+  double dissipated = 0;          ///< by the implicit step and the change of features
+  double potential = 0;           ///< of the mild layer at the end of the step (a level, not a change)
+  std::vector<Vec3> tool_impulse;          ///< on each tool by the bodies, N s
+  std::vector<Vec3> tool_angular_impulse;  ///< about the world's origin, N m s
+};
+
+class Contact {
+ public:
+  /// Chooses h0, stiffness and push speed; sets the tools back by h0; backs off
+  /// tools that touch (warnings); at_start: position0, rotation0 count.
+  /// Throws Error(initial_penetration) with the pairs and depths.
+  /// For a resumed run construct with the positions at the start of the run,
+  /// then restore().
+  Contact(const ContactSetup& setup, const NodeField& x, const std::vector<ToolMotion>& at_start);
+  ~Contact();
+  Contact(Contact&&) noexcept;
+  Contact& operator=(Contact&&) noexcept;
+
+  /// Inverse masses of all nodes (1/kg) and the nodes with held directions.
+  /// Call before the first step, and again whenever they change.
+  void set_masses(const std::vector<double>& inverse_mass, const std::vector<HeldNode>& held);
+
+  /// Fills the velocities after the kick of all nodes for a step of this dt:
+  /// v_star = v + (dt_prev + dt)/2 f/m, prescribed components inserted.
+  using Predict = std::function<void(double dt, NodeField& v_star)>;
+  /// The tools' poses now and after dt.
+  using ToolsAt = std::function<std::vector<ToolMotion>(double dt)>;
+
+  /// Finishes the step that starts at `time` (named in messages only).
+  /// In: x at n, v before the kick. Out: v after kick and contact, x + dt v.
+  /// The step is halved, and `predict` and `tools` asked again, while a pair
+  /// would cross. Throws Error(contact_error) naming the pair when that does
+  /// not help, or when a node that nothing can move is run over.
+  ContactStep advance(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools);
+
+  /// Independent check: edges of one surface that pierce facets of another
+  /// (2D: crossing segments), nodes behind a plane, and parts wholly inside.
+  /// Tools stand at position0, rotation0, where contact sees them (set back).
+  long count_crossings(const NodeField& x, const std::vector<ToolMotion>& tools) const;
+
+  double layer() const;                               ///< h0, m
+  double stiffness() const;                           ///< E of the layer, Pa
+  double push_speed() const;                          ///< m/s
+  long listed_pairs() const;                          ///< pairs of features near enough to be watched
+  long list_builds() const;                           ///< how often the list was built
+  const std::vector<std::string>& warnings() const;   ///< "tool die was backed off by 1e-6 m along (0, -1, 0) ..."
+
+  /// All that the next steps depend on beside x, v and the tools' motion.
+  std::vector<char> save() const;
+  /// Throws Error(resume_error) when the data is not of this contact.
+  void restore(const std::vector<char>& data);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace forming_sim
