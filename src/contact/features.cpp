@@ -33,11 +33,17 @@ std::vector<int> number_by_place(const std::vector<Vec3>& nodes, NodeField& plac
 
 // Corners in rising order; false for a facet that has collapsed (its edges
 // belong to its neighbours).
-bool sorted_corners(int corners, std::array<int, 3>& c) {
+bool sorted_corners(int corners, std::array<int, 3>& c, int& parity) {
   if (corners == 2) c[2] = std::numeric_limits<int>::max();
-  if (c[0] > c[1]) std::swap(c[0], c[1]);
-  if (c[1] > c[2]) std::swap(c[1], c[2]);
-  if (c[0] > c[1]) std::swap(c[0], c[1]);
+  parity = 1;
+  const auto order = [&](int i, int j) {
+    if (c[i] <= c[j]) return;
+    std::swap(c[i], c[j]);
+    parity = -parity;
+  };
+  order(0, 1);
+  order(1, 2);
+  order(0, 1);
   if (corners == 2) c[2] = -1;
   return c[0] != c[1] && c[1] != c[2];
 }
@@ -118,13 +124,17 @@ Features build_features(const ContactSetup& setup, const NodeField& x) {
     for (const Facet& facet : facets) {
       std::array<int, 3> corner{-1, -1, -1};
       for (int k = 0; k < f.corners(); ++k) corner[k] = first_vertex + (number ? (*number)[facet.nodes[k]] : facet.nodes[k]);
-      if (sorted_corners(f.corners(), corner)) f.facets.push_back(corner);
+      int parity;
+      if (!sorted_corners(f.corners(), corner, parity)) continue;
+      f.facets.push_back(corner);
+      f.facet_outward.push_back(number ? 1 : parity);
     }
     if (number) {
       std::sort(f.facets.begin() + s.first_facet, f.facets.end());
       f.facets.erase(std::unique(f.facets.begin() + s.first_facet, f.facets.end()), f.facets.end());
     }
     s.last_facet = static_cast<int>(f.facets.size());
+    f.facet_outward.resize(f.facets.size());
     f.facet_surface.resize(f.facets.size(), static_cast<int>(f.surfaces.size()));
     f.surfaces.push_back(std::move(s));
   };

@@ -34,6 +34,7 @@ struct Features {
   std::vector<Surface> surfaces;
   std::vector<std::array<int, 3>> facets;       ///< corners, rising; 2D: 2 used, third -1
   std::vector<int> facet_surface;
+  std::vector<int> facet_outward;               ///< bodies: +1 where the corners in rising order give the outward normal, else -1; tools: +1
   std::vector<std::array<int, 3>> facet_edges;  ///< 3D: edge k joins corners k and (k+1) mod 3
   std::vector<Edge> edges;                      ///< 3D only
   std::vector<int> facets_at_vertex;            ///< number

@@ -10,7 +10,7 @@ namespace forming_sim {
 /// Kept of a pair that ended a step inside its layer.
 struct LayerRecord {
   PairKey key;
-  int surface;   ///< of the second feature
+  std::int64_t surface;  ///< of the second feature; 8 bytes, so that a record has no gaps
   double layer;  ///< h0 of the pair, m
   double gap;    ///< h at the end of the step, m
 };
