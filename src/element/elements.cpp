@@ -108,7 +108,8 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       groups_.push_back(std::move(g));
     }
   }
-  record_storage_.resize(static_cast<std::size_t>(records) * D / kLanes);
+  record_size_ = D == 2 ? kRecord<2> : kRecord<3>;
+  record_storage_.resize(static_cast<std::size_t>(records) * record_size_ / kLanes);
   records_ = record_storage_.empty() ? nullptr : record_storage_.data()->value;
   pressure_.assign(any_nodal_ ? nodes : 0, 0.0);
 
@@ -131,7 +132,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   for (Group& g : groups_) {
     g.nodes = g.node_storage.data();
     g.memory = reinterpret_cast<double*>(g.memory_storage.data());
-    g.records = records_ + g.first_record * D;
+    g.records = records_ + g.first_record * record_size_;
     g.plastic_work = g.plastic.data();
     g.viscous_work = g.viscous.data();
     g.lowest_ratio = g.lowest.data();
@@ -173,15 +174,17 @@ void Elements::forces(const NodeField& x, const NodeField& v, double dt, NodeFie
   for (const Group& g : groups_)
     for (double ratio : g.lowest)
       if (!(ratio > 0)) report_inversion(x);
-  const int nodes = static_cast<int>(mass_.size()), D = dimension_;
+  const int nodes = static_cast<int>(mass_.size());
+  const bool flat = dimension_ == 2;
 #pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1 && nodes > 2000)
   for (int n = 0; n < nodes; ++n) {
-    double sum[3] = {0, 0, 0};
+    Node sum = Node::Zero();
     for (int k = record_start_[n]; k < record_start_[n + 1]; ++k) {
-      const double* record = records_ + static_cast<std::size_t>(record_index_[k]) * D;
-      for (int i = 0; i < D; ++i) sum[i] += record[i];
+      const double* record = records_ + static_cast<std::size_t>(record_index_[k]) * record_size_;
+      if (flat) sum.head<2>() += Eigen::Map<const Eigen::Vector2d>(record);
+      else sum += Eigen::Map<const Node>(record);
     }
-    f[n] = Node(sum[0], sum[1], sum[2], 0);
+    f[n] = sum;
   }
 }
 

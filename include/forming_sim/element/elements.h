@@ -70,7 +70,8 @@ class Elements {
   std::vector<double> mass_;
   std::vector<int> record_start_, record_index_;     ///< records of a node
   std::vector<Lane> record_storage_;
-  double* records_ = nullptr;                        ///< [record][dimension]
+  double* records_ = nullptr;                        ///< [record][kRecord]
+  int record_size_ = 0;
   mutable std::vector<double> pressure_, nodal_volume0_, nodal_bulk_;  ///< nodal pressure only
   bool any_nodal_ = false;
   std::vector<std::string> body_of_group_;

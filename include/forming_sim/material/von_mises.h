@@ -52,11 +52,11 @@ template <class T> T solve_correction(const HardeningCurve& h, T q, T p, T k, T 
 template <class T, int D>
 PointResult<T, D> update_point(const SolidConstants& m, const Symmetric<T, D>& B, const T& J, T& p) {
   PointResult<T, D> r;
-  T j23(1), factor(m.mu);  // J^(-2/3), stress per B_D
+  T factor(m.mu);  // stress per B_D
   if (!m.paper) {
     const T j13 = inverse_cube_root(J);
-    j23 = j13 * j13;
-    factor = T(m.mu) * j23 / J;
+    const T j23 = j13 * j13;
+    factor = T(m.mu) * j23 * j23 * j13;
   }
   r.S = deviator(B);
   r.a = T(1);
