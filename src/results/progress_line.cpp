@@ -56,4 +56,23 @@ void ProgressLine::on_end(const Simulation&, Code, const std::string&) {
   if (is_terminal_) std::fprintf(stderr, "\r\x1b[K");
 }
 
+void EndTable::on_end(const Simulation& simulation, Code, const std::string&) {
+  const Energies& energies = simulation.energies();
+  const double internal = energies.elastic + energies.plastic;
+  const std::vector<double> strain = simulation.plastic_strain();
+  const ContactStatus contact = simulation.contact_status();
+  const bool flat = simulation.model().dimension == 2;
+  std::printf("elements             %d\nsteps                %ld\n", simulation.model().element_count(), simulation.steps());
+  std::printf("simulated time       %.6g s\nsolver time          %.3g s\n", simulation.time(), simulation.wall_time());
+  std::printf("plastic strain, max  %.4g\n", strain.empty() ? 0.0 : *std::max_element(strain.begin(), strain.end()));
+  std::printf("kinetic / internal   %.3g\nbalance error        %.3g\n", internal > 0 ? energies.kinetic / internal : 0.0, simulation.balance_error());
+  std::printf("crossings            %ld\nsmallest gap / layer %.3g\n", contact.crossings, contact.min_gap_over_layer);
+  for (std::size_t i = 0; i < simulation.tools().size(); ++i) {
+    const Vec3& force = simulation.tools()[i].peak_force;
+    std::printf("peak force on %-12s [%.4g, %.4g, %.4g] %s\n", simulation.model().tools[i].name.c_str(), force.x(), force.y(), force.z(), flat ? "N/m" : "N");
+  }
+  for (const std::string& warning : simulation.warnings()) std::printf("note: %s\n", warning.c_str());
+  std::fflush(stdout);
+}
+
 }  // namespace forming_sim

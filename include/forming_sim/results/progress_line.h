@@ -27,6 +27,12 @@ class ProgressLine : public Observer {
   double first_progress_ = 0;  ///< not 0 after a resume
 };
 
+/// A short table when the run has ended: what happened, forces, energies, the ledger.
+class EndTable : public Observer {
+ public:
+  void on_end(const Simulation& simulation, Code code, const std::string& message) override;
+};
+
 /// The line's text: fraction 0..1 of the run, seconds left (below 0: not known).
 std::string progress_text(const std::string& stage, double fraction, double seconds_left);
 
