@@ -29,10 +29,18 @@ std::string all_sentences(const std::vector<Fault>& faults) {
   return text;
 }
 
+/// The code of all faults, where they agree.
+Code common_code(const std::vector<Fault>& faults) {
+  for (const Fault& fault : faults) {
+    if (fault.code != faults.front().code) return Code::invalid_scene;
+  }
+  return faults.empty() ? Code::invalid_scene : faults.front().code;
+}
+
 }  // namespace
 
 SceneError::SceneError(std::vector<Fault> faults)
-    : Error(faults.empty() ? Code::invalid_scene : faults.front().code, all_sentences(faults)),
+    : Error(common_code(faults), all_sentences(faults)),
       faults_(std::move(faults)) {}
 
 }  // namespace forming_sim

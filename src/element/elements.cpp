@@ -1,5 +1,6 @@
 #include "forming_sim/element/elements.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <sstream>
 
@@ -11,7 +12,7 @@ namespace forming_sim {
 struct Elements::Group : CellGroup {
   std::vector<int> node_storage;
   std::vector<double> strain_table, stress_table, plastic, viscous, lowest;
-  std::vector<Eigen::Matrix<double, 8, 1>> memory_storage;  // aligned
+  std::vector<Lane> memory_storage;
   int first_element = 0;
   long first_record = 0;
   std::string body;
@@ -30,8 +31,8 @@ PressureMode mode_of(const BodyModel& body, CellKind kind) {
 Elements::~Elements() = default;
 
 Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x,
-                   const ElementOptions& options, int threads)
-    : kernels_(choose_kernels()), dimension_(dimension), threads_(std::max(1, threads)) {
+                   const ElementOptions& options, int threads, const char* kernels)
+    : kernels_(choose_kernels(kernels)), dimension_(dimension), threads_(std::max(1, threads)) {
   const int nodes = static_cast<int>(x.size()), D = dimension_;
   mass_.assign(nodes, 0.0);
   nodal_volume0_.assign(nodes, 0.0);
@@ -63,8 +64,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.lowest.assign(g.blocks, 1.0);
       g.node_storage.resize(static_cast<std::size_t>(g.blocks) * shape.nodes * kLanes);
       const int items = D == 2 ? kMemory<2> : kMemory<3>;
-      g.memory_storage.assign(static_cast<std::size_t>(g.blocks) * shape.simplices * items,
-                              Eigen::Matrix<double, 8, 1>::Zero());
+      g.memory_storage.resize(static_cast<std::size_t>(g.blocks) * shape.simplices * items);
       for (int b = 0; b < g.blocks; ++b) {
         for (int l = 0; l < kLanes; ++l) {
           const int cell = std::min(b * kLanes + l, g.cells - 1);
@@ -108,7 +108,9 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       groups_.push_back(std::move(g));
     }
   }
-  records_.assign(static_cast<std::size_t>(records) * D, 0.0);
+  record_size_ = D == 2 ? kRecord<2> : kRecord<3>;
+  record_storage_.resize(static_cast<std::size_t>(records) * record_size_ / kLanes);
+  records_ = record_storage_.empty() ? nullptr : record_storage_.data()->value;
   pressure_.assign(any_nodal_ ? nodes : 0, 0.0);
 
   // simplices_ was filled block by block, lane by lane: that is cell by cell.
@@ -130,7 +132,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   for (Group& g : groups_) {
     g.nodes = g.node_storage.data();
     g.memory = reinterpret_cast<double*>(g.memory_storage.data());
-    g.records = records_.data() + g.first_record * D;
+    g.records = records_ + g.first_record * record_size_;
     g.plastic_work = g.plastic.data();
     g.viscous_work = g.viscous.data();
     g.lowest_ratio = g.lowest.data();
@@ -153,7 +155,7 @@ template <class Work> void Elements::over_blocks(Work&& work) const {
 void Elements::nodal_pressure(const NodalView& view) const {
   over_blocks([&](const Group& g, int first, int last) {
     CellGroup one_wide = g;
-    one_wide.records = records_.data() + g.first_record;
+    one_wide.records = records_ + g.first_record;
     kernels_.volumes(one_wide, view, first, last);
   });
   const int nodes = static_cast<int>(mass_.size());
@@ -172,15 +174,17 @@ void Elements::forces(const NodeField& x, const NodeField& v, double dt, NodeFie
   for (const Group& g : groups_)
     for (double ratio : g.lowest)
       if (!(ratio > 0)) report_inversion(x);
-  const int nodes = static_cast<int>(mass_.size()), D = dimension_;
+  const int nodes = static_cast<int>(mass_.size());
+  const bool flat = dimension_ == 2;
 #pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1 && nodes > 2000)
   for (int n = 0; n < nodes; ++n) {
-    double sum[3] = {0, 0, 0};
+    Node sum = Node::Zero();
     for (int k = record_start_[n]; k < record_start_[n + 1]; ++k) {
-      const double* record = records_.data() + static_cast<std::size_t>(record_index_[k]) * D;
-      for (int i = 0; i < D; ++i) sum[i] += record[i];
+      const double* record = records_ + static_cast<std::size_t>(record_index_[k]) * record_size_;
+      if (flat) sum.head<2>() += Eigen::Map<const Eigen::Vector2d>(record);
+      else sum += Eigen::Map<const Node>(record);
     }
-    f[n] = Node(sum[0], sum[1], sum[2], 0);
+    f[n] = sum;
   }
 }
 
@@ -234,13 +238,12 @@ ElementFields Elements::observe(const NodeField& x) const {
   fields.stress.resize(simplices_.size());
   fields.volume_ratio.resize(simplices_.size());
   for (const Group& g : groups_) {
-    using Lane = Eigen::Matrix<double, 8, 1>;
     std::vector<Lane> stress(static_cast<std::size_t>(g.blocks) * g.cell_simplices * 6);
     std::vector<Lane> ratio(static_cast<std::size_t>(g.blocks) * g.cell_simplices);
     std::vector<double> energy(g.blocks);
 #pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
     for (int b = 0; b < g.blocks; ++b)
-      kernels_.observe(g, view, b, b + 1, stress.data()->data(), ratio.data()->data(), energy.data());
+      kernels_.observe(g, view, b, b + 1, stress.data()->value, ratio.data()->value, energy.data());
     for (double e : energy) fields.stored_energy += e;
     for (int cell = 0; cell < g.cells; ++cell)
       for (int s = 0; s < g.cell_simplices; ++s) {

@@ -14,11 +14,13 @@ template <class Cell> constexpr int kD = Cell::dimension;
 /// Nodal vectors of a block of cells, gathered: one Pack per component.
 template <class Cell>
 void gather(const int* nodes, const double* field, Vector<Pack, kD<Cell>>* out) {
-  for (int a = 0; a < Cell::nodes; ++a)
-    for (int l = 0; l < kLanes; ++l) {
-      const double* from = field + 4 * static_cast<long>(nodes[a * kLanes + l]);
-      for (int i = 0; i < kD<Cell>; ++i) out[a][i].v[l] = from[i];
-    }
+  for (int a = 0; a < Cell::nodes; ++a) {
+    const double* from[kLanes];
+    for (int l = 0; l < kLanes; ++l) from[l] = field + 4 * static_cast<long>(nodes[a * kLanes + l]);
+    Pack z;
+    if constexpr (kD<Cell> == 2) gather_records(from, out[a][0], out[a][1], z);
+    else gather_records(from, out[a][0], out[a][1], out[a][2]);
+  }
 }
 
 template <class Cell>
@@ -66,7 +68,7 @@ void pressures(const CellGroup& g, const NodalView& view, long block, const Pack
   Pack sum_V(0.0), sum_V0(0.0);
   for (int s = 0; s < Cell::simplices; ++s) {
     const Pack V0 = Pack::load(memory_of<Cell>(g, block, s) + (kMemory<D> - 1) * kLanes);
-    p[s] = K * (V[s] / V0 - Pack(1.0));
+    if (g.pressure == PressureMode::element) p[s] = K * (V[s] / V0 - Pack(1.0));
     sum_V += V[s];
     sum_V0 += V0;
   }
@@ -164,10 +166,11 @@ void forces_of_block(const CellGroup& g, const NodalView& view, long block) {
   for (int l = 0; l < kLanes; ++l) low = lowest[l] > low ? low : lowest[l];  // keeps a NaN
   g.lowest_ratio[block] = low;
 
-  double* out = g.records + block * Cell::nodes * kLanes * D;
-  for (int a = 0; a < Cell::nodes; ++a)
-    for (int i = 0; i < D; ++i)
-      for (int l = 0; l < kLanes; ++l) out[(a * kLanes + l) * D + i] = f[a][i][l];
+  double* out = g.records + block * Cell::nodes * kLanes * kRecord<D>;
+  for (int a = 0; a < Cell::nodes; ++a) {
+    if constexpr (D == 2) store_pairs(f[a][0], f[a][1], out + a * kLanes * kRecord<D>);
+    else store_quads(f[a][0], f[a][1], f[a][2], out + a * kLanes * kRecord<D>);
+  }
 }
 
 template <class Cell> void volumes_of_block(const CellGroup& g, const NodalView& view, long block) {

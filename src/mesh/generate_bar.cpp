@@ -12,8 +12,8 @@
 namespace forming_sim {
 namespace {
 
-constexpr double kCoreSide = 1.0;       // half side of the core over (radius * core cells / radius cells)
-constexpr double kCoreRoundness = 0.5;  // 0: a square, 1: a circle
+constexpr double kCoreSide = 0.97;       // half side of the core over (radius * core cells / radius cells)
+constexpr double kCoreRoundness = 0.45; // 0: a square, 1: a circle
 
 // The section, in units of the radius; built once and swept along z.
 class Section {

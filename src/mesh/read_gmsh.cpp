@@ -2,6 +2,7 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <fstream>
 #include <mutex>
 #include <unordered_map>
 
@@ -13,23 +14,28 @@ namespace {
 
 using Groups = std::vector<std::pair<int, int>>;  // dimension and tag
 
-// Opens a file for the time of one reading; only one thread at a time.
+// The time of one reading; only one thread at a time.
 class Session {
  public:
-  explicit Session(const std::string& path) : lock_(mutex()) {
+  Session() : lock_(mutex()) {
     static const bool once = [] {
       gmsh::initialize(0, nullptr, false);
       gmsh::option::setNumber("General.Terminal", 0);
+      // Errors go to the log: thrown from within a reading, they would leave gmsh
+      // locked, and every later file would seem empty.
+      gmsh::option::setNumber("General.AbortOnError", 0);
       return true;
     }();
     (void)once;
     gmsh::clear();
     gmsh::logger::start();
+  }
+  void open(const std::string& path) const {
     gmsh::open(path);
     std::vector<std::string> log;
     gmsh::logger::get(log);
     for (const std::string& line : log)
-      if (line.compare(0, 5, "Error") == 0) throw line;
+      if (line.compare(0, 7, "Error: ") == 0) throw line.substr(7);
   }
   ~Session() {
     try {
@@ -171,8 +177,21 @@ struct Reader {
   }
 };
 
+// Whatever does not begin like a mesh, gmsh would run as a script.
+void check_beginning(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  std::getline(file, line);
+  if (line.compare(0, 11, "$MeshFormat") != 0 && line.compare(0, 9, "$Comments") != 0)
+    throw Error(Code::mesh_error, "mesh file \"" + path + "\": " +
+                                      (line.empty() ? "the file or its first line is empty" : "its first line is not that of a mesh") +
+                                      "; a .msh begins with $MeshFormat");
+}
+
 RawMesh read(const std::string& path, const std::string& group, double unit_scale) {
-  const Session session(path);
+  check_beginning(path);
+  const Session session;
+  session.open(path);
   Reader reader;
   reader.source = "mesh file \"" + path + "\"";
   reader.raw.source = reader.source;
@@ -189,7 +208,7 @@ RawMesh read(const std::string& path, const std::string& group, double unit_scal
 
 RawMesh read_gmsh(const std::string& path, const std::string& group, double unit_scale) {
   const std::string source = "mesh file \"" + path + "\": ";
-  const std::string remedy = "; write it again with gmsh (format 2.2 or 4.1)";
+  const std::string remedy = "; it may be cut short: write it again with gmsh (format 2.2 or 4.1)";
   try {
     return read(path, group, unit_scale);
   } catch (const Error&) {

@@ -11,7 +11,7 @@ std::array<int, 8> key_of(const int* corners, int count) {
   std::array<int, 8> key;
   key.fill(-1);
   std::copy(corners, corners + count, key.begin());
-  std::sort(key.begin(), key.begin() + count);
+  std::sort(key.begin(), key.end());
   return key;
 }
 

@@ -2,6 +2,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "forming_sim/scene/validate.h"
 #include "forming_sim/scene/yaml.h"
 #include "yaml_reader.h"
 
@@ -40,10 +41,7 @@ Scene read_scene(const std::string& yaml_text, const std::string& base_directory
     const std::vector<YAML::Node> documents = YAML::LoadAll(yaml_text);
     if (documents.size() == 1) {
       reader.read_config(documents.front(), scene, "");
-      std::vector<Fault> declared;
-      FaultList list(declared);
-      check_config(scene, "", list);
-      if (documents.front().IsMap()) merge_faults(found, declared);
+      if (documents.front().IsMap()) merge_faults(found, check_scene(scene));
     } else {
       FaultList(found).add("scene", std::to_string(documents.size()) + " YAML documents", "give one document with the fields of a scene");
     }

@@ -100,6 +100,7 @@ class YamlReader {
         faults_.each(entries, [&](std::size_t i) { read_value(entries[i], value[i], join_path(path, i), field); });
       }
     } else if constexpr (std::is_same_v<T, Vec3>) {
+      value.setZero();  // a list of vectors was grown without values
       if (!node.IsSequence() || (node.size() != 2 && node.size() != 3)) {
         faults_.add(path, told(node), wanted<T>(field));
         return;

@@ -13,6 +13,16 @@ enum class PressureMode { cell, element, node };
 /// Memory of a simplex: G^X (4 or 6 components), plastic strain p, V0.
 template <int D> constexpr int kMemory = D == 2 ? 6 : 8;
 
+/// Doubles of a force record: the last of a record in 3D is zero.
+template <int D> constexpr int kRecord = D == 2 ? 2 : 4;
+
+/// One item of kLanes elements, aligned for the widest kernels.
+struct alignas(64) Lane {
+  double value[kLanes] = {};
+  double& operator[](int l) { return value[l]; }
+  double operator[](int l) const { return value[l]; }
+};
+
 struct CellGroup {
   int kind = 0;             ///< CellKind
   int dimension = 0;
@@ -25,7 +35,7 @@ struct CellGroup {
 
   const int* nodes = nullptr;      ///< [block][cell node][lane] joined node index
   double* memory = nullptr;        ///< [block][simplex][kMemory][lane]
-  double* records = nullptr;       ///< [block][cell node][lane][dimension]: forces, N; or volumes for nodal pressure
+  double* records = nullptr;       ///< [block][cell node][lane][kRecord]: forces, N; or volumes for nodal pressure
   double* plastic_work = nullptr;  ///< [block] dissipated so far, J
   double* viscous_work = nullptr;  ///< [block] dissipated so far by bulk viscosity, J
   double* lowest_ratio = nullptr;  ///< [block] smallest V/V0 of the last force pass

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "forming_sim/element/cell_group.h"
+#include "forming_sim/config/fault.h"
 #include "forming_sim/element/body.h"
 #include "forming_sim/tensor/vec.h"
 
@@ -29,8 +30,9 @@ struct ElementOptions {
 class Elements {
  public:
   /// x: initial positions in the joined numbering; the memory starts there, free of stress.
-  /// Throws Error(mesh_error) for a volume that is not positive.
-  Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x, const ElementOptions& options, int threads);
+  /// kernels: see choose_kernels. Throws Error(mesh_error) for a volume that is not positive.
+  Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x, const ElementOptions& options, int threads,
+           const char* kernels = nullptr);
   ~Elements();
 
   const std::vector<std::array<int, 4>>& simplices() const { return simplices_; }
@@ -67,7 +69,9 @@ class Elements {
   std::vector<std::array<int, 4>> simplices_;
   std::vector<double> mass_;
   std::vector<int> record_start_, record_index_;     ///< records of a node
-  mutable std::vector<double> records_;
+  std::vector<Lane> record_storage_;
+  double* records_ = nullptr;                        ///< [record][kRecord]
+  int record_size_ = 0;
   mutable std::vector<double> pressure_, nodal_volume0_, nodal_bulk_;  ///< nodal pressure only
   bool any_nodal_ = false;
   std::vector<std::string> body_of_group_;

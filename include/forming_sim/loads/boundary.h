@@ -13,7 +13,7 @@ namespace forming_sim {
 /// A boundary with its nodes in the joined numbering.
 struct ResolvedBoundary {
   BoundaryConfig config;
-  std::string body;        ///< for messages
+  std::string body;  ///< for messages
   std::vector<int> nodes;
 };
 
@@ -50,8 +50,8 @@ class BoundarySet {
 
   /// What the prescription pushed on nodes()[k] in a step, N s:
   /// R = (I - P) [m (v_after - v_before) - dt f], f all other forces, before projection.
-  Vec3 reaction_impulse(int k, const Vec3& force, double mass, const Vec3& v_before,
-                        const Vec3& v_after, double dt) const;
+  Vec3 reaction_impulse(int k, const Vec3& force, double mass, const Vec3& v_before, const Vec3& v_after,
+                        double dt) const;
   /// Its work, J: R . (v_before + v_after) / 2. With it and dt f . (v_before +
   /// v_after) / 2 for the other forces, the change of m v^2 / 2 is met exactly.
   double work(int k, const Vec3& force, double mass, const Vec3& v_before, const Vec3& v_after,
@@ -75,14 +75,14 @@ class BoundarySet {
     Mat3 projector = Mat3::Identity();
     std::vector<Direction> directions;
   };
-  Group merge(const std::vector<int>& members, const std::vector<ResolvedBoundary>& boundaries,
-              int dimension, int node) const;
+  Group merge(const std::vector<int>& members, const std::vector<ResolvedBoundary>& boundaries, int dimension,
+              int node) const;
   double speed(const std::vector<Term>& terms, double t) const;
   Vec3 prescribed(const Group& group, double t) const;
 
   std::vector<VelocityProfile> profiles_;  ///< one per boundary; empty where it holds
   std::vector<Group> groups_;
-  std::vector<int> nodes_, group_;         ///< group_[k] of nodes_[k]
+  std::vector<int> nodes_, group_;  ///< group_[k] of nodes_[k]
 };
 
 }  // namespace forming_sim

@@ -42,7 +42,7 @@ class Curve {
   static Curve with_knots(const std::vector<double>& times, const std::vector<Vec3>& values);
 
   std::vector<double> times_;
-  std::vector<Piece> pieces_;  ///< one fewer than times_
+  std::vector<Piece> pieces_;                        ///< one fewer than times_
   Vec3 first_ = Vec3::Zero(), last_ = Vec3::Zero();  ///< values at the outer knots
   Vec3 slope_before_ = Vec3::Zero(), slope_after_ = Vec3::Zero();
 };

@@ -57,10 +57,10 @@ class RigidMotion {
   Mat3 turned(double t) const;
 
   Curve path_;
-  Curve rotation_vector_;              ///< rad: trajectories, and spins about one axis
-  Curve spin_;                         ///< rad/s: spins of changing axis
-  std::shared_ptr<const Turns> turns_; ///< with spin_ only
-  Mat3 base_ = Mat3::Identity();       ///< orientation before rotation_vector_ acts
+  Curve rotation_vector_;               ///< rad: trajectories, and spins about one axis
+  Curve spin_;                          ///< rad/s: spins of changing axis
+  std::shared_ptr<const Turns> turns_;  ///< with spin_ only
+  Mat3 base_ = Mat3::Identity();        ///< orientation before rotation_vector_ acts
 };
 
 /// Moves by `displacement` from where the tool stands, by a quintic that starts

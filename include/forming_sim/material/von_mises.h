@@ -52,11 +52,11 @@ template <class T> T solve_correction(const HardeningCurve& h, T q, T p, T k, T 
 template <class T, int D>
 PointResult<T, D> update_point(const SolidConstants& m, const Symmetric<T, D>& B, const T& J, T& p) {
   PointResult<T, D> r;
-  T j23(1), factor(m.mu);  // J^(-2/3), stress per B_D
+  T factor(m.mu);  // stress per B_D
   if (!m.paper) {
     const T j13 = inverse_cube_root(J);
-    j23 = j13 * j13;
-    factor = T(m.mu) * j23 / J;
+    const T j23 = j13 * j13;
+    factor = T(m.mu) * j23 * j23 * j13;
   }
   r.S = deviator(B);
   r.a = T(1);
@@ -74,9 +74,10 @@ PointResult<T, D> update_point(const SolidConstants& m, const Symmetric<T, D>& B
       const T u = select(yields, solve_correction(m.hardening, safe_q, p, k, sigma), T(0));
       r.a = T(1) - u;
       p += u * k;
-      // S : D_p J with D_p at the mean of the states before and after: the factor (1+a)/2
+      // J S : D_p with the stress after the correction, which is the one that moves the nodes;
+      // B_D : dev(B^-1) = 3 - tr B tr B^-1 / 3
       const T minus_contraction = trace(B) * trace(cof) / (T(3) * det) - T(3);
-      r.dissipation = factor * J * u * T(0.25) * (T(1) + r.a) * minus_contraction;
+      r.dissipation = factor * r.a * J * T(0.5) * u * minus_contraction;
     }
   }
   factor *= r.a;

@@ -22,7 +22,7 @@ class Centres {
   void extend_by_faces(std::vector<int>& set, const std::vector<Hex>& hexes) const;
 
  private:
-  std::map<std::array<int, 8>, int> nodes_;  // corners in rising order, -1 where unused
+  std::map<std::array<int, 8>, int> nodes_;  // corners in rising order, after -1 for the unused
 };
 
 /// Appends cells of the kind (crossed or quad2; hex24 or hex6) to the mesh and

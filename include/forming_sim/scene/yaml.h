@@ -7,12 +7,12 @@
 
 namespace forming_sim {
 
-/// Reads a scene and adds to `faults` everything the text and the declarations
-/// can tell: YAML syntax (with its line), keys that do not exist or come twice,
-/// wrong types, numbers that are not finite or out of range, unknown words, what
-/// is missing, what does not apply. `given` names the line.
-/// The scene is complete only where no fault was added; its base_directory and
-/// text are set. What fields say of each other is for scene/validate.h.
+/// Reads a scene and adds to `faults` everything that can be told without opening
+/// another file: YAML syntax (with its line), keys that do not exist or come
+/// twice, wrong types, numbers that are not finite or out of range, unknown words,
+/// what is missing, what does not apply, and all of check_scene (scene/validate.h).
+/// `given` names the line. The scene is complete only where no fault was added;
+/// its base_directory and text are set.
 Scene read_scene(const std::string& yaml_text, const std::string& base_directory, std::vector<Fault>& faults);
 
 /// Reads a file; relative file names in the scene refer to its directory.

@@ -5,6 +5,8 @@
 // This header is compiled once per instruction set (see CMakeLists.txt); Pack
 // lives in a namespace of that set's name, so that no code made for a wider
 // processor is ever linked into a narrower path.
+#include <immintrin.h>
+
 #include <cmath>
 #include <cstdint>
 
@@ -58,7 +60,13 @@ struct Pack {
 };
 
 inline bool any(Mask m) {
-  return (m.v[0] | m.v[1] | m.v[2] | m.v[3] | m.v[4] | m.v[5] | m.v[6] | m.v[7]) != 0;
+#if defined(__AVX512DQ__)
+  return _mm512_movepi64_mask((__m512i)m.v) != 0;
+#else
+  typedef std::int64_t Pair __attribute__((vector_size(16)));
+  const Pair* two = reinterpret_cast<const Pair*>(&m.v);
+  return _mm_movemask_pd((__m128d)((two[0] | two[1]) | (two[2] | two[3]))) != 0;
+#endif
 }
 inline Pack select(Mask m, Pack a, Pack b) { return Pack(m.v ? a.v : b.v); }
 inline Pack larger(Pack a, Pack b) { return select(a > b, a, b); }
@@ -67,6 +75,44 @@ inline Pack absolute(Pack a) { return larger(a, -a); }
 inline double sum(Pack a) {
   return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
 }
+
+/// Four doubles anywhere in memory: a nodal record.
+typedef double Quad __attribute__((vector_size(32), aligned(8)));
+
+/// Loads kLanes nodal records and hands back their first three components.
+inline void gather_records(const double* const from[kLanes], Pack& x, Pack& y, Pack& z) {
+  Quad q[kLanes];
+  for (int l = 0; l < kLanes; ++l) q[l] = *reinterpret_cast<const Quad*>(from[l]);
+  Lanes a[4];
+  for (int k = 0; k < 4; ++k) a[k] = __builtin_shufflevector(q[k], q[k + 4], 0, 1, 2, 3, 4, 5, 6, 7);
+  const Lanes t0 = __builtin_shufflevector(a[0], a[1], 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes t1 = __builtin_shufflevector(a[0], a[1], 1, 9, 3, 11, 5, 13, 7, 15);
+  const Lanes t2 = __builtin_shufflevector(a[2], a[3], 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes t3 = __builtin_shufflevector(a[2], a[3], 1, 9, 3, 11, 5, 13, 7, 15);
+  x.v = __builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13);
+  y.v = __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13);
+  z.v = __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+/// Stores kLanes records of two doubles, one after the other.
+inline void store_pairs(Pack x, Pack y, double* to) {
+  *reinterpret_cast<Lanes*>(to) = __builtin_shufflevector(x.v, y.v, 0, 8, 1, 9, 2, 10, 3, 11);
+  *reinterpret_cast<Lanes*>(to + kLanes) = __builtin_shufflevector(x.v, y.v, 4, 12, 5, 13, 6, 14, 7, 15);
+}
+/// Stores kLanes records of four doubles, the last of each zero.
+inline void store_quads(Pack x, Pack y, Pack z, double* to) {
+  const Lanes zero = {0, 0, 0, 0, 0, 0, 0, 0};
+  const Lanes xy0 = __builtin_shufflevector(x.v, y.v, 0, 8, 1, 9, 2, 10, 3, 11);
+  const Lanes xy1 = __builtin_shufflevector(x.v, y.v, 4, 12, 5, 13, 6, 14, 7, 15);
+  const Lanes z0 = __builtin_shufflevector(z.v, zero, 0, 8, 1, 9, 2, 10, 3, 11);
+  const Lanes z1 = __builtin_shufflevector(z.v, zero, 4, 12, 5, 13, 6, 14, 7, 15);
+  Lanes* out = reinterpret_cast<Lanes*>(to);
+  out[0] = __builtin_shufflevector(xy0, z0, 0, 1, 8, 9, 2, 3, 10, 11);
+  out[1] = __builtin_shufflevector(xy0, z0, 4, 5, 12, 13, 6, 7, 14, 15);
+  out[2] = __builtin_shufflevector(xy1, z1, 0, 1, 8, 9, 2, 3, 10, 11);
+  out[3] = __builtin_shufflevector(xy1, z1, 4, 5, 12, 13, 6, 7, 14, 15);
+}
+
 template <class F> Pack lanewise(F&& f, Pack a) {
   Pack r;
   for (int l = 0; l < kLanes; ++l) r.v[l] = f(a.v[l]);
@@ -98,14 +144,17 @@ inline Pack exp(Pack x) {
 
 /// J^(-1/3) for J > 0, by Newton's method on y^-3 = J from the tangent at J = 1,
 /// which never lies above the root: the iteration rises to it without overshoot.
+/// Four steps reach round-off for |J - 1| < 0.2; farther away it goes on.
 template <class T> T inverse_cube_root(T J) {
   T y = larger((T(4) - J) * T(1.0 / 3), T(0.3));
-  for (int i = 0; i < 60; ++i) {
-    const T next = y * (T(4) - J * y * y * y) * T(1.0 / 3);
-    const T change = next - y;
-    y = next;
-    if (!any(absolute(change) > T(1e-15) * absolute(y) + T(1e-300))) break;
-    if (i >= 3 && !any(absolute(change) > T(1e-9) * absolute(y))) break;  // the next error is its square
+  for (int i = 0; i < 4; ++i) y = y * (T(4) - J * y * y * y) * T(1.0 / 3);
+  if (any(absolute(J - T(1)) > T(0.2))) {
+    for (int i = 0; i < 60; ++i) {
+      const T next = y * (T(4) - J * y * y * y) * T(1.0 / 3);
+      const T change = next - y;
+      y = next;
+      if (!any(absolute(change) > T(1e-15) * y)) break;
+    }
   }
   return y;
 }

@@ -1,0 +1,80 @@
+#pragma once
+// Closest points of a point and a segment, a point and a triangle, and two
+// segments, with the feature on which they lie.
+#include <algorithm>
+#include <cmath>
+
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+/// Closer to the border of a feature than this fraction of its size counts as
+/// on the border, so that a point over a shared edge belongs to the edge alone.
+constexpr double kBorder = 1e-10;
+
+/// On which feature of a facet the closest point lies. Corner and edge carry a
+/// number: edge k joins corners k and (k+1) mod 3.
+struct Closest {
+  enum Feature { corner, edge, face } feature = corner;
+  int which = 0;
+  double weight[3] = {1, 0, 0};  ///< of the facet's corners, sum 1
+  double squared = 0;            ///< distance squared, m^2
+};
+
+inline double dot3(const Node& a, const Node& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Node cross3(const Node& a, const Node& b) {
+  return Node(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0);
+}
+
+/// Parameter in [0, 1] of the point of segment ab closest to p; 0 where a = b.
+inline double closest_on_segment(const Node& p, const Node& a, const Node& b) {
+  const Node d = b - a;
+  const double length2 = dot3(d, d);
+  if (!(length2 > 0)) return 0;
+  const double s = dot3(p - a, d) / length2;
+  return s <= kBorder ? 0 : s >= 1 - kBorder ? 1 : s;
+}
+
+inline Closest closest_on_segment_facet(const Node& p, const Node& a, const Node& b) {
+  const double s = closest_on_segment(p, a, b);
+  Closest c;
+  c.weight[0] = 1 - s;
+  c.weight[1] = s;
+  c.feature = s == 0 || s == 1 ? Closest::corner : Closest::face;
+  c.which = s == 1 ? 1 : 0;
+  const Node r = p - a - s * (b - a);
+  c.squared = dot3(r, r);
+  return c;
+}
+
+/// Closest point of the closed triangle abc. A triangle without area is its three edges.
+Closest closest_on_triangle_border(const Node& p, const Node& a, const Node& b, const Node& c);
+
+inline Closest closest_on_triangle(const Node& p, const Node& a, const Node& b, const Node& c) {
+  const Node u = b - a, v = c - a, r = p - a;
+  const double uu = dot3(u, u), uv = dot3(u, v), vv = dot3(v, v), ru = dot3(r, u), rv = dot3(r, v);
+  const double area2 = uu * vv - uv * uv;
+  const double beta = vv * ru - uv * rv, gamma = uu * rv - uv * ru;  // times area2
+  const double border = kBorder * area2;
+  if (area2 > 1e-20 * uu * vv && beta > border && gamma > border && area2 - beta - gamma > border) {
+    Closest f;
+    f.feature = Closest::face;
+    f.weight[1] = beta / area2;
+    f.weight[2] = gamma / area2;
+    f.weight[0] = 1 - f.weight[1] - f.weight[2];
+    const Node n = r - f.weight[1] * u - f.weight[2] * v;
+    f.squared = dot3(n, n);
+    return f;
+  }
+  return closest_on_triangle_border(p, a, b, c);
+}
+
+/// Closest points a0 + s (a1 - a0) and b0 + t (b1 - b0) of two segments.
+struct ClosestEdges {
+  double s = 0, t = 0;
+  double squared = 0;
+  bool crossing = false;  ///< both inside their segments, and not parallel (sin^2 > 1e-8)
+};
+ClosestEdges closest_on_edges(const Node& a0, const Node& a1, const Node& b0, const Node& b1);
+
+}  // namespace forming_sim

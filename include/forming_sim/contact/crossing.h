@@ -1,0 +1,35 @@
+#pragma once
+// The independent check: what pierces what, whatever the contact believes.
+#include <vector>
+
+#include "forming_sim/contact/features.h"
+#include "forming_sim/contact/list.h"
+
+namespace forming_sim {
+
+/// An edge of one surface that goes through a facet of another (2D: two
+/// segments that cross), or, where facet < 0, a vertex behind a plane
+/// (edge[1] = -1) or a part wholly inside a closed one (edge[0] a vertex of it).
+struct Crossing {
+  int body = -1, tool = -1;
+  int edge[2] = {-1, -1};  ///< feature vertices
+  int facet = -1;
+};
+
+/// present, is_plane, planes: per tool; place as for build_list.
+std::vector<Crossing> find_crossings(const Features& features, const NodeField& x, const NodeField& place, const std::vector<bool>& present,
+                                     const std::vector<bool>& is_plane, const std::vector<PlanePose>& planes);
+
+/// Does segment pq go through the triangle abc (2D: cross the segment ab)?
+bool pierces(const Node& p, const Node& q, const Node& a, const Node& b, const Node& c);
+bool segments_cross(const Node& p, const Node& q, const Node& a, const Node& b);
+
+/// The connected part of each facet of a surface, numbered from 0, and whether
+/// the part is closed (no border).
+struct Parts {
+  std::vector<int> of_facet;  ///< index: facet - first_facet
+  std::vector<bool> closed;
+};
+Parts find_parts(const Features& features, int surface);
+
+}  // namespace forming_sim

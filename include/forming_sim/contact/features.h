@@ -1,0 +1,53 @@
+#pragma once
+// The features of all surfaces that take part: vertices, edges, facets, and
+// which belong together. One numbering for bodies and tools, so that a pair
+// does not care whose its nodes are.
+//
+// Vertices: bodies keep the joined numbering 0 ... body_nodes - 1; those of tool
+// t follow from first_vertex of its surface on, in the order of their places,
+// nodes at one place being one vertex. Facets list their corners in rising
+// order. So neither the orientation nor the order in a tool's file matters.
+#include <array>
+#include <vector>
+
+#include "forming_sim/contact/contact.h"
+
+namespace forming_sim {
+
+struct Features {
+  struct Surface {
+    int first_vertex = 0;             ///< tools: number of its first vertex; bodies: 0
+    int first_facet = 0, last_facet = 0, first_edge = 0, last_edge = 0;
+    std::vector<int> vertices;        ///< used by its facets, rising
+  };
+  struct Edge {
+    int node[2] = {-1, -1};           ///< rising
+    int surface = -1;
+    int facets = 0;                   ///< number of facets at this edge
+    int opposite[2] = {-1, -1};       ///< third corners of the first two of them
+  };
+
+  int dimension = 3;
+  int body_nodes = 0;
+  int bodies = 0;                     ///< surfaces 0 ... bodies - 1; tool t is surface bodies + t
+  int vertex_count = 0;
+  std::vector<Surface> surfaces;
+  std::vector<std::array<int, 3>> facets;       ///< corners, rising; 2D: 2 used, third -1
+  std::vector<int> facet_surface;
+  std::vector<int> facet_outward;               ///< bodies: +1 where the corners in rising order give the outward normal, else -1; tools: +1
+  std::vector<std::array<int, 3>> facet_edges;  ///< 3D: edge k joins corners k and (k+1) mod 3
+  std::vector<Edge> edges;                      ///< 3D only
+  std::vector<int> facets_at_vertex;            ///< number
+  std::vector<int> vertex_surface;              ///< -1: on no surface
+  std::vector<double> area;                     ///< of body vertices: the area they stand for at set-up, m^2 (2D: per metre of width)
+  NodeField place;                              ///< of tool vertices in the tool's frame; index: vertex - body_nodes
+  double smallest_edge = 0, mean_edge = 0;      ///< of the bodies' surfaces
+
+  bool rigid(int vertex) const { return vertex >= body_nodes; }
+  int corners() const { return dimension; }
+};
+
+/// x: positions of the bodies' nodes, from which areas and edge lengths are taken.
+Features build_features(const ContactSetup& setup, const NodeField& x);
+
+}  // namespace forming_sim

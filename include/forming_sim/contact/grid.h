@@ -1,0 +1,69 @@
+#pragma once
+// A uniform grid over boxes: which of them may overlap a given box.
+#include <array>
+#include <vector>
+
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+struct Box {
+  Node low = Node::Constant(1e300), high = Node::Constant(-1e300);
+  void add(const Node& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  void add(const Box& b) {
+    low = low.cwiseMin(b.low);
+    high = high.cwiseMax(b.high);
+  }
+  void grow(double r) {
+    low.array() -= r;
+    high.array() += r;
+  }
+  bool empty() const { return low[0] > high[0]; }
+  bool overlaps(const Box& b) const {
+    for (int k = 0; k < 3; ++k)
+      if (low[k] > b.high[k] || high[k] < b.low[k]) return false;
+    return true;
+  }
+  /// 0 where they overlap.
+  double distance(const Box& b) const;
+};
+
+class Grid {
+ public:
+  /// Boxes that lie outside `region` are left out. `cell` is the wanted size;
+  /// it is enlarged so that there are not many more cells than boxes.
+  Grid(const std::vector<Box>& boxes, const Box& region, double cell);
+
+  /// Calls found(index of box) once for every box that overlaps `query`.
+  template <class Found> void query(const Box& query, Found&& found) {
+    if (first_.empty() || !region_.overlaps(query)) return;
+    const auto range = cells(query);
+    ++stamp_now_;
+    for (int k = range[4]; k <= range[5]; ++k)
+      for (int j = range[2]; j <= range[3]; ++j)
+        for (int i = range[0]; i <= range[1]; ++i) {
+          const size_t c = (static_cast<size_t>(k) * count_[1] + j) * count_[0] + i;
+          for (int e = first_[c]; e < first_[c + 1]; ++e) {
+            const int b = entry_[e];
+            if (stamp_[b] == stamp_now_) continue;
+            stamp_[b] = stamp_now_;
+            if ((*boxes_)[b].overlaps(query)) found(b);
+          }
+        }
+  }
+
+ private:
+  std::array<int, 6> cells(const Box& box) const;
+
+  const std::vector<Box>* boxes_;
+  Box region_;
+  Node inverse_cell_ = Node::Zero();
+  std::array<int, 3> count_{1, 1, 1};
+  std::vector<int> first_, entry_, stamp_;
+  int stamp_now_ = 0;
+};
+
+}  // namespace forming_sim

@@ -1,0 +1,32 @@
+#pragma once
+// How thick the layer of each pair is: the soft start of pairs that are born
+// inside it, the raise for fast closing, and what is kept from step to step.
+#include <vector>
+
+#include "forming_sim/contact/pair.h"
+
+namespace forming_sim {
+
+/// Kept of a pair that ended a step inside its layer.
+struct LayerRecord {
+  PairKey key;
+  std::int64_t surface;  ///< of the second feature; 8 bytes, so that a record has no gaps
+  double layer;  ///< h0 of the pair, m
+  double gap;    ///< h at the end of the step, m
+};
+
+/// Sets `layer` of all pairs; both lists in the order of the keys.
+///  known            as it was; never more than half a layer for edges out of their wedge
+///  new, h >= base   base, or .1 of the closing motion of the step where that is more, but not above h or `ceiling`
+///  new, h < base    h: no force at first. Where the same vertex has just left another feature of that
+///                   surface, the layer goes over so that the potential, a function of h/h0, does not rise.
+/// dt: of the step; work.v: predicted velocities. full: h0.
+void assign_layers(const std::vector<LayerRecord>& before, const Workspace& work, double dt, double full, double ceiling,
+                   std::vector<ContactPair>& pairs);
+
+/// Lets each layer grow (or shrink) to its base by at most `growth`, and keeps
+/// the pairs inside. Returns the work that takes at fixed gaps, J; adds up the
+/// potential that remains.
+double relax_layers(double growth, std::vector<ContactPair>& pairs, std::vector<LayerRecord>& after, double& potential);
+
+}  // namespace forming_sim

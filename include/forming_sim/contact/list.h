@@ -1,0 +1,58 @@
+#pragma once
+// Which features are near enough to be watched: built now and then with a
+// margin, good until the margin is used up.
+#include <vector>
+
+#include "forming_sim/contact/features.h"
+#include "forming_sim/contact/grid.h"
+#include "forming_sim/contact/pair.h"
+
+namespace forming_sim {
+
+struct NearList {
+  struct FacetEntry {
+    int facet;
+    int node[3];               ///< corners in the workspace
+  };
+  /// A vertex and all facets of one other surface within the radius.
+  struct VertexGroup {
+    int vertex, node;          ///< feature vertex, place in the workspace
+    int surface;
+    int first, last;           ///< of `facets`
+    double wake;               ///< need not be looked at while travel + reach <= wake
+  };
+  struct EdgePair {
+    int first, second;         ///< edges
+    int node[4];
+    int opposite[4];           ///< third corners of the first two facets at either edge, -1: none
+    double wake;
+  };
+  struct PlanePair {
+    int vertex, node, foot;    ///< foot: place in the workspace of the plane's nearest point
+    int tool;
+  };
+  std::vector<FacetEntry> facets;
+  std::vector<VertexGroup> groups;
+  std::vector<EdgePair> edges;
+  std::vector<PlanePair> planes;
+  double radius = 0;           ///< every pair of features not in here was farther apart, m
+
+  long size() const { return static_cast<long>(facets.size() + edges.size() + planes.size()); }
+};
+
+/// A plane in the world.
+struct PlanePose {
+  Node point = Node::Zero(), normal = Node::Zero();
+};
+
+/// Lists all pairs of a body's and a tool's features within `radius`, and
+/// numbers the workspace (vertex, body_entries; x of all entries but the feet).
+/// place: positions of all feature vertices of present tools now, index vertex -
+/// body_nodes. present: per tool. planes: per tool, used where it is a plane.
+NearList build_list(const Features& features, const NodeField& x, const NodeField& place, const std::vector<bool>& present,
+                    const std::vector<bool>& is_plane, const std::vector<PlanePose>& planes, double radius, Workspace& work);
+
+/// Box of the vertices of a surface at their places now.
+Box box_of(const Features& features, int surface, const NodeField& x, const NodeField& place);
+
+}  // namespace forming_sim

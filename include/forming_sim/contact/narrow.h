@@ -1,0 +1,37 @@
+#pragma once
+// From listed features to the pairs that may carry force in this step.
+//
+// A vertex meets a facet, an edge or a vertex of the other surface where its
+// distance to that surface is a local minimum: a face inside its borders, an
+// edge where it is the closest point of all facets at that edge, a vertex
+// likewise. So a vertex exactly over a shared edge has one pair, and one in a
+// groove has a pair with each wall. Two edges meet where their closest points
+// lie inside both and they are not parallel.
+#include <vector>
+
+#include "forming_sim/contact/list.h"
+
+namespace forming_sim {
+
+/// A listed vertex-facet or edge-edge pair near enough to be met in this step.
+struct ClosePair {
+  int entry;        ///< index in NearList::facets or edges
+  int group;        ///< index in NearList::groups; -1: edges
+  double distance;  ///< now, m
+};
+
+struct Narrow {
+  std::vector<ContactPair> pairs;  ///< geometry and key; in the order of their keys, each once
+  std::vector<ClosePair> close;    ///< for the continuous check
+};
+
+/// All pairs nearer than `reach`. Entries that were farther than reach + the
+/// distance travelled since they were last looked at are skipped: `travel` is
+/// a bound on all relative motion since the list was built.
+/// Two edges whose separation points out of the wedge between the facets at
+/// either edge are not the surfaces' nearest points: their layer is half as
+/// thick, so that they only carry where nothing else has held. layer: h0.
+void narrow_phase(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, double reach,
+                  double travel, NearList& list, Narrow& result);
+
+}  // namespace forming_sim

@@ -1,0 +1,57 @@
+#pragma once
+// A pair of features that may carry force, in the form in which the sweeps see
+// it: up to four nodes with weights. Whose the nodes are does not matter: a node
+// of a rigid tool has inverse mass 0 and a prescribed velocity.
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+/// Names a pair for good: the order in which pairs are swept, and by which a
+/// pair is found again in the next step, depends on nothing else.
+struct PairKey {
+  enum Kind : std::uint64_t { plane = 0, vertex_facet = 1, edge_edge = 2 };
+  std::uint64_t group = 0;    ///< kind << 32 | vertex, or first edge
+  std::uint64_t feature = 0;  ///< (Closest::Feature) << 32 | facet, edge or vertex; second edge; tool
+
+  Kind kind() const { return static_cast<Kind>(group >> 32); }
+  static PairKey make(Kind kind, int first, std::uint64_t type, int second) {
+    return {static_cast<std::uint64_t>(kind) << 32 | static_cast<std::uint32_t>(first), type << 32 | static_cast<std::uint32_t>(second)};
+  }
+  bool operator<(const PairKey& o) const { return group != o.group ? group < o.group : feature < o.feature; }
+  bool operator==(const PairKey& o) const { return group == o.group && feature == o.feature; }
+};
+
+struct ContactPair {
+  Node normal = Node::Zero();  ///< from the second feature to the first, length 1
+  Node slip = Node::Zero();    ///< friction impulse, N s
+  double weight[4] = {0, 0, 0, 0};  ///< b: positive on the first feature, negative on the second, sum 0
+  int node[4] = {-1, -1, -1, -1};   ///< in the workspace
+  int nodes = 0;
+  int surface = -1;            ///< the second feature's surface
+  int tool = -1;
+  double gap = 0;              ///< h at the start of the step, m
+  double layer = 0;            ///< h0 of this pair, m
+  double base = 0;             ///< h0 it tends to
+  double stiffness = 0;        ///< c, N m
+  double friction = 0;
+  double w = 0;                ///< inverse mass along the normal, held directions removed, 1/kg
+  double w_slip = 0;           ///< inverse mass, 1/kg
+  double impulse = 0;          ///< along the normal, N s
+  double end_gap = 0;          ///< h at the end of the step, m
+  PairKey key;
+};
+
+/// The nodes of all listed pairs, gathered so that pairs address them densely.
+struct Workspace {
+  std::vector<int> vertex;     ///< feature vertex of each entry, rising; then the feet of plane pairs (-1)
+  int body_entries = 0;        ///< the first so many are nodes of bodies
+  NodeField x, v, before;      ///< at the start of the step; running; before the kick
+  std::vector<double> inverse_mass;
+  std::vector<const Mat3*> projector;  ///< of held nodes, else null
+};
+
+}  // namespace forming_sim

@@ -1,0 +1,32 @@
+#pragma once
+// Gauss-Seidel sweeps over the pairs: each visit replaces a pair's impulse by
+// the one that goes with its end-of-step gap, all others held, and its friction
+// impulse by the nearest one within the Coulomb cone.
+#include <vector>
+
+#include "forming_sim/contact/pair.h"
+
+namespace forming_sim {
+
+/// Sets w and w_slip. A pair that nothing can move gets stiffness 0 and w 0.
+void prepare_pairs(const Workspace& work, std::vector<ContactPair>& pairs);
+
+/// One visit of every pair, in their order; changes work.v. Returns the largest
+/// change of a gap or of a slip distance, m.
+double sweep(double dt, Workspace& work, std::vector<ContactPair>& pairs);
+
+struct SweepResult {
+  int sweeps = 0;
+  bool open = true;       ///< every pair that can be moved ends with a gap > 0
+};
+/// Sweeps until every pair ends with a gap > 0 and nothing changes by more than
+/// `tolerance`, at most `most` times. Sets end_gap.
+SweepResult solve_pairs(double dt, double tolerance, int most, Workspace& work, std::vector<ContactPair>& pairs);
+
+/// Where the energy of a step went, J; see ContactStep.
+struct PairWork {
+  double tool = 0, held = 0, friction = 0, normal = 0;  ///< normal: of the impulses along the normals on the relative motion
+};
+PairWork work_of(const Workspace& work, const std::vector<ContactPair>& pairs);
+
+}  // namespace forming_sim

@@ -1,0 +1,48 @@
+#pragma once
+// The rigid tools as contact sees them: set back by h0 so that the layer ends
+// on the surface the user gave, and backed off where a body touches at the start.
+#include <string>
+#include <vector>
+
+#include "forming_sim/contact/features.h"
+#include "forming_sim/contact/list.h"
+
+namespace forming_sim {
+
+struct ToolSet {
+  std::vector<bool> is_plane;
+  std::vector<Vec3> point, normal;   ///< of planes, in the tool's frame, set back
+  std::vector<Box> frame_box;        ///< of the vertices in the tool's frame, set back
+  std::vector<std::string> names;
+
+  /// Places of all tool vertices with the tools at position0, rotation0 (or 1).
+  void place_all(const Features& features, const std::vector<ToolMotion>& motion, bool at_end, NodeField& place) const;
+  std::vector<PlanePose> planes(const std::vector<ToolMotion>& motion) const;
+  static std::vector<bool> present(const std::vector<ToolMotion>& motion);
+};
+
+inline Vec3 pose0(const ToolMotion& m, const Vec3& p) { return m.rotation0 * p + m.position0; }
+inline Vec3 pose1(const ToolMotion& m, const Vec3& p) { return m.rotation1 * p + m.position1; }
+
+/// The side of every tool facet on which the bodies are: +1 the side of the
+/// normal (corners in rising order; 2D: to the right of rising), -1 the other,
+/// 0 where bodies are on both. Found from the bodies' places, per connected part.
+/// Nodes nearer to a tool than 3 layers are not asked.
+std::vector<int> find_sides(double layer, const Features& features, const NodeField& x, const std::vector<ToolMotion>& at_start);
+
+/// Unit normal of the triangle abc (2D: of the segment ab, to its right); zero for one without area.
+Node facet_normal(int dimension, const Node& a, const Node& b, const Node& c);
+
+/// Moves the tools' vertices (features.place) and planes by `layer` away from
+/// the bodies, so that every facet moves by `layer` along its normal.
+/// Warns of parts with bodies on both sides, which stay where they are.
+void set_back(double layer, const std::vector<int>& sides, const ContactSetup& setup, Features& features, ToolSet& tools,
+              std::vector<std::string>& warnings);
+
+/// Backs off tools that overlap a body by no more than 2 layers (before they
+/// were set back), reported in warnings.
+/// Throws Error(initial_penetration) with the deeper ones.
+void check_start(double layer, const std::vector<int>& sides, const ContactSetup& setup, const NodeField& x,
+                 const std::vector<ToolMotion>& at_start, Features& features, ToolSet& tools, std::vector<std::string>& warnings);
+
+}  // namespace forming_sim

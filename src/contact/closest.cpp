@@ -1,0 +1,54 @@
+#include "forming_sim/contact/closest.h"
+
+namespace forming_sim {
+
+Closest closest_on_triangle_border(const Node& p, const Node& a, const Node& b, const Node& c) {
+  const Node* corner[3] = {&a, &b, &c};
+  Closest best;
+  best.squared = -1;
+  for (int k = 0; k < 3; ++k) {
+    const int l = (k + 1) % 3;
+    // Corners in rising order, so that both facets at an edge compute the same.
+    const int i = std::min(k, l), j = std::max(k, l);
+    const double s = closest_on_segment(p, *corner[i], *corner[j]);
+    const Node r = p - *corner[i] - s * (*corner[j] - *corner[i]);
+    const double squared = dot3(r, r);
+    if (best.squared >= 0 && squared >= best.squared) continue;
+    best = Closest();
+    best.squared = squared;
+    best.weight[0] = best.weight[1] = best.weight[2] = 0;
+    best.weight[i] = 1 - s;
+    best.weight[j] = s;
+    best.feature = s == 0 || s == 1 ? Closest::corner : Closest::edge;
+    best.which = best.feature == Closest::edge ? k : (s == 0 ? i : j);
+  }
+  return best;
+}
+
+ClosestEdges closest_on_edges(const Node& a0, const Node& a1, const Node& b0, const Node& b1) {
+  const Node u = a1 - a0, v = b1 - b0, r = a0 - b0;
+  const double uu = dot3(u, u), uv = dot3(u, v), vv = dot3(v, v), ru = dot3(r, u), rv = dot3(r, v);
+  const double sine2 = uu * vv - uv * uv;
+  ClosestEdges e;
+  if (sine2 > 1e-8 * uu * vv) {
+    const double s = (uv * rv - vv * ru) / sine2, t = (uu * rv - uv * ru) / sine2;
+    if (s > kBorder && s < 1 - kBorder && t > kBorder && t < 1 - kBorder) {
+      const Node d = r + s * u - t * v;
+      return {s, t, dot3(d, d), true};
+    }
+  }
+  // Otherwise an end of one of them is closest.
+  e.squared = -1;
+  const auto offer = [&](double s, double t) {
+    const Node d = r + s * u - t * v;
+    const double squared = dot3(d, d);
+    if (e.squared < 0 || squared < e.squared) e = {s, t, squared, false};
+  };
+  offer(0, closest_on_segment(a0, b0, b1));
+  offer(1, closest_on_segment(a1, b0, b1));
+  offer(closest_on_segment(b0, a0, a1), 0);
+  offer(closest_on_segment(b1, a0, a1), 1);
+  return e;
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,150 @@
+#include "forming_sim/contact/crossing.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "forming_sim/contact/closest.h"
+
+namespace forming_sim {
+namespace {
+
+double volume(const Node& a, const Node& b, const Node& c, const Node& d) { return dot3(cross3(b - a, c - a), d - a); }
+double area(const Node& a, const Node& b, const Node& c) { return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]); }
+
+class Finder {
+ public:
+  Finder(const Features& f, const NodeField& x, const NodeField& place) : f_(f), x_(x), place_(place) {}
+
+  const Node& at(int v) const { return v < f_.body_nodes ? x_[v] : place_[v - f_.body_nodes]; }
+
+  // Edges (2D: segments) of surface a through facets of surface b.
+  void pierce(int a, int b, int body, int tool) {
+    const auto &sa = f_.surfaces[a], &sb = f_.surfaces[b];
+    std::vector<Box> boxes(sb.last_facet - sb.first_facet);
+    for (size_t i = 0; i < boxes.size(); ++i)
+      for (int k = 0; k < f_.corners(); ++k) boxes[i].add(at(f_.facets[sb.first_facet + i][k]));
+    const bool flat = f_.dimension == 2;
+    const int first = flat ? sa.first_facet : sa.first_edge, last = flat ? sa.last_facet : sa.last_edge;
+    Box all = box_of(f_, a, x_, place_);
+    if (all.empty()) return;
+    Grid grid(boxes, all, std::max(f_.mean_edge, 1e-12));
+    for (int e = first; e < last; ++e) {
+      const int p = flat ? f_.facets[e][0] : f_.edges[e].node[0], q = flat ? f_.facets[e][1] : f_.edges[e].node[1];
+      Box query;
+      query.add(at(p));
+      query.add(at(q));
+      grid.query(query, [&](int i) {
+        const auto& c = f_.facets[sb.first_facet + i];
+        const bool hit = flat ? segments_cross(at(p), at(q), at(c[0]), at(c[1])) : pierces(at(p), at(q), at(c[0]), at(c[1]), at(c[2]));
+        if (hit) found.push_back({body, tool, {p, q}, sb.first_facet + i});
+      });
+    }
+  }
+
+  // One vertex of each part of surface a against the closed parts of surface b.
+  void inside(int a, int b, int body, int tool) {
+    const Parts pa = find_parts(f_, a), pb = find_parts(f_, b);
+    std::vector<int> seen(pa.closed.size(), 0);
+    for (size_t i = 0; i < pa.of_facet.size(); ++i) {
+      if (seen[pa.of_facet[i]]++) continue;
+      const int v = f_.facets[f_.surfaces[a].first_facet + i][0];
+      for (size_t part = 0; part < pb.closed.size(); ++part)
+        if (pb.closed[part] && is_inside(at(v), b, pb, static_cast<int>(part))) found.push_back({body, tool, {v, -1}, -1});
+    }
+  }
+
+  std::vector<Crossing> found;
+
+ private:
+  // Parity of the crossings of a ray in a direction that no mesh is aligned with.
+  bool is_inside(const Node& p, int surface, const Parts& parts, int part) const {
+    const auto& s = f_.surfaces[surface];
+    Box box;
+    for (size_t i = 0; i < parts.of_facet.size(); ++i)
+      if (parts.of_facet[i] == part)
+        for (int k = 0; k < f_.corners(); ++k) box.add(at(f_.facets[s.first_facet + i][k]));
+    for (int k = 0; k < f_.dimension; ++k)
+      if (p[k] < box.low[k] || p[k] > box.high[k]) return false;
+    const double far = 2 * (box.high - box.low).norm();
+    Node q = p + far * Node(0.7548776662466927, 0.5698402909980532, f_.dimension == 2 ? 0 : 0.3247179572447461, 0);
+    bool odd = false;
+    for (size_t i = 0; i < parts.of_facet.size(); ++i) {
+      if (parts.of_facet[i] != part) continue;
+      const auto& c = f_.facets[s.first_facet + i];
+      if (f_.dimension == 2 ? segments_cross(p, q, at(c[0]), at(c[1])) : pierces(p, q, at(c[0]), at(c[1]), at(c[2]))) odd = !odd;
+    }
+    return odd;
+  }
+
+  const Features& f_;
+  const NodeField &x_, &place_;
+};
+
+}  // namespace
+
+bool segments_cross(const Node& p, const Node& q, const Node& a, const Node& b) {
+  return area(a, b, p) * area(a, b, q) < 0 && area(p, q, a) * area(p, q, b) < 0;
+}
+
+bool pierces(const Node& p, const Node& q, const Node& a, const Node& b, const Node& c) {
+  if (!(volume(a, b, c, p) * volume(a, b, c, q) < 0)) return false;
+  const double u = volume(p, q, a, b), v = volume(p, q, b, c), w = volume(p, q, c, a);
+  return (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
+}
+
+Parts find_parts(const Features& f, int surface) {
+  const auto& s = f.surfaces[surface];
+  const int facets = s.last_facet - s.first_facet;
+  std::vector<int> root(f.vertex_count);
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  for (int i = 0; i < facets; ++i)
+    for (int k = 1; k < f.corners(); ++k) {
+      const int a = find(f.facets[s.first_facet + i][0]), b = find(f.facets[s.first_facet + i][k]);
+      root[std::max(a, b)] = std::min(a, b);
+    }
+  Parts parts;
+  std::vector<int> number(f.vertex_count, -1);
+  for (int i = 0; i < facets; ++i) {
+    const int r = find(f.facets[s.first_facet + i][0]);
+    if (number[r] < 0) {
+      number[r] = static_cast<int>(parts.closed.size());
+      parts.closed.push_back(true);
+    }
+    parts.of_facet.push_back(number[r]);
+    for (int k = 0; k < f.corners(); ++k) {
+      const int around = f.dimension == 2 ? f.facets_at_vertex[f.facets[s.first_facet + i][k]] : f.edges[f.facet_edges[s.first_facet + i][k]].facets;
+      if (around % 2 == 1) parts.closed[number[r]] = false;
+    }
+  }
+  return parts;
+}
+
+std::vector<Crossing> find_crossings(const Features& f, const NodeField& x, const NodeField& place, const std::vector<bool>& present,
+                                     const std::vector<bool>& is_plane, const std::vector<PlanePose>& planes) {
+  Finder finder(f, x, place);
+  for (int body = 0; body < f.bodies; ++body)
+    for (size_t t = 0; t < present.size(); ++t) {
+      const int tool = static_cast<int>(t), surface = f.bodies + tool;
+      if (!present[t]) continue;
+      if (is_plane[t]) {
+        for (int v : f.surfaces[body].vertices)
+          if (dot3(x[v] - planes[t].point, planes[t].normal) <= 0) finder.found.push_back({body, tool, {v, -1}, -1});
+        continue;
+      }
+      const Box a = box_of(f, body, x, place), b = box_of(f, surface, x, place);
+      if (a.empty() || b.empty() || !a.overlaps(b)) continue;
+      const size_t before = finder.found.size();
+      finder.pierce(body, surface, body, tool);
+      if (f.dimension == 3) finder.pierce(surface, body, body, tool);
+      if (finder.found.size() > before) continue;
+      finder.inside(body, surface, body, tool);
+      finder.inside(surface, body, body, tool);
+    }
+  return std::move(finder.found);
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,112 @@
+#include "forming_sim/contact/sweeps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "forming_sim/contact/closest.h"
+#include "forming_sim/contact/law.h"
+
+namespace forming_sim {
+namespace {
+
+inline Node relative(const ContactPair& pair, const NodeField& v) {
+  Node u = pair.weight[0] * v[pair.node[0]];
+  for (int k = 1; k < pair.nodes; ++k) u += pair.weight[k] * v[pair.node[k]];
+  return u;
+}
+
+inline Node project(const Mat3& p, const Node& j) { return node(p * vec3(j)); }
+
+inline void push(const ContactPair& pair, const Node& impulse, Workspace& work) {
+  for (int k = 0; k < pair.nodes; ++k) {
+    const int n = pair.node[k];
+    const double factor = pair.weight[k] * work.inverse_mass[n];
+    if (work.projector[n])
+      work.v[n] += factor * project(*work.projector[n], impulse);
+    else
+      work.v[n] += factor * impulse;
+  }
+}
+
+}  // namespace
+
+void prepare_pairs(const Workspace& work, std::vector<ContactPair>& pairs) {
+  for (ContactPair& pair : pairs) {
+    pair.w = pair.w_slip = 0;
+    for (int k = 0; k < pair.nodes; ++k) {
+      const int n = pair.node[k];
+      const double b2m = pair.weight[k] * pair.weight[k] * work.inverse_mass[n];
+      pair.w_slip += b2m;
+      pair.w += work.projector[n] ? b2m * dot3(pair.normal, project(*work.projector[n], pair.normal)) : b2m;
+    }
+    // Held against the normal up to rounding is held.
+    if (pair.w <= 1e-12 * pair.w_slip) pair.w = pair.stiffness = 0;
+  }
+}
+
+double sweep(double dt, Workspace& work, std::vector<ContactPair>& pairs) {
+  double change = 0;
+  for (ContactPair& pair : pairs) {
+    if (pair.w == 0) continue;
+    Node u = relative(pair, work.v);
+    const double vn = dot3(pair.normal, u);
+    const double now = pair.gap + dt * vn;              // the end gap as things stand
+    const double g = now - dt * pair.w * pair.impulse;  // without this pair
+    if (g >= pair.layer && pair.impulse == 0) continue;
+    double h;
+    const double p = end_impulse(g, pair.layer, pair.stiffness, pair.w, dt, h);
+    Node impulse = (p - pair.impulse) * pair.normal;
+    pair.impulse = p;
+    change = std::max(change, std::abs(h - now));
+    if (pair.friction > 0) {
+      const Node slip = u - vn * pair.normal;
+      Node q = pair.slip - slip / pair.w_slip;
+      const double size = std::sqrt(dot3(q, q)), most = pair.friction * p;
+      if (size > most) q *= most / size;
+      const Node difference = q - pair.slip;
+      pair.slip = q;
+      impulse += difference;
+      change = std::max(change, std::sqrt(dot3(difference, difference)) * pair.w_slip * dt);
+    }
+    push(pair, impulse, work);
+  }
+  return change;
+}
+
+SweepResult solve_pairs(double dt, double tolerance, int most, Workspace& work, std::vector<ContactPair>& pairs) {
+  SweepResult result;
+  for (;;) {
+    const double change = sweep(dt, work, pairs);
+    ++result.sweeps;
+    if (change >= tolerance && result.sweeps < most) continue;
+    result.open = true;
+    for (ContactPair& pair : pairs) {
+      pair.end_gap = pair.gap + dt * dot3(pair.normal, relative(pair, work.v));
+      if (!(pair.end_gap > 0) && pair.w > 0) result.open = false;
+    }
+    if (result.open || result.sweeps >= most) return result;
+  }
+}
+
+PairWork work_of(const Workspace& work, const std::vector<ContactPair>& pairs) {
+  PairWork sum;
+  for (const ContactPair& pair : pairs) {
+    if (pair.impulse == 0) continue;
+    const Node impulse = pair.impulse * pair.normal + pair.slip;
+    Node mean = Node::Zero();  // relative velocity, mean of before and after
+    for (int k = 0; k < pair.nodes; ++k) {
+      const int n = pair.node[k];
+      const Node v = 0.5 * (work.before[n] + work.v[n]);
+      mean += pair.weight[k] * v;
+      if (n >= work.body_entries)
+        sum.tool -= pair.weight[k] * dot3(impulse, v);
+      else if (work.projector[n])
+        sum.held += pair.weight[k] * dot3(impulse - project(*work.projector[n], impulse), v);
+    }
+    sum.normal += pair.impulse * dot3(pair.normal, mean);
+    sum.friction -= dot3(pair.slip, mean);
+  }
+  return sum;
+}
+
+}  // namespace forming_sim
