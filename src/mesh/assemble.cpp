@@ -173,7 +173,8 @@ Mesh assemble(RawMesh raw) {
     find_surface(mesh);
     check_volumes(mesh);
   } catch (const Error& error) {
-    refuse(raw, error.what());
+    const std::string what = error.what();  // "mesh: ...": the source takes the place of the first word
+    throw Error(error.code(), raw.source + what.substr(what.find(':')));
   }
   return mesh;
 }

@@ -202,7 +202,7 @@ TEST(MeshImportBody, InlineNonsenseIsRefusedByItsField) {
   EXPECT_TRUE(has(refused(given("hexahedron", kCube, {0, 1, 2})), "mesh.cells: given 3 indices; 8 per hexahedron"));
   EXPECT_TRUE(has(refused(given("triangle", kCube, {0, 1, 8})), "mesh.cells[2]: given 8; the points are numbered from 0 to 7"));
   EXPECT_TRUE(has(refused(given("hexahedron", kCube, {4, 5, 6, 7, 0, 1, 2, 3})), "1 of 1 cells are inverted"));
-  EXPECT_TRUE(has(refused(given("tetrahedron", kCube, {0, 1, 3, 4})), "node 2 at (1, 1, 0) m belongs to no cell"));
+  EXPECT_TRUE(has(refused(given("tetrahedron", kCube, {0, 1, 3, 4})), "inline mesh: node 2 at (1, 1, 0) m belongs to no cell"));
   MeshConfig config = given("hexahedron", kCube, {0, 1, 2, 3, 4, 5, 6, 7});
   config.points[6].z() = std::nan("");
   EXPECT_TRUE(has(refused(config), "node 6"));
