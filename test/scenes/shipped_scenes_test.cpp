@@ -34,18 +34,20 @@ TEST_P(ShippedScene, is_valid) {
   EXPECT_EQ(scene.name, GetParam());
 }
 
-TEST_P(ShippedScene, has_a_probe_on_every_name_it_uses_and_tools_that_stand_apart_or_touch) {
+TEST_P(ShippedScene, starts_with_its_tools_at_rest_in_their_places) {
   const Scene scene = read_valid_scene(kFolder + GetParam() + ".yaml");
   const Model model = build_model(scene);
   ASSERT_GT(model.element_count(), 0);
   for (const ToolModel& tool : model.tools) {
     const RigidMotion motion = tool.motion ? RigidMotion(*tool.motion, model.dimension) : RigidMotion();
     const ToolPose pose = tool_pose(tool, motion, 0);
-    EXPECT_LT(pose.position.norm() + pose.velocity.norm(), 1e-12) << tool.name << " should start at rest in its place";
+    EXPECT_LT(pose.position.norm() + pose.velocity.norm(), 1e-12)
+        << tool.name << " should start at rest in its place";
     if (!tool.is_plane()) continue;
     for (const BodyModel& body : model.bodies)
       for (const Vec3& node : body.mesh.nodes)
-        ASSERT_GE((node - tool.point).dot(tool.normal), -1e-12) << body.name << " starts behind " << tool.name;
+        ASSERT_GE((node - tool.point).dot(tool.normal), -1e-12)
+            << body.name << " starts behind " << tool.name;
   }
   // Motions are at rest when the tools are withdrawn.
   double formed = 0;
@@ -69,7 +71,8 @@ TEST(ShippedScenes, flange_section_fits_the_sheet) {
   for (const ToolModel& tool : model.tools) tools[tool.name] = &tool;
   // The sheet lies between die (top at y = 0) and pad (bottom at y = 0.93 mm), punch above it.
   double die_top = -1, pad_bottom = 1, punch_bottom = 1, punch_face = 1, die_wall = -1;
-  for (const Vec3& p : tools.at("die")->mesh.nodes) die_top = std::max(die_top, p.y()), die_wall = std::max(die_wall, p.x());
+  for (const Vec3& p : tools.at("die")->mesh.nodes)
+    die_top = std::max(die_top, p.y()), die_wall = std::max(die_wall, p.x());
   for (const Vec3& p : tools.at("pad")->mesh.nodes) pad_bottom = std::min(pad_bottom, p.y());
   for (const Vec3& p : tools.at("punch")->mesh.nodes)
     punch_bottom = std::min(punch_bottom, p.y()), punch_face = std::min(punch_face, p.x());
