@@ -289,7 +289,8 @@ ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v,
   Impl& m = *impl_;
   m.v_star.resize(x.size());
   ContactStep step;
-  for (;; dt /= 2, ++step.halvings) {
+  bool all = false;  // let pairs that push askew act before they are in their layer
+  for (;;) {
     const std::vector<ToolMotion> motion = tools_at(dt);
     predict(dt, m.v_star);
     const double tool_way = m.step_way(motion, x);
@@ -308,7 +309,7 @@ ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v,
       way = bound / 2;
       if (m.list.size() == 0) break;
       m.gather(x, v, dt, motion, planes);
-      narrow_phase(m.features, m.work, planes, m.layer, reach, m.travel, m.list, m.near);
+      narrow_phase(m.features, m.work, planes, m.layer, all, reach, m.travel, m.list, m.near);
       m.set_constants();
       assign_layers(m.records, m.work, dt, m.layer, m.ceiling, m.near.pairs);
       swept = SweepResult();
@@ -326,7 +327,13 @@ ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v,
       m.used += way * (1 + 1e-12);
       break;
     }
+    if (!all) {
+      all = true;
+      continue;
+    }
     if (step.halvings >= m.config.max_halvings) m.give_up(time, dt, touch);
+    dt /= 2;
+    ++step.halvings;
   }
   step.dt = dt;
 

@@ -35,7 +35,8 @@ class Finder {
       query.add(at(q));
       grid.query(query, [&](int i) {
         const auto& c = f_.facets[sb.first_facet + i];
-        const bool hit = flat ? segments_cross(at(p), at(q), at(c[0]), at(c[1])) : pierces(at(p), at(q), at(c[0]), at(c[1]), at(c[2]));
+        const bool hit = flat ? segments_cross(at(p), at(q), at(c[0]), at(c[1]), true)
+                              : pierces(at(p), at(q), at(c[0]), at(c[1]), at(c[2]), true);
         if (hit) found.push_back({body, tool, {p, q}, sb.first_facet + i});
       });
     }
@@ -71,7 +72,7 @@ class Finder {
     for (size_t i = 0; i < parts.of_facet.size(); ++i) {
       if (parts.of_facet[i] != part) continue;
       const auto& c = f_.facets[s.first_facet + i];
-      if (f_.dimension == 2 ? segments_cross(p, q, at(c[0]), at(c[1])) : pierces(p, q, at(c[0]), at(c[1]), at(c[2]))) odd = !odd;
+      if (f_.dimension == 2 ? segments_cross(p, q, at(c[0]), at(c[1]), false) : pierces(p, q, at(c[0]), at(c[1]), at(c[2]), false)) odd = !odd;
     }
     return odd;
   }
@@ -82,14 +83,17 @@ class Finder {
 
 }  // namespace
 
-bool segments_cross(const Node& p, const Node& q, const Node& a, const Node& b) {
-  return area(a, b, p) * area(a, b, q) < 0 && area(p, q, a) * area(p, q, b) < 0;
+bool segments_cross(const Node& p, const Node& q, const Node& a, const Node& b, bool border) {
+  if (!(area(a, b, p) * area(a, b, q) < 0)) return false;
+  const double u = area(p, q, a), v = area(p, q, b);
+  return border ? u * v <= 0 && u != v : u * v < 0;
 }
 
-bool pierces(const Node& p, const Node& q, const Node& a, const Node& b, const Node& c) {
+bool pierces(const Node& p, const Node& q, const Node& a, const Node& b, const Node& c, bool border) {
   if (!(volume(a, b, c, p) * volume(a, b, c, q) < 0)) return false;
   const double u = volume(p, q, a, b), v = volume(p, q, b, c), w = volume(p, q, c, a);
-  return (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
+  const double low = std::min({u, v, w}), high = std::max({u, v, w});
+  return border ? (low >= 0 && high > 0) || (high <= 0 && low < 0) : low > 0 || high < 0;
 }
 
 Parts find_parts(const Features& f, int surface) {

@@ -88,6 +88,24 @@ void find_edges(Features& f, int surface) {
   s.last_edge = static_cast<int>(f.edges.size());
 }
 
+void find_neighbours(Features& f) {
+  f.first_neighbour.assign(f.vertex_count + 1, 0);
+  const auto each = [&](auto&& act) {
+    if (f.dimension == 2)
+      for (const auto& c : f.facets) act(c[0], c[1]);
+    else
+      for (const auto& e : f.edges) act(e.node[0], e.node[1]);
+  };
+  each([&](int a, int b) { ++f.first_neighbour[a + 1], ++f.first_neighbour[b + 1]; });
+  for (int v = 0; v < f.vertex_count; ++v) f.first_neighbour[v + 1] += f.first_neighbour[v];
+  f.neighbours.resize(f.first_neighbour.back());
+  std::vector<int> next(f.first_neighbour.begin(), f.first_neighbour.end() - 1);
+  each([&](int a, int b) {
+    f.neighbours[next[a]++] = b;
+    f.neighbours[next[b]++] = a;
+  });
+}
+
 void measure_bodies(Features& f, const NodeField& x) {
   f.area.assign(f.body_nodes, 0.0);
   f.smallest_edge = std::numeric_limits<double>::infinity();
@@ -158,6 +176,7 @@ Features build_features(const ContactSetup& setup, const NodeField& x) {
   }
   for (const auto& facet : f.facets)
     for (int k = 0; k < f.corners(); ++k) ++f.facets_at_vertex[facet[k]];
+  find_neighbours(f);
   measure_bodies(f, x);
   return f;
 }

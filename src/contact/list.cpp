@@ -42,7 +42,9 @@ class Builder {
       std::sort(found.begin(), found.end());
       const int first = static_cast<int>(list.facets.size());
       for (int facet : found) list.facets.push_back({facet, {f_.facets[facet][0], f_.facets[facet][1], f_.facets[facet][2]}});
-      list.groups.push_back({v, v, b, first, static_cast<int>(list.facets.size()), kAwake});
+      const int near_first = static_cast<int>(list.neighbours.size());
+      for (int i = f_.first_neighbour[v]; i < f_.first_neighbour[v + 1]; ++i) list.neighbours.push_back(f_.neighbours[i]);
+      list.groups.push_back({v, v, b, first, static_cast<int>(list.facets.size()), near_first, static_cast<int>(list.neighbours.size()), kAwake});
     }
   }
 
@@ -79,6 +81,7 @@ class Builder {
     std::vector<int>& used = work.vertex;
     used.clear();
     for (const auto& g : list.groups) used.push_back(g.node);
+    used.insert(used.end(), list.neighbours.begin(), list.neighbours.end());
     for (const auto& c : list.facets)
       for (int k = 0; k < f_.corners(); ++k) used.push_back(c.node[k]);
     for (const auto& e : list.edges) {
@@ -93,6 +96,7 @@ class Builder {
     for (size_t i = 0; i < used.size(); ++i) place[used[i]] = static_cast<int>(i);
     work.body_entries = static_cast<int>(std::lower_bound(used.begin(), used.end(), f_.body_nodes) - used.begin());
     for (auto& g : list.groups) g.node = place[g.node];
+    for (int& n : list.neighbours) n = place[n];
     for (auto& c : list.facets)
       for (int k = 0; k < f_.corners(); ++k) c.node[k] = place[c.node[k]];
     for (auto& e : list.edges) {

@@ -9,10 +9,14 @@
 namespace forming_sim {
 namespace {
 
+// Slope up to which facets count as level, when it is asked whether a feature
+// is the nearest of its surface.
+constexpr double kWedge = 1e-3;
+
 class Phase {
  public:
-  Phase(const Features& f, const Workspace& work, double layer, Narrow& result)
-      : f_(f), work_(work), layer_(layer), out_(result) {}
+  Phase(const Features& f, const Workspace& work, double layer, bool all, Narrow& result)
+      : f_(f), work_(work), layer_(layer), all_(all), out_(result) {}
 
   // Returns the distance of the nearest facet.
   double group(const NearList& list, int index, double reach) {
@@ -56,7 +60,7 @@ class Phase {
     pair.normal = d / distance;
     const bool nearest = outside(a0, a1, e.opposite, -pair.normal) && outside(b0, b1, e.opposite + 2, pair.normal);
     pair.base = nearest ? layer_ : layer_ / 2;
-    out_.pairs.push_back(pair);
+    offer(pair);
     return distance;
   }
 
@@ -135,7 +139,18 @@ class Phase {
     pair.gap = std::sqrt(dot3(d, d));
     if (!(pair.gap > 0)) return;  // no direction; the start check and the continuous check exclude it
     pair.normal = d / pair.gap;
-    out_.pairs.push_back(pair);
+    // Seen from the vertex, is the other feature's point the nearest too?
+    const Node& from = work_.x[g.node];
+    const double sense = pair.node[0] == g.node ? 1 : -1;
+    for (int i = g.near_first; i < g.near_last; ++i) {
+      const Node along = work_.x[list.neighbours[i]] - from;
+      if (-sense * dot3(pair.normal, along) > kWedge * std::sqrt(dot3(along, along))) pair.base = layer_ / 2;
+    }
+    offer(pair);
+  }
+
+  void offer(const ContactPair& pair) {
+    if (all_ || pair.base == layer_ || pair.gap < pair.base) out_.pairs.push_back(pair);
   }
 
   // Does `away` from the edge ab point out of the slab of every facet at the edge?
@@ -145,7 +160,7 @@ class Phase {
       if (opposite[k] < 0) continue;
       const Node r = work_.x[opposite[k]] - a;
       const Node inward = r - dot3(r, u) / dot3(u, u) * u;
-      if (dot3(away, inward) > 1e-3 * std::sqrt(dot3(inward, inward))) return false;
+      if (dot3(away, inward) > kWedge * std::sqrt(dot3(inward, inward))) return false;
     }
     return true;
   }
@@ -153,6 +168,7 @@ class Phase {
   const Features& f_;
   const Workspace& work_;
   double layer_;
+  bool all_;
   Narrow& out_;
   std::vector<Hit> hits_;
 };
@@ -175,11 +191,11 @@ void put_in_order(std::vector<ContactPair>& pairs) {
 
 }  // namespace
 
-void narrow_phase(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, double reach,
+void narrow_phase(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, bool all, double reach,
                   double travel, NearList& list, Narrow& result) {
   result.pairs.clear();
   result.close.clear();
-  Phase phase(features, work, layer, result);
+  Phase phase(features, work, layer, all, result);
   for (const NearList::PlanePair& p : list.planes) {
     const PlanePose& plane = planes[p.tool];
     const double gap = dot3(work.x[p.node] - plane.point, plane.normal);

@@ -61,7 +61,8 @@ class Start {
     return found;
   }
 
-  // A small translation of the tool after which no gap is less than the layer.
+  // A small translation of the tool after which no gap is less than the layer;
+  // zero where there is none.
   Node back_off(const std::vector<StartGap>& gaps) const {
     Node t = Node::Zero();
     for (int turn = 0; turn < 200; ++turn) {
@@ -72,9 +73,9 @@ class Start {
         t -= missing * g.away;
         worst = std::max(worst, missing);
       }
-      if (worst < 1e-3 * layer_) break;
+      if (worst < 1e-3 * layer_) return t;
     }
-    return t;
+    return Node::Zero();
   }
 
   std::string vertex_name(int v, int tool, const Node& at) const {
@@ -122,7 +123,7 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
     }
     if (!close || told[t]) continue;
     const Node shift = start.back_off(gaps);
-    if (shift.norm() > 8 * layer) continue;  // no way out: left as it is, the check below decides
+    if (shift.isZero(0) || shift.norm() > 8 * layer) continue;  // no way out: left as it is, the check below decides
     const Vec3 local = at_start[t].rotation0.transpose() * vec3(shift);
     for (int v : f.surfaces[f.bodies + t].vertices) f.place[v - f.body_nodes] += node(local);
     if (tools.is_plane[t]) tools.point[t] += local;

@@ -76,6 +76,7 @@ struct Simulation::Impl {
   void begin_stage();
   /// True when the running stage has come to its end.
   bool stage_over();
+  void stop_motion();
   void check_crossings();
 
   // checkpoint.cpp

@@ -32,11 +32,7 @@ bool Simulation::Impl::stage_over() {
   if (stages.settling()) {
     const double energy = kinetic();
     const Settle::Verdict verdict = settle.observe(time, energy);
-    if (verdict.stop_motion) {
-      damping += energy;
-      std::fill(v.begin(), v.end(), Node::Zero());
-      boundaries.apply_velocity(time, v);
-    }
+    if (verdict.stop_motion) stop_motion();
     if (verdict.at_rest) return true;
     if (stages.remaining(time) <= 0) {
       settled = false;
@@ -45,6 +41,17 @@ bool Simulation::Impl::stage_over() {
     return false;
   }
   return stages.remaining(time) <= 1e-12 * (time + stages.stage().duration);
+}
+
+/// Sets all velocities to zero at time n. The kick that follows is a half one, as
+/// at the start of a run: a full kick would feed the highest modes at every stop.
+void Simulation::Impl::stop_motion() {
+  NodeField half = x;
+  for (std::size_t i = 0; i < half.size(); ++i) half[i] -= 0.5 * dt * v[i];
+  damping += kinetic() + elements.observe(half).stored_energy - elements.observe(x).stored_energy;
+  std::fill(v.begin(), v.end(), Node::Zero());
+  boundaries.apply_velocity(time, v);
+  previous_dt = 0;
 }
 
 void Simulation::Impl::check_crossings() {

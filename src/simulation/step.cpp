@@ -1,4 +1,5 @@
 // One step: the stable dt, forces, the kick, contact, and the ledger's sums.
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "forming_sim/loads/gravity.h"

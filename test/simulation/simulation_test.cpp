@@ -148,7 +148,7 @@ TEST(Simulation, DampingViscosityAndGravityAreInTheLedger) {
 }
 
 TEST(Simulation, MassScalingLengthensTheStepByItsRoot) {
-  OneBody run(body_of(block_of(CellKind::crossed, 4), aluminium()), 1e-4);
+  OneBody run(body_of(block_of(CellKind::crossed, 4), aluminium()), 1e-2);
   auto plain = run.start();
   run.plan.time_step.mass_scaling = 100;
   auto scaled = run.start();
@@ -170,7 +170,8 @@ TEST(Simulation, ASettlingCantileverComesToRest) {
   settle.kinetic_fraction = 1e-6;
   run.plan.stages.push_back(settle);
   auto sim = run.start();
-  ASSERT_EQ(sim->run(kNoCancel).code, Code::success);
+  const Outcome outcome = sim->run(kNoCancel);
+  ASSERT_EQ(outcome.code, Code::success) << outcome.message;
   double tip = 0;
   for (const Node& n : sim->positions()) tip = std::min(tip, n[1]);
   const double E = 70.5e9 / (1 - 0.34 * 0.34), L = 20e-3, t = 1e-3;

@@ -1,5 +1,7 @@
 #pragma once
 // Small runs for tests.
+#include <Eigen/Geometry>
+
 #include "forming_sim/simulation/simulation.h"
 #include "support/bodies.h"
 

@@ -47,7 +47,8 @@ inline Closest closest_on_segment_facet(const Node& p, const Node& a, const Node
   return c;
 }
 
-/// Closest point of the closed triangle abc. A triangle without area is its three edges.
+/// Closest point of the closed triangle abc. A triangle without area (an angle
+/// below 1e-6) is its three edges.
 Closest closest_on_triangle_border(const Node& p, const Node& a, const Node& b, const Node& c);
 
 inline Closest closest_on_triangle(const Node& p, const Node& a, const Node& b, const Node& c) {
@@ -56,7 +57,7 @@ inline Closest closest_on_triangle(const Node& p, const Node& a, const Node& b, 
   const double area2 = uu * vv - uv * uv;
   const double beta = vv * ru - uv * rv, gamma = uu * rv - uv * ru;  // times area2
   const double border = kBorder * area2;
-  if (area2 > 1e-20 * uu * vv && beta > border && gamma > border && area2 - beta - gamma > border) {
+  if (area2 > 1e-12 * uu * vv && beta > border && gamma > border && area2 - beta - gamma > border) {
     Closest f;
     f.feature = Closest::face;
     f.weight[1] = beta / area2;

@@ -20,9 +20,10 @@ struct Crossing {
 std::vector<Crossing> find_crossings(const Features& features, const NodeField& x, const NodeField& place, const std::vector<bool>& present,
                                      const std::vector<bool>& is_plane, const std::vector<PlanePose>& planes);
 
-/// Does segment pq go through the triangle abc (2D: cross the segment ab)?
-bool pierces(const Node& p, const Node& q, const Node& a, const Node& b, const Node& c);
-bool segments_cross(const Node& p, const Node& q, const Node& a, const Node& b);
+/// Does segment pq go through the triangle abc (2D: cross the segment ab)? Its
+/// border belongs to it where `border` is set; pq must pass, not only touch.
+bool pierces(const Node& p, const Node& q, const Node& a, const Node& b, const Node& c, bool border);
+bool segments_cross(const Node& p, const Node& q, const Node& a, const Node& b, bool border);
 
 /// The connected part of each facet of a surface, numbered from 0, and whether
 /// the part is closed (no border).

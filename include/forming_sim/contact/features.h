@@ -38,6 +38,8 @@ struct Features {
   std::vector<std::array<int, 3>> facet_edges;  ///< 3D: edge k joins corners k and (k+1) mod 3
   std::vector<Edge> edges;                      ///< 3D only
   std::vector<int> facets_at_vertex;            ///< number
+  std::vector<int> neighbours;                  ///< of vertex v: first_neighbour[v] ... first_neighbour[v + 1] - 1: other ends of its edges (2D: facets)
+  std::vector<int> first_neighbour;
   std::vector<int> vertex_surface;              ///< -1: on no surface
   std::vector<double> area;                     ///< of body vertices: the area they stand for at set-up, m^2 (2D: per metre of width)
   NodeField place;                              ///< of tool vertices in the tool's frame; index: vertex - body_nodes

@@ -19,6 +19,7 @@ struct NearList {
     int vertex, node;          ///< feature vertex, place in the workspace
     int surface;
     int first, last;           ///< of `facets`
+    int near_first, near_last; ///< of `neighbours`
     double wake;               ///< need not be looked at while travel + reach <= wake
   };
   struct EdgePair {
@@ -32,6 +33,7 @@ struct NearList {
     int tool;
   };
   std::vector<FacetEntry> facets;
+  std::vector<int> neighbours; ///< of the groups' vertices, in the workspace
   std::vector<VertexGroup> groups;
   std::vector<EdgePair> edges;
   std::vector<PlanePair> planes;

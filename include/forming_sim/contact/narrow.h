@@ -28,10 +28,13 @@ struct Narrow {
 /// All pairs nearer than `reach`. Entries that were farther than reach + the
 /// distance travelled since they were last looked at are skipped: `travel` is
 /// a bound on all relative motion since the list was built.
-/// Two edges whose separation points out of the wedge between the facets at
-/// either edge are not the surfaces' nearest points: their layer is half as
-/// thick, so that they only carry where nothing else has held. layer: h0.
-void narrow_phase(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, double reach,
+/// Where one of the two features is not the nearest of its own surface (another
+/// corner or facet of it lies nearer to the other's point) the layer is half as
+/// thick: such a pair pushes askew, and is needed only where nothing else has
+/// held. It counts only once it is inside its layer: where a fast step would end
+/// along a frozen, askew normal says little. `all`: without this restriction
+/// (for a step that met something). layer: h0.
+void narrow_phase(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, bool all, double reach,
                   double travel, NearList& list, Narrow& result);
 
 }  // namespace forming_sim

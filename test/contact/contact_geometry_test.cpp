@@ -1,0 +1,166 @@
+// Closest points against sampling, the continuous check against dense sampling,
+// the list against all pairs.
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "contact/point_bodies.h"
+#include "forming_sim/contact/closest.h"
+#include "forming_sim/contact/continuous.h"
+#include "forming_sim/contact/crossing.h"
+#include "forming_sim/contact/narrow.h"
+
+using namespace forming_sim;
+using contact_test::World;
+
+namespace {
+
+std::mt19937 engine(7);
+Node random_node(int dimension, double size = 1) {
+  std::uniform_real_distribution<double> u(-size, size);
+  const double a = u(engine), b = u(engine), c = u(engine);
+  return Node(a, b, dimension == 3 ? c : 0, 0);
+}
+
+}  // namespace
+
+TEST(ContactClosest, TriangleAgainstSampling) {
+  for (int i = 0; i < 300; ++i) {
+    Node p = random_node(3), c[3] = {random_node(3), random_node(3), random_node(3)};
+    if (i % 5 == 0) c[2] = c[0] + (i % 10 ? .3 : 1.4) * (c[1] - c[0]);  // no area
+    const Closest q = closest_on_triangle(p, c[0], c[1], c[2]);
+    Node at = Node::Zero();
+    for (int k = 0; k < 3; ++k) at += q.weight[k] * c[k];
+    EXPECT_NEAR((p - at).norm(), std::sqrt(q.squared), 1e-12);
+    EXPECT_NEAR(q.weight[0] + q.weight[1] + q.weight[2], 1, 1e-14);
+    double best = 1e9;
+    const int n = 150;
+    for (int a = 0; a <= n; ++a)
+      for (int b = 0; a + b <= n; ++b) best = std::min(best, (p - c[0] - (a * (c[1] - c[0]) + b * (c[2] - c[0])) / n).norm());
+    EXPECT_LE(std::sqrt(q.squared), best + 1e-12);
+    EXPECT_GT(std::sqrt(q.squared), best - 2e-2);
+  }
+}
+
+TEST(ContactClosest, EdgesAgainstSampling) {
+  for (int i = 0; i < 300; ++i) {
+    Node a = random_node(3), b = random_node(3), c = random_node(3), d = random_node(3);
+    if (i % 5 == 0) d = c + (b - a) * .7;          // parallel
+    if (i % 7 == 0) b = a;                         // a point
+    const ClosestEdges q = closest_on_edges(a, b, c, d);
+    EXPECT_NEAR((a + q.s * (b - a) - c - q.t * (d - c)).norm(), std::sqrt(q.squared), 1e-12);
+    double best = 1e9;
+    for (int s = 0; s <= 150; ++s)
+      for (int t = 0; t <= 150; ++t) best = std::min(best, (a + s / 150. * (b - a) - c - t / 150. * (d - c)).norm());
+    EXPECT_LE(std::sqrt(q.squared), best + 1e-12);
+    EXPECT_GT(std::sqrt(q.squared), best - 2e-2);
+  }
+}
+
+// "No touch" must be certain; and it must not cry wolf where the features stay well apart.
+TEST(ContactContinuous, AgreesWithDenseSampling) {
+  int touches = 0, free = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const int kind = i % 3;  // 2D point-segment, 3D point-triangle, edge-edge
+    const int dimension = kind == 0 ? 2 : 3, count = kind == 0 ? 3 : 4;
+    Node x[4], d[4];
+    for (int k = 0; k < count; ++k) {
+      x[k] = random_node(dimension);
+      d[k] = random_node(dimension, 1.5);
+    }
+    const auto distance = [&](double t) {
+      Node y[4];
+      for (int k = 0; k < count; ++k) y[k] = x[k] + t * d[k];
+      return std::sqrt(kind == 0 ? closest_on_segment_facet(y[0], y[1], y[2]).squared
+                       : kind == 1 ? closest_on_triangle(y[0], y[1], y[2], y[3]).squared
+                                   : closest_on_edges(y[0], y[1], y[2], y[3]).squared);
+    };
+    const int samples = 4000;
+    double least = 1e9, speed = 0;
+    for (int s = 0; s <= samples; ++s) least = std::min(least, distance(s / double(samples)));
+    for (int a = 0; a < count; ++a)
+      for (int b = 0; b < count; ++b) speed = std::max(speed, (d[a] - d[b]).norm());
+    const double limit = 1e-4;
+    const bool meets = kind == 2 ? edges_meet(x, d, limit) : point_meets_facet(count - 1, x, d, limit);
+    if (least < limit) {
+      EXPECT_TRUE(meets) << i;
+    }
+    if (least > 2 * limit + speed / samples) {
+      EXPECT_FALSE(meets) << i << " least " << least;
+      ++free;
+    }
+    touches += meets;
+  }
+  EXPECT_GT(touches, 200);
+  EXPECT_GT(free, 1000);
+}
+
+TEST(ContactContinuous, SlidingPastAtASmallGapIsNoTouch) {
+  const Node x[4] = {Node(-.9, 0, 1e-7, 0), Node(-1, -1, 0, 0), Node(1, -1, 0, 0), Node(0, 1, 0, 0)};
+  const Node d[4] = {Node(1.5, 0, 0, 0), Node::Zero(), Node::Zero(), Node::Zero()};
+  EXPECT_FALSE(point_meets_facet(3, x, d, 1e-10));
+}
+
+// Every vertex-facet and edge-edge pair within the radius is listed, no other.
+TEST(ContactSearch, ListAgainstAllPairs) {
+  for (int dimension : {2, 3}) {
+    World world;
+    world.dimension = dimension;
+    if (dimension == 2) {
+      world.add_strip(Vec3(-1, .05, 0), 23, 2, .1, .1, 1, 0, .02);
+      std::vector<Vec3> line;
+      for (int i = 0; i <= 40; ++i) line.emplace_back(-2 + .1 * i, .08 * std::sin(3.0 * i), 0);
+      world.add_tool("die", contact_test::polyline(line), 0, [](double) { return Vec3(0, -.3, 0); });
+    } else {
+      world.add_box(Vec3(-.4, -.35, .1), 7, 6, 2, .1, 1, 0);
+      world.add_tool("die", contact_test::sheet(9, 1.1, [](double a, double b) { return .05 * std::sin(5 * a) * std::cos(4 * b); }), 0,
+                     [](double) { return Vec3(.013, .017, 0); });
+    }
+    ContactSetup setup;
+    setup.dimension = dimension;
+    setup.bodies = world.bodies;
+    setup.tools = world.tools;
+    setup.tool_meshes = {&world.meshes[0]};
+    const Features f = build_features(setup, world.x);
+    NodeField place = f.place;
+    for (Node& p : place) p += node(world.path[0](0));
+    for (double radius : {.02, .1, .4}) {
+      Workspace work;
+      const NearList list = build_list(f, world.x, place, {true}, {false}, {PlanePose()}, radius, work);
+      std::set<std::pair<int, int>> listed, expected, edges_listed, edges_expected;
+      for (const auto& g : list.groups)
+        for (int i = g.first; i < g.last; ++i) EXPECT_TRUE(listed.insert({g.vertex, list.facets[i].facet}).second);
+      for (const auto& e : list.edges) EXPECT_TRUE(edges_listed.insert({e.first, e.second}).second);
+      const auto at = [&](int v) -> const Node& { return v < f.body_nodes ? world.x[v] : place[v - f.body_nodes]; };
+      for (int side = 0; side < 2; ++side)
+        for (int v : f.surfaces[side].vertices)
+          for (int i = f.surfaces[1 - side].first_facet; i < f.surfaces[1 - side].last_facet; ++i) {
+            const auto& c = f.facets[i];
+            const double d2 = dimension == 2 ? closest_on_segment_facet(at(v), at(c[0]), at(c[1])).squared : closest_on_triangle(at(v), at(c[0]), at(c[1]), at(c[2])).squared;
+            if (d2 <= radius * radius) expected.insert({v, i});
+          }
+      for (int a = f.surfaces[0].first_edge; a < f.surfaces[0].last_edge; ++a)
+        for (int b = f.surfaces[1].first_edge; b < f.surfaces[1].last_edge; ++b) {
+          const auto &p = f.edges[a].node, &q = f.edges[b].node;
+          if (closest_on_edges(at(p[0]), at(p[1]), at(q[0]), at(q[1])).squared <= radius * radius) edges_expected.insert({a, b});
+        }
+      EXPECT_EQ(listed, expected) << dimension << "D radius " << radius;
+      EXPECT_EQ(edges_listed, edges_expected);
+      if (radius == .4) {
+        EXPECT_GT(expected.size(), 50u);
+      }
+    }
+  }
+}
+
+TEST(ContactCrossing, FindsWhatPiercesAndWhatIsInside) {
+  World world;
+  world.dimension = 3;
+  world.add_box(Vec3(-.5, -.5, .1), 5, 5, 2, .2, 1, 0);
+  world.add_tool("die", contact_test::sheet(1, 2, [](double, double) { return 0.; }), 0, [](double t) { return Vec3(.013, 0, t); });
+  Contact contact = world.make();
+  EXPECT_EQ(contact.count_crossings(world.x, world.motion(0, 0)), 0);
+  // The plane cuts the sides between two layers of nodes: 20 vertical edges, 20 diagonals; its own diagonal pierces two sides.
+  EXPECT_EQ(contact.count_crossings(world.x, world.motion(.2, .2)), 42);
+}
