@@ -1,10 +1,14 @@
-"""Reads result.xdmf with VTK's two readers and compares what they show with result.h5."""
+"""Reads result.xdmf and compares what it shows with result.h5.
+
+First every reference of the file is followed with h5py, then VTK's two readers
+are asked. They are in ParaView's VTK (package python3-paraview), not in Debian's
+python3-vtk9: exit code 77 where they are missing.
+"""
 import sys
+import xml.etree.ElementTree
 
 import h5py
 import numpy as np
-import vtk
-from vtk.util.numpy_support import vtk_to_numpy
 
 
 def leaves(data):
@@ -19,7 +23,7 @@ def leaves(data):
         if block is not None and block.GetNumberOfPoints():
             name = ""
             if iterator.HasCurrentMetaData():
-                name = iterator.GetCurrentMetaData().Get(vtk.vtkCompositeDataSet.NAME()) or ""
+                name = iterator.GetCurrentMetaData().Get(vtkCompositeDataSet.NAME()) or ""
             found.append((name, block))
         iterator.GoToNextItem()
     return found
@@ -30,7 +34,7 @@ def compare(reader_class, path, result):
     reader.SetFileName(path)
     reader.UpdateInformation()
     information = reader.GetOutputInformation(0)
-    key = vtk.vtkStreamingDemandDrivenPipeline.TIME_STEPS()
+    key = vtkStreamingDemandDrivenPipeline.TIME_STEPS()
     times = [information.Get(key, i) for i in range(information.Length(key))]
     names = sorted(result["frames"])
     expected_times = [result["frames"][name].attrs["time"] for name in names]
@@ -57,11 +61,35 @@ def compare(reader_class, path, result):
     print(reader_class.__name__, "shows", len(names), "frames as in the file")
 
 
+def check_references(path, result):
+    """Every data item names a data set of the size and the type that it states."""
+    items = xml.etree.ElementTree.parse(path).getroot().findall(".//DataItem")
+    assert items
+    for item in items:
+        file_name, name = item.text.split(":")
+        assert file_name == "result.h5", file_name
+        data = result[name]
+        assert tuple(int(n) for n in item.get("Dimensions").split()) == data.shape, name
+        assert {"Int": "i", "Float": "f"}[item.get("NumberType")] == data.dtype.kind, name
+        assert int(item.get("Precision")) == data.dtype.itemsize, name
+
+
 def main():
     directory = sys.argv[1]
     with h5py.File(directory + "/result.h5", "r") as result:
-        for reader in (vtk.vtkXdmfReader, vtk.vtkXdmf3Reader):
+        check_references(directory + "/result.xdmf", result)
+        for reader in (vtkXdmfReader, vtkXdmf3Reader):
             compare(reader, directory + "/result.xdmf", result)
 
 
+try:
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
+    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+    from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
+    from vtkmodules.vtkIOXdmf3 import vtkXdmf3Reader
+except ImportError:
+    with h5py.File(sys.argv[1] + "/result.h5", "r") as opened:
+        check_references(sys.argv[1] + "/result.xdmf", opened)
+    sys.exit(77)
 main()

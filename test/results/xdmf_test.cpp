@@ -1,5 +1,6 @@
 // result.xdmf: VTK's readers show what result.h5 holds, tools that come and go included.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <cstdlib>
 
@@ -24,7 +25,11 @@ void expect_vtk_reads(const ResultHeader& header) {
   }
   const std::string command =
       "/usr/bin/python3 " FORMING_SIM_SOURCE_DIR "/test/results/read_xdmf.py " + directory.path();
-  EXPECT_EQ(std::system(command.c_str()), 0);
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == 77)
+    GTEST_SKIP() << "the references are right; VTK's XDMF readers are missing: install python3-paraview";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 TEST(Xdmf, IsReadByVtkInPlaneStrain) { expect_vtk_reads(example_header(3)); }
