@@ -92,7 +92,7 @@ void ResultFile::write(const Frame& frame) {
 }
 
 void ResultFile::write_tool(Hdf5Group& tools, const Frame& frame, std::size_t index) {
-  const ToolPose& pose = frame.tools[index];
+  const FrameTool& pose = frame.tools[index];
   const std::string name = std::to_string(index);
   Hdf5Group tool = tools.create(name);
   tool.set("present", std::int64_t{pose.present});

@@ -104,7 +104,7 @@ Frame ResultReader::frame(std::size_t index) const {
   const Hdf5Group tools = group.group("tools");
   for (std::size_t i = 0; i < member_count(tools); ++i) {
     const Hdf5Group tool = tools.group(std::to_string(i));
-    ToolPose pose;
+    FrameTool pose;
     pose.position = vector(tool, "position");
     pose.rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(tool.read<double>("rotation").data());
     pose.force = vector(tool, "force");

@@ -47,7 +47,7 @@ class ResultFile {
   ResultHeader header_;
   Hdf5File file_;
   std::vector<FrameEntry> frames_;
-  std::vector<ToolPose> last_poses_;   ///< of the last frame written here
+  std::vector<FrameTool> last_poses_;   ///< of the last frame written here
 };
 
 }  // namespace forming_sim
