@@ -7,7 +7,7 @@ namespace forming_sim {
 
 void Recorder::on_start(const Simulation& simulation) {
   schedule_.start(simulation.time());
-  look(simulation);
+  if (record_.surface_strain.element < 0) look(simulation);  // not again after a resume
 }
 
 void Recorder::on_step(const Simulation& simulation) {
@@ -33,7 +33,10 @@ void Recorder::on_stage_end(const Simulation& simulation, int index) {
   if (std::isfinite(angle)) record_.angle_formed_deg = angle;
 }
 
-void Recorder::on_end(const Simulation& simulation, Code, const std::string&) { look(simulation); }
+void Recorder::on_end(const Simulation& simulation, Code code, const std::string&) {
+  // What a cancelled run takes with it must be what an unbroken one has.
+  if (code != Code::cancelled) look(simulation);
+}
 
 void Recorder::look(const Simulation& simulation) {
   const Measures& now = gauge_.at(simulation);

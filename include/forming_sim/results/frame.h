@@ -45,6 +45,7 @@ struct Frame {
   double time = 0;                     ///< s
   long step = 0;
   std::string stage;
+  bool interrupted = false;            ///< written because the run was cancelled here; a resumed run drops it
   NodeField positions, velocities;     ///< m, m/s
   std::vector<float> plastic_strain;   ///< equivalent, per element
   std::vector<std::array<float, 6>> stress;  ///< Cauchy, Pa, per element: xx yy zz xy yz zx
@@ -61,6 +62,7 @@ struct FrameEntry {
   std::string name;                    ///< "000012"
   double time = 0;
   long step = 0;
+  bool interrupted = false;
   std::vector<bool> tools_present;
 };
 
