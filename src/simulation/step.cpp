@@ -79,6 +79,10 @@ void Simulation::Impl::book(const ContactStep& done) {
   min_gap = std::min(min_gap, done.min_gap_over_layer);
   for (std::size_t k = 0; k < tools.size(); ++k) {
     ToolStatus& tool = tools[k];
+    if (!tool.present) {
+      tool.force = tool.moment = Vec3::Zero();
+      continue;
+    }
     tool.impulse += done.tool_impulse[k];
     const Vec3 about = done.tool_angular_impulse[k] - tool.position.cross(done.tool_impulse[k]);
     tool.force += (done.tool_impulse[k] / done.dt - tool.force) / kForceMeanSteps;
