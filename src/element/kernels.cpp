@@ -106,7 +106,7 @@ Pack viscous_pressure(const CellGroup& g, const Vector<Pack, kD<Cell>>* x, const
 }
 
 template <class Cell>
-void forces_of_block(const CellGroup& g, const NodalView& view, long block) {
+[[gnu::flatten]] void forces_of_block(const CellGroup& g, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   Vector<Pack, D> x[Cell::nodes], f[Cell::nodes];
@@ -190,7 +190,8 @@ template <class Cell> void volumes_of_block(const CellGroup& g, const NodalView&
   for (int a = 0; a < Cell::nodes; ++a) share[a].store(out + a * kLanes);
 }
 
-template <class Cell> BlockStep step_of_block(const CellGroup& g, const NodalView& view, long block) {
+template <class Cell>
+[[gnu::flatten]] BlockStep step_of_block(const CellGroup& g, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   Vector<Pack, D> x[Cell::nodes];
