@@ -1,69 +1,56 @@
 #include "forming_sim/results/estimate.h"
 
-#include <unistd.h>
+#include <cmath>
 
-#include <chrono>
-#include <cstdio>
-#include <fstream>
-
+#include "forming_sim/results/schedule.h"
 #include "forming_sim/scene/build.h"
-#include "forming_sim/simulation/simulation.h"
+#include "forming_sim/scene/validate.h"
 
 namespace forming_sim {
-
 namespace {
 
-/// Memory of this process that is in use, bytes.
-double resident_memory() {
-  std::ifstream file("/proc/self/statm");
-  double total = 0, resident = 0;
-  file >> total >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
-double seconds_of(const RunPlan& plan) {
-  double seconds = 0;
-  for (const StageConfig& stage : plan.stages) seconds += stage.kind == "settle" ? stage.limit : stage.duration;
-  return seconds;
-}
+constexpr long kWarmSteps = 5;         ///< first touch of the memory, choice of the kernels
+constexpr long kLeastSteps = 30, kMostSteps = 2000;
+constexpr double kMeasuredTime = 0.2;  ///< s
 
 }  // namespace
 
-RunEstimate estimate_cost(const Scene& scene, int threads) {
-  const RunPlan plan = build_plan(scene);
-  Simulation simulation(plan, build_model(scene), threads);
-  RunEstimate estimate;
-  estimate.nodes = simulation.model().node_count();
-  estimate.elements = simulation.model().element_count();
-  estimate.sim_time_s = seconds_of(plan);
-  estimate.time_step_s = simulation.first_dt();
-
-  using Clock = std::chrono::steady_clock;
-  constexpr double longest = 1;  // s
-  simulation.step();  // lists and caches are set up once
-  const auto start = Clock::now();
-  double elapsed = 0;
-  long steps = 0;
-  while (elapsed < longest && steps < 1000 && simulation.step()) {
-    ++steps;
-    elapsed = std::chrono::duration<double>(Clock::now() - start).count();
-  }
-  if (estimate.time_step_s <= 0) estimate.time_step_s = simulation.dt();
-  estimate.steps = estimate.sim_time_s / estimate.time_step_s;
-  if (steps > 0) estimate.wall_time_s = estimate.steps * elapsed / static_cast<double>(steps);
-  estimate.memory_bytes = resident_memory();
-  return estimate;
+Estimate estimate_run(const Scene& scene, int threads) {
+  std::vector<Fault> faults = validate(scene);
+  if (!faults.empty()) throw SceneError(std::move(faults));
+  Simulation simulation(build_plan(scene), build_model(scene), threads);
+  return estimate_run(simulation);
 }
 
-std::string estimate_text(const RunEstimate& estimate) {
-  char text[512];
-  std::snprintf(text, sizeof text,
-                "nodes            %ld\nelements         %ld\ntime step        %.3g s (in the initial configuration)\n"
-                "simulated time   %.3g s (settling by its limit)\nsteps            about %.3g\n"
-                "wall time        about %.3g s on this machine (contact not yet at work)\nmemory           %.3g MB\n",
-                estimate.nodes, estimate.elements, estimate.time_step_s, estimate.sim_time_s, estimate.steps,
-                estimate.wall_time_s, estimate.memory_bytes / 1e6);
-  return text;
+Estimate estimate_run(Simulation& simulation) {
+  Estimate estimate;
+  estimate.nodes = simulation.model().node_count();
+  estimate.elements = simulation.model().element_count();
+  // The state and its copy in a checkpoint, and per element what is kept besides:
+  // connectivity, the blocks of the kernels, the fields of a frame.
+  estimate.memory_bytes = 2.0 * static_cast<double>(simulation.save().size()) + 400.0 * static_cast<double>(estimate.elements);
+
+  bool more = true;
+  for (long i = 0; i < kWarmSteps && more; ++i) more = simulation.step();
+  const double time = simulation.time(), wall = simulation.wall_time();
+  const long first = simulation.steps();
+  const auto enough = [&] {
+    const long steps = simulation.steps() - first;
+    return steps >= kMostSteps || (steps >= kLeastSteps && simulation.wall_time() - wall >= kMeasuredTime);
+  };
+  while (more && !enough()) more = simulation.step();
+
+  const long measured = simulation.steps() - first;
+  if (measured == 0) {  // the whole run is shorter than the warm-up
+    estimate.steps = first;
+    estimate.time_step_s = first > 0 ? time / static_cast<double>(first) : 0;
+    estimate.wall_time_s = wall;
+    return estimate;
+  }
+  estimate.time_step_s = (simulation.time() - time) / static_cast<double>(measured);
+  estimate.steps = static_cast<long>(std::ceil(longest_time(simulation.plan().stages) / estimate.time_step_s));
+  estimate.wall_time_s = (simulation.wall_time() - wall) / static_cast<double>(measured) * static_cast<double>(estimate.steps);
+  return estimate;
 }
 
 }  // namespace forming_sim

@@ -59,7 +59,7 @@ std::optional<ResultFile> ResultFile::resume(const std::string& path, ResultHead
     ResultFile result(std::move(header), std::move(file));
     Hdf5Group frames = result.file_.root().group("frames");
     for (FrameEntry& entry : read_entries(result.file_.root())) {
-      if (entry.step > step) frames.remove(entry.name);
+      if (entry.step > step || entry.interrupted) frames.remove(entry.name);
       else result.frames_.push_back(std::move(entry));
     }
     result.file_.flush();
@@ -77,9 +77,10 @@ void ResultFile::write(const Frame& frame) {
   group.set("time_unit", "s");
   group.set("step", std::int64_t{frame.step});
   group.set("stage", frame.stage);
+  group.set("interrupted", std::int64_t{frame.interrupted});
   write_fields(group, frame);
   Hdf5Group tools = group.create("tools");
-  FrameEntry entry{name, frame.time, frame.step, {}};
+  FrameEntry entry{name, frame.time, frame.step, frame.interrupted, {}};
   for (std::size_t i = 0; i < frame.tools.size(); ++i) {
     write_tool(tools, frame, i);
     entry.tools_present.push_back(frame.tools[i].present);
@@ -92,7 +93,7 @@ void ResultFile::write(const Frame& frame) {
 }
 
 void ResultFile::write_tool(Hdf5Group& tools, const Frame& frame, std::size_t index) {
-  const ToolPose& pose = frame.tools[index];
+  const FrameTool& pose = frame.tools[index];
   const std::string name = std::to_string(index);
   Hdf5Group tool = tools.create(name);
   tool.set("present", std::int64_t{pose.present});

@@ -76,7 +76,7 @@ std::vector<FrameEntry> read_entries(const Hdf5Group& root) {
   const Hdf5Group frames = root.group("frames");
   for (const std::string& name : frames.names()) {
     const Hdf5Group frame = frames.group(name), tools = frame.group("tools");
-    FrameEntry entry{name, frame.number("time"), frame.integer("step"), {}};
+    FrameEntry entry{name, frame.number("time"), frame.integer("step"), frame.integer("interrupted") != 0, {}};
     for (std::size_t i = 0; i < member_count(tools); ++i)
       entry.tools_present.push_back(tools.group(std::to_string(i)).integer("present") != 0);
     entries.push_back(std::move(entry));
@@ -93,6 +93,7 @@ Frame ResultReader::frame(std::size_t index) const {
   frame.time = group.number("time");
   frame.step = group.integer("step");
   frame.stage = group.text("stage");
+  frame.interrupted = group.integer("interrupted") != 0;
   frame.positions = nodes(group.read<double>("positions"));
   frame.velocities = nodes(group.read<double>("velocities"));
   frame.plastic_strain = group.read<float>("plastic_strain");
@@ -104,7 +105,7 @@ Frame ResultReader::frame(std::size_t index) const {
   const Hdf5Group tools = group.group("tools");
   for (std::size_t i = 0; i < member_count(tools); ++i) {
     const Hdf5Group tool = tools.group(std::to_string(i));
-    ToolPose pose;
+    FrameTool pose;
     pose.position = vector(tool, "position");
     pose.rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(tool.read<double>("rotation").data());
     pose.force = vector(tool, "force");

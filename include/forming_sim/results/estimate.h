@@ -1,26 +1,23 @@
 #pragma once
 // What a run will cost, told before it starts.
-#include <string>
-
 #include "forming_sim/scene/scene.h"
+#include "forming_sim/simulation/simulation.h"
 
 namespace forming_sim {
 
-struct RunEstimate {
+struct Estimate {
   long nodes = 0, elements = 0;
-  double time_step_s = 0;   ///< stable step in the initial configuration
-  double sim_time_s = 0;    ///< all stages, settling by its limit
-  double steps = 0;         ///< sim_time_s / time_step_s; the step shrinks as cells are squeezed
-  double wall_time_s = 0;   ///< steps times the time of a step measured here, before most contact has begun
-  double memory_bytes = 0;  ///< of this process with the simulation in it
+  double time_step_s = 0;        ///< mean of the measured steps
+  long steps = 0;                ///< settle stages by their limits: an upper bound there
+  double wall_time_s = 0;        ///< at the measured speed; contact that comes later is not in it
+  double memory_bytes = 0;       ///< of the solver's data
 };
 
-/// Builds the simulation and takes its first steps, for at most a second.
-/// The scene must be valid. Throws what build_model and Simulation throw, and
-/// Error(mesh_error) where the first steps already fail.
-RunEstimate estimate_cost(const Scene& scene, int threads);
+/// Builds the scene and takes some dozens of real steps of it.
+/// Throws SceneError, Error (mesh_error, initial_penetration).
+Estimate estimate_run(const Scene& scene, int threads);
 
-/// A few lines for a terminal.
-std::string estimate_text(const RunEstimate& estimate);
+/// The same for a simulation at its start; it has made steps afterwards.
+Estimate estimate_run(Simulation& simulation);
 
 }  // namespace forming_sim

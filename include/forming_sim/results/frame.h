@@ -33,24 +33,25 @@ struct ResultHeader {
 };
 
 /// Where a tool stands: x = position + rotation X.
-struct ToolPose {
+struct FrameTool {
   Vec3 position = Vec3::Zero();        ///< m
   Mat3 rotation = Mat3::Identity();
   Vec3 force = Vec3::Zero();           ///< on the tool; N (N/m in plane strain)
   bool present = true;                 ///< false once withdrawn
 };
 
-/// Node fields are kept in double, element fields in single precision.
+/// Node fields are kept in double, element and facet fields in single precision.
 struct Frame {
   double time = 0;                     ///< s
   long step = 0;
   std::string stage;
+  bool interrupted = false;            ///< written because the run was cancelled here; a resumed run drops it
   NodeField positions, velocities;     ///< m, m/s
   std::vector<float> plastic_strain;   ///< equivalent, per element
   std::vector<std::array<float, 6>> stress;  ///< Cauchy, Pa, per element: xx yy zz xy yz zx
   std::vector<float> volume_ratio;     ///< V/V0, per element
   std::vector<float> surface_strain;   ///< largest in-plane log strain, per surface facet
-  std::vector<ToolPose> tools;         ///< in the order of ResultHeader::tools
+  std::vector<FrameTool> tools;         ///< in the order of ResultHeader::tools
 };
 
 /// von Mises stress of xx yy zz xy yz zx.
@@ -61,6 +62,7 @@ struct FrameEntry {
   std::string name;                    ///< "000012"
   double time = 0;
   long step = 0;
+  bool interrupted = false;
   std::vector<bool> tools_present;
 };
 

@@ -85,6 +85,7 @@ class Hdf5File {
   Hdf5File(const std::string& path, Mode mode);
   ~Hdf5File();
   Hdf5File(Hdf5File&&) noexcept = default;
+  Hdf5File& operator=(Hdf5File&&) noexcept = default;
   Hdf5Group root() const;
   /// All that was written is in the file when it returns.
   void flush();

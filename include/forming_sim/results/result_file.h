@@ -9,7 +9,7 @@
 //   /topology/initial_positions  nodes x 3, m (z = 0 in plane strain)
 //   /bodies/<index>         attribute name; sets/<name>: node numbers, int32
 //   /tools/<index>          attribute name; points (m), facets, or plane_point and plane_normal
-//   /frames/NNNNNN          attributes time, step, stage; positions, velocities, plastic_strain,
+//   /frames/NNNNNN          attributes time, step, stage, interrupted; positions, velocities, plastic_strain,
 //                           stress (xx yy zz xy yz zx), mises, volume_ratio, surface_strain;
 //                           tools/<index>: points (m, as they stand), position, rotation, force,
 //                           attribute present
@@ -47,7 +47,7 @@ class ResultFile {
   ResultHeader header_;
   Hdf5File file_;
   std::vector<FrameEntry> frames_;
-  std::vector<ToolPose> last_poses_;   ///< of the last frame written here
+  std::vector<FrameTool> last_poses_;   ///< of the last frame written here
 };
 
 }  // namespace forming_sim
