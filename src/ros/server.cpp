@@ -35,7 +35,7 @@ SimulateFormingResult rejection(const std::vector<Fault>& faults) {
   return result;
 }
 
-CostEstimate estimate_message(const RunEstimate& estimate) {
+CostEstimate estimate_message(const Estimate& estimate) {
   CostEstimate message;
   message.nodes = estimate.nodes;
   message.elements = estimate.elements;
@@ -211,7 +211,7 @@ bool FormingServer::on_estimate(EstimateRun::Request& request, EstimateRun::Resp
   Prepared prepared = prepare(request.scene, "", threads);
   if (prepared.faults.empty()) {
     try {
-      response.estimate = estimate_message(estimate_cost(prepared.scene, threads));
+      response.estimate = estimate_message(estimate_run(prepared.scene, threads));
     } catch (const Error& error) {
       prepared.faults.push_back({error.code(), "scene", error.what(), "change the scene so that it can start"});
     } catch (const std::exception& error) {

@@ -1,5 +1,7 @@
 #pragma once
 // What a run will cost, told before it starts.
+#include <string>
+
 #include "forming_sim/scene/scene.h"
 #include "forming_sim/simulation/simulation.h"
 
@@ -8,6 +10,7 @@ namespace forming_sim {
 struct Estimate {
   long nodes = 0, elements = 0;
   double time_step_s = 0;        ///< mean of the measured steps
+  double sim_time_s = 0;         ///< of all stages, settle stages by their limits
   long steps = 0;                ///< settle stages by their limits: an upper bound there
   double wall_time_s = 0;        ///< at the measured speed; contact that comes later is not in it
   double memory_bytes = 0;       ///< of the solver's data
@@ -19,5 +22,8 @@ Estimate estimate_run(const Scene& scene, int threads);
 
 /// The same for a simulation at its start; it has made steps afterwards.
 Estimate estimate_run(Simulation& simulation);
+
+/// As lines to read.
+std::string estimate_text(const Estimate& estimate);
 
 }  // namespace forming_sim
