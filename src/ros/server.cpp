@@ -35,12 +35,11 @@ SimulateFormingResult rejection(const std::vector<Fault>& faults) {
   return result;
 }
 
-CostEstimate estimate_message(const RunEstimate& estimate) {
+CostEstimate estimate_message(const Estimate& estimate) {
   CostEstimate message;
   message.nodes = estimate.nodes;
   message.elements = estimate.elements;
   message.time_step_s = estimate.time_step_s;
-  message.sim_time_s = estimate.sim_time_s;
   message.steps = estimate.steps;
   message.wall_time_s = estimate.wall_time_s;
   message.memory_bytes = estimate.memory_bytes;
@@ -211,7 +210,7 @@ bool FormingServer::on_estimate(EstimateRun::Request& request, EstimateRun::Resp
   Prepared prepared = prepare(request.scene, "", threads);
   if (prepared.faults.empty()) {
     try {
-      response.estimate = estimate_message(estimate_cost(prepared.scene, threads));
+      response.estimate = estimate_message(estimate_run(prepared.scene, threads));
     } catch (const Error& error) {
       prepared.faults.push_back({error.code(), "scene", error.what(), "change the scene so that it can start"});
     } catch (const std::exception& error) {
