@@ -31,7 +31,6 @@ Estimate estimate_run(Simulation& simulation) {
   // connectivity, the blocks of the kernels, the fields of a frame.
   estimate.memory_bytes = 2.0 * static_cast<double>(simulation.save().size()) + 400.0 * static_cast<double>(estimate.elements);
 
-  estimate.sim_time_s = longest_time(simulation.plan().stages);
   bool more = true;
   for (long i = 0; i < kWarmSteps && more; ++i) more = simulation.step();
   const double time = simulation.time(), wall = simulation.wall_time();
@@ -50,7 +49,7 @@ Estimate estimate_run(Simulation& simulation) {
     return estimate;
   }
   estimate.time_step_s = (simulation.time() - time) / static_cast<double>(measured);
-  estimate.steps = static_cast<long>(std::ceil(estimate.sim_time_s / estimate.time_step_s));
+  estimate.steps = static_cast<long>(std::ceil(longest_time(simulation.plan().stages) / estimate.time_step_s));
   estimate.wall_time_s = (simulation.wall_time() - wall) / static_cast<double>(measured) * static_cast<double>(estimate.steps);
   return estimate;
 }
@@ -58,8 +57,8 @@ Estimate estimate_run(Simulation& simulation) {
 std::string estimate_text(const Estimate& estimate) {
   char text[512];
   std::snprintf(text, sizeof text,
-                "nodes       %ld\nelements    %ld\ntime step   %.3g s\nsteps       %ld, settling counted by its limit\n"
-                "wall time   about %.3g s on this machine\nmemory      %.3g MB\n",
+                "nodes        %ld\nelements     %ld\ntime step    %.3g s\nsteps        about %ld (settling by its limit)\n"
+                "wall time    about %.3g s on this machine (without contact that comes later)\nmemory       about %.3g MB\n",
                 estimate.nodes, estimate.elements, estimate.time_step_s, estimate.steps, estimate.wall_time_s,
                 estimate.memory_bytes / 1e6);
   return text;

@@ -40,7 +40,6 @@ CostEstimate estimate_message(const Estimate& estimate) {
   message.nodes = estimate.nodes;
   message.elements = estimate.elements;
   message.time_step_s = estimate.time_step_s;
-  message.sim_time_s = estimate.sim_time_s;
   message.steps = estimate.steps;
   message.wall_time_s = estimate.wall_time_s;
   message.memory_bytes = estimate.memory_bytes;

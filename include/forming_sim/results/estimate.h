@@ -10,7 +10,6 @@ namespace forming_sim {
 struct Estimate {
   long nodes = 0, elements = 0;
   double time_step_s = 0;        ///< mean of the measured steps
-  double sim_time_s = 0;         ///< of all stages, settle stages by their limits
   long steps = 0;                ///< settle stages by their limits: an upper bound there
   double wall_time_s = 0;        ///< at the measured speed; contact that comes later is not in it
   double memory_bytes = 0;       ///< of the solver's data
@@ -23,7 +22,7 @@ Estimate estimate_run(const Scene& scene, int threads);
 /// The same for a simulation at its start; it has made steps afterwards.
 Estimate estimate_run(Simulation& simulation);
 
-/// As lines to read.
+/// A few lines for a terminal.
 std::string estimate_text(const Estimate& estimate);
 
 }  // namespace forming_sim
