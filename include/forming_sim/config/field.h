@@ -17,7 +17,8 @@
 //
 // Messages have no "absent": there 0, "" and [] mean "not given". Therefore a
 // field whose default is not zero may not have zero in its range (a test holds
-// every declaration to it), and bool fields default to false.
+// every declaration to it), bool fields default to false, and a required field
+// may not have zero as a sensible value unless it says may_be_zero().
 #include <limits>
 #include <string>
 #include <vector>
@@ -35,6 +36,9 @@ class Field {
   Field& doc(std::string text) { doc_ = std::move(text); return *this; }
   /// Missing is a fault (only where `when` applies).
   Field& required() { required_ = true; return *this; }
+  /// Of a required field: zero is a value like any other, so a message that
+  /// holds zero has given it.
+  Field& may_be_zero() { may_be_zero_ = true; return *this; }
   Field& above(double bound) { min_ = bound; min_open_ = true; return *this; }
   Field& at_least(double bound) { min_ = bound; min_open_ = false; return *this; }
   Field& below(double bound) { max_ = bound; max_open_ = true; return *this; }
@@ -55,6 +59,7 @@ class Field {
   const std::string& unit() const { return unit_; }
   const std::string& doc() const { return doc_; }
   bool is_required() const { return required_; }
+  bool zero_is_given() const { return may_be_zero_; }
   double min() const { return min_; }
   double max() const { return max_; }
   bool min_open() const { return min_open_; }
@@ -73,7 +78,7 @@ class Field {
   std::vector<std::string> choices_, when_values_;
   double min_ = -std::numeric_limits<double>::infinity();
   double max_ = std::numeric_limits<double>::infinity();
-  bool min_open_ = false, max_open_ = false, required_ = false;
+  bool min_open_ = false, max_open_ = false, required_ = false, may_be_zero_ = false;
 };
 
 }  // namespace forming_sim

@@ -85,7 +85,7 @@ struct ProfilePieceConfig {
   double radius = 0;
 
   template <class Visitor> static void declare(Visitor&& visit) {
-    visit(FORMING_SIM_FIELD(to), Field().unit("m").required().doc("end point of the piece"));
+    visit(FORMING_SIM_FIELD(to), Field().unit("m").required().may_be_zero().doc("end point of the piece"));
     visit(FORMING_SIM_FIELD(radius), Field().unit("m").doc("0: straight line; otherwise the arc of at most 180 degrees with this radius, positive: turning left (counter-clockwise) on the way, negative: turning right"));
   }
 };

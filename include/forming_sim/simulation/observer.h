@@ -32,7 +32,7 @@ struct StepLimit {
 
 struct ContactStatus {
   long halvings = 0;      ///< steps halved by the continuous check so far
-  long crossings = 0;     ///< found by the independent check of all pairs at output times; must be 0
+  long crossings = 0;     ///< found by the independent check of all pairs, 200 times in a run and at the end of each stage; must be 0
   double min_gap_over_layer = 1;  ///< smallest gap / h0 so far; 1 where nothing ever touched
   double layer = 0;       ///< h0, m
   long active_pairs = 0, listed_pairs = 0;
@@ -43,8 +43,9 @@ struct ToolStatus {
   Vec3 position = Vec3::Zero();            ///< of the tool's frame, m
   Mat3 rotation = Mat3::Identity();        ///< tool frame to world
   Vec3 velocity = Vec3::Zero();
-  Vec3 force = Vec3::Zero();               ///< on the tool by the bodies, mean over the last 50 steps; N (N/m in plane strain)
+  Vec3 force = Vec3::Zero();               ///< on the tool by the bodies, running mean over about 50 steps; N (N/m in plane strain)
   Vec3 moment = Vec3::Zero();              ///< about `position`
+  Vec3 impulse = Vec3::Zero();             ///< of all contact so far, N s: differences give the mean force of an interval
   Vec3 peak_force = Vec3::Zero();          ///< force of greatest magnitude so far
   bool present = true;                     ///< false once withdrawn
 };

@@ -6,15 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "forming_sim/simulation/plan.h"
+#include "forming_sim/element/elements.h"
 #include "forming_sim/simulation/model.h"
 #include "forming_sim/simulation/observer.h"
+#include "forming_sim/simulation/plan.h"
 #include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
 
-/// Symmetric tensor as xx yy zz xy yz zx.
-using Sym = Eigen::Matrix<double, 6, 1>;
 
 /// How a run ended.
 struct Outcome {
@@ -57,10 +56,12 @@ class Simulation {
   const NodeField& initial_positions() const;
   const NodeField& positions() const;
   const NodeField& velocities() const;   ///< at the half step before time()
-  const StepLimit& step_limit() const;
+  StepLimit step_limit() const;
   double first_dt() const;
-  const StepLimit& smallest_step() const;
-  const Energies& energies() const;  ///< at the last step (evaluated every step)
+  StepLimit smallest_step() const;
+  /// The ledger at the half step before time(), where every term of it is known to
+  /// second order; evaluated when asked, at the cost of about one pass over the elements.
+  const Energies& energies() const;
   double balance_error() const;      ///< |residual| now over the largest work + initial so far
   ContactStatus contact_status() const;
   const std::vector<ToolStatus>& tools() const;
@@ -70,8 +71,8 @@ class Simulation {
   std::vector<double> plastic_strain() const;
   std::vector<Sym> stress() const;              ///< Cauchy, Pa
   std::vector<double> volume_ratio() const;     ///< V / V0
-  /// Log strain of the in-plane principal stretch that is largest on each
-  /// surface facet (same order as surface()), extrapolated to the surface.
+  /// Largest principal log strain in each surface facet's own plane (same order as
+  /// surface()): the stretch of the facet itself, hence on the surface.
   std::vector<double> surface_strain() const;
 
   // ---- checkpoint: every number that the next steps depend on

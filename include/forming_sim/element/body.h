@@ -1,0 +1,20 @@
+#pragma once
+// A deformable body as the elements see it.
+#include <string>
+
+#include "forming_sim/material/config.h"
+#include "forming_sim/mesh/mesh.h"
+
+namespace forming_sim {
+
+/// A body's share of the joined mesh.
+struct BodyModel {
+  std::string name;
+  int first_node = 0, node_count = 0;
+  int first_element = 0, element_count = 0;  ///< simplices
+  MaterialConfig material;
+  std::string pressure_average = "cell";     ///< cell | node | element
+  Mesh mesh;                     ///< its own mesh, nodes numbered from 0; sets hold the named sets of the scene too
+};
+
+}  // namespace forming_sim

@@ -1,0 +1,82 @@
+#pragma once
+// Cells of one kind and one material, in blocks of kLanes cells, and the kernels
+// that run over them. Arrays are structures of arrays within a block:
+// [block][item][lane]. The last block is filled up with copies of its last cell;
+// the copies are computed and never read.
+#include "forming_sim/material/von_mises.h"
+
+namespace forming_sim {
+
+/// Over what the pressure p = K (V/V0 - 1) is averaged.
+enum class PressureMode { cell, element, node };
+
+/// Memory of a simplex: G^X (4 or 6 components), plastic strain p, V0.
+template <int D> constexpr int kMemory = D == 2 ? 6 : 8;
+
+/// Doubles of a force record: the last of a record in 3D is zero.
+template <int D> constexpr int kRecord = D == 2 ? 2 : 4;
+
+/// One item of kLanes elements, aligned for the widest kernels.
+struct alignas(64) Lane {
+  double value[kLanes] = {};
+  double& operator[](int l) { return value[l]; }
+  double operator[](int l) const { return value[l]; }
+};
+
+struct CellGroup {
+  int kind = 0;             ///< CellKind
+  int dimension = 0;
+  int cell_nodes = 0, cell_simplices = 0;
+  int cells = 0, blocks = 0;
+  PressureMode pressure = PressureMode::cell;
+  double element_share = 0;        ///< theta: share of the element's own volume in a cell's pressure
+  SolidConstants solid;
+  double density = 0;              ///< kg/m3, scaled
+  double linear_viscosity = 0, quadratic_viscosity = 0;
+
+  const int* nodes = nullptr;      ///< [block][cell node][lane] joined node index
+  double* memory = nullptr;        ///< [block][simplex][kMemory][lane]
+  double* records = nullptr;       ///< [block][cell node][lane][kRecord]: forces, N; or volumes for nodal pressure
+  double* plastic_work = nullptr;  ///< [block] dissipated so far, J
+  double* viscous_work = nullptr;  ///< [block] dissipated so far by bulk viscosity, J
+  double* lowest_ratio = nullptr;  ///< [block] smallest V/V0 of the last force pass
+};
+
+/// Nodal fields as the kernels read them: four doubles a node.
+struct NodalView {
+  const double* x = nullptr;          ///< positions
+  const double* v = nullptr;          ///< velocities, read only with bulk viscosity
+  const double* pressure = nullptr;   ///< [node] nodal pressure, read only in PressureMode::node
+  double dt = 0;                      ///< s, for the viscous work
+};
+
+/// Result of the time-step pass for one block.
+struct BlockStep {
+  double dt;   ///< s, stable step of the most restrictive lane
+  int lane;
+};
+
+/// The kernels of one vector width, for blocks [first, last) of a group.
+struct Kernels {
+  const char* name;
+  /// Stress, plastic flow, nodal forces into `records`.
+  void (*forces)(const CellGroup&, const NodalView&, int first, int last);
+  /// Share of the current volume of each cell node into `records` ([block][cell node][lane]).
+  void (*volumes)(const CellGroup&, const NodalView&, int first, int last);
+  /// Stable time step by the bound of element/time_step.h.
+  void (*time_step)(const CellGroup&, const NodalView&, int first, int last, BlockStep* out);
+  /// Cauchy stress [block][simplex][6][lane], V/V0 [block][simplex][lane] and stored
+  /// deviatoric plus volumetric energy [block], without changing the memory.
+  void (*observe)(const CellGroup&, const NodalView&, int first, int last, double* stress, double* ratio,
+                  double* energy);
+};
+
+/// The widest kernels that this processor runs; `name` ("sse2", "avx2", "avx512")
+/// asks for one set. Throws Error(internal_error) where the processor lacks it.
+const Kernels& choose_kernels(const char* name = nullptr);
+
+namespace sse2 { const Kernels& kernels(); }
+namespace avx2 { const Kernels& kernels(); }
+namespace avx512 { const Kernels& kernels(); }
+
+}  // namespace forming_sim

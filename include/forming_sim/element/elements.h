@@ -1,0 +1,80 @@
+#pragma once
+// All elements of a model: their memory, their forces on the nodes, their time
+// step. Results do not depend on the number of threads: a node adds up the forces
+// of its cells in a fixed order.
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "forming_sim/element/cell_group.h"
+#include "forming_sim/config/fault.h"
+#include "forming_sim/element/body.h"
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+using Sym = Eigen::Matrix<double, 6, 1>;  ///< xx yy zz xy yz zx
+
+struct ElementFields {
+  std::vector<Sym> stress;             ///< Cauchy, Pa
+  std::vector<double> volume_ratio;    ///< V / V0
+  double stored_energy = 0;            ///< J
+};
+
+struct ElementOptions {
+  double mass_scaling = 1;
+  double linear_viscosity = 0, quadratic_viscosity = 0;
+};
+
+class Elements {
+ public:
+  /// x: initial positions in the joined numbering; the memory starts there, free of stress.
+  /// kernels: see choose_kernels. Throws Error(mesh_error) for a volume that is not positive.
+  Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x, const ElementOptions& options, int threads,
+           const char* kernels = nullptr);
+  ~Elements();
+
+  const std::vector<std::array<int, 4>>& simplices() const { return simplices_; }
+  const std::vector<double>& nodal_mass() const { return mass_; }  ///< kg, scaled
+
+  /// f = internal forces at x (N); updates the memory of what yields.
+  /// v, dt: for bulk viscosity. Throws Error(mesh_error) naming an element whose
+  /// volume is not positive or not a number.
+  void forces(const NodeField& x, const NodeField& v, double dt, NodeField& f);
+  /// Stable time step at x, without a safety factor: dt and the simplex' cell.
+  void stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const;
+
+  double plastic_work() const;   ///< dissipated so far, J
+  double viscous_work() const;   ///< dissipated so far by bulk viscosity, J
+  std::vector<double> plastic_strain() const;
+  ElementFields observe(const NodeField& x) const;
+
+  /// Numbers that the next steps depend on, in a fixed order.
+  void append_state(std::vector<double>& to) const;
+  const double* read_state(const double* from);
+  const char* kernel_name() const;
+
+ private:
+  struct Group;
+  struct Location { int group, cell, simplex; };
+  Location locate(int element) const;
+  [[noreturn]] void report_inversion(const NodeField& x) const;
+  void nodal_pressure(const NodalView& view) const;
+  template <class Work> void over_blocks(Work&& work) const;
+
+  const Kernels& kernels_;
+  int dimension_, threads_;
+  std::vector<Group> groups_;
+  std::vector<std::array<int, 4>> simplices_;
+  std::vector<double> mass_;
+  std::vector<int> record_start_, record_index_;     ///< records of a node
+  std::vector<Lane> record_storage_;
+  double* records_ = nullptr;                        ///< [record][kRecord]
+  int record_size_ = 0;
+  mutable std::vector<double> pressure_, nodal_volume0_, nodal_bulk_;  ///< nodal pressure only
+  bool any_nodal_ = false;
+  std::vector<std::string> body_of_group_;
+};
+
+}  // namespace forming_sim

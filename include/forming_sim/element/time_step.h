@@ -1,0 +1,117 @@
+#pragma once
+// The stable time step of a cell, dt = 2/omega.
+//
+// omega^2 <= max over simplices (deviatoric part) + omega_vol^2 (pressure part):
+// * Deviatoric, one linear simplex with equal nodal masses rho V0/(d+1) and
+//   S = sum_a g_a g_a^T (g_a the shape gradients): the largest eigenvalue of the
+//   stiffness 2 mu dev(eps) is, exactly,
+//     (d+1)/rho mu max( 2 (I1/3 + sqrt(I1^2/9 - I2/3)), s1 + s2 ),
+//   I1, I2 the invariants and s1 >= s2 >= s3 the eigenvalues of S; in plane strain
+//   I1 = s1 + s2, I2 = s1 s2. In 3D s1 + s2 = I1 - s3 with s3 bounded from below by
+//   the iteration s3 <- 4 I3/(I1 - s3)^2. Large elastic strain enters by its
+//   tangent: mu -> mu J^(-2/3) lambda_max(B), lambda_max <= tr B/3 + 2/3 q_B.
+// * Pressure: one mode per cell, K/V0 grad V grad V^T, whose eigenvalue with the
+//   cell's nodal masses is  omega_vol^2 = K/V0 sum_a |dV/dx_a|^2 / m_a.
+//   With a share theta of the element's own pressure the two add up. With p per element it is the element's own; with p per node the element's
+//   own bounds it (the squares of means do not exceed the means of squares).
+// Bulk viscosity eta = rho l (b1 c + b2^2 l |D|) adds the damping
+//   xi = omega_eta^2 / (2 omega), omega_eta^2 = eta/V sum_a |dV/dx_a|^2 / m_a
+// and the step becomes 2/omega (sqrt(1 + xi^2) - xi).
+#include "forming_sim/element/cell_group.h"
+
+namespace forming_sim {
+
+template <class T, int D, int Nodes> class StepBound {
+ public:
+  explicit StepBound(const CellGroup& g) : g_(g), deviatoric_(0.0), element_(0.0), V_(0.0), V0_(0.0) {
+    for (int a = 0; a < Nodes; ++a) {
+      mass_[a] = T(0.0);
+      for (int i = 0; i < D; ++i) gradient_[a][i] = T(0.0);
+    }
+  }
+
+  template <class Corners>
+  void add(const Edges<T, D>& e, const Symmetric<T, D>& B, const T& V0, const Corners& corner) {
+    Vector<T, D> g[D + 1];
+    g[0] = T(-1.0) * e.up[0];
+    for (int m = 0; m < D; ++m) {
+      g[m + 1] = e.up[m];
+      if (m > 0) g[0] += T(-1.0) * e.up[m];
+    }
+    Symmetric<T, D> S;
+    for (int i = 0; i < Symmetric<T, D>::size; ++i) S[i] = T(0.0);
+    for (int a = 0; a <= D; ++a) {
+      for (int i = 0; i < D; ++i) S[i] += g[a][i] * g[a][i];
+      S[3] += g[a][0] * g[a][1];
+      if constexpr (D == 3) {
+        S[4] += g[a][1] * g[a][2];
+        S[5] += g[a][2] * g[a][0];
+      }
+    }
+    T I1, I2, shear;
+    if constexpr (D == 2) {
+      I1 = S[0] + S[1];
+      I2 = S[0] * S[1] - S[3] * S[3];
+      shear = I1;
+    } else {
+      const Symmetric<T, 3> cof = cofactor(S);
+      I1 = trace(S);
+      I2 = trace(cof);
+      const T I3 = determinant(S, cof);
+      T s3(0.0);
+      for (int i = 0; i < 3; ++i) s3 = T(4.0) * I3 / ((I1 - s3) * (I1 - s3));
+      shear = I1 - s3;
+    }
+    const T root = sqrt(larger(I1 * I1 * T(1.0 / 9) - I2 * T(1.0 / 3), T(0.0)));
+    const T largest = larger(T(2.0) * (I1 * T(1.0 / 3) + root), shear);
+    const T J = e.volume / V0;
+    const T j13 = g_.solid.paper ? T(1.0) : inverse_cube_root(J);
+    const T tangent = (g_.solid.paper ? J : j13 * j13) *
+                      (trace(B) * T(1.0 / 3) + T(2.0 / 3) * mises(deviator(B)));
+    const T omega2 = T((D + 1) / g_.density * g_.solid.mu) * tangent * largest;
+    const T volumetric = T((D + 1) * g_.solid.K / g_.density) * J * J * trace_in_plane(S);
+    deviatoric_ = larger(deviatoric_, omega2);
+    element_ = larger(element_, omega2 + volumetric);
+    own_ = larger(own_, volumetric);
+    V_ += e.volume;
+    V0_ += V0;
+    const T share = V0 * T(g_.density / (D + 1));
+    for (int a = 0; a <= D; ++a) {
+      gradient_[corner[a]] += e.volume * g[a];
+      mass_[corner[a]] += share;
+    }
+  }
+
+  /// rate: |dV/dt|/V, for the quadratic viscosity.
+  T step(const T& rate) const {
+    T sum(0.0);
+    for (int a = 0; a < Nodes; ++a) sum += dot(gradient_[a], gradient_[a]) / mass_[a];
+    const T cell_volumetric = T(g_.solid.K) / V0_ * sum;
+    const bool per_cell = g_.pressure == PressureMode::cell;
+    const double theta = per_cell ? g_.element_share : 0;
+    const T omega2 = per_cell ? deviatoric_ + T(1 - theta) * cell_volumetric + T(theta) * own_ : element_;
+    const T omega = sqrt(omega2);
+    T dt = T(2.0) / omega;
+    if (g_.linear_viscosity > 0 || g_.quadratic_viscosity > 0) {
+      const T l = lanewise([](double V) { return D == 2 ? __builtin_sqrt(V) : __builtin_cbrt(V); }, V_);
+      const double c = __builtin_sqrt((g_.solid.K + 4.0 / 3 * g_.solid.mu) / g_.density);
+      const double b2 = g_.quadratic_viscosity;
+      const T eta = T(g_.density) * l * (T(g_.linear_viscosity * c) + T(b2 * b2) * l * rate);
+      const T xi = eta / V_ * sum / (T(2.0) * omega);
+      dt = dt * (sqrt(T(1.0) + xi * xi) - xi);
+    }
+    return dt;
+  }
+
+ private:
+  static T trace_in_plane(const Symmetric<T, D>& S) {
+    if constexpr (D == 2) return S[0] + S[1];
+    else return trace(S);
+  }
+  const CellGroup& g_;
+  T deviatoric_, element_, own_{0.0}, V_, V0_;
+  Vector<T, D> gradient_[Nodes];
+  T mass_[Nodes];
+};
+
+}  // namespace forming_sim

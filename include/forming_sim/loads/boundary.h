@@ -1,0 +1,88 @@
+#pragma once
+// Nodes that are held or driven: projectors and prescribed velocities.
+#include <string>
+#include <vector>
+
+#include "forming_sim/loads/config.h"
+#include "forming_sim/loads/profile.h"
+#include "forming_sim/mesh/mesh.h"
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+/// A boundary with its nodes in the joined numbering.
+struct ResolvedBoundary {
+  BoundaryConfig config;
+  std::string body;  ///< for messages
+  std::vector<int> nodes;
+};
+
+/// Looks up the set of a boundary in its body's mesh.
+/// Throws Error(invalid_scene) naming a set that is missing or empty.
+ResolvedBoundary resolve(const BoundaryConfig& config, const std::string& body, const Mesh& mesh,
+                         int first_node);
+
+/// All held or driven nodes of a model. A node may be in several boundaries:
+/// their directions are orthonormalised into one space of fixed directions.
+class BoundarySet {
+ public:
+  BoundarySet() = default;
+  /// Throws Error(invalid_scene) for an axis, kind or normal that means nothing,
+  /// and where two boundaries prescribe different velocities of one node along
+  /// one direction, naming node, body and both sets.
+  BoundarySet(const std::vector<ResolvedBoundary>& boundaries, int dimension);
+
+  /// Constrained nodes, increasing.
+  const std::vector<int>& nodes() const { return nodes_; }
+  /// P of nodes()[k]: identity minus its fixed directions, symmetric, P P = P.
+  /// The inverse mass that contact sees is P / m.
+  const Mat3& projector(int k) const { return groups_[group_[k]].projector; }
+  /// Place of a node in nodes(), -1 where it is free.
+  int find(int node) const;
+
+  /// u(t) of nodes()[k]: the prescribed velocity, zero along free directions.
+  Vec3 prescribed(int k, double t) const;
+
+  /// f <- P f.
+  void project_force(NodeField& f) const;
+  /// v <- P v + u(t_mid). Returns the largest prescribed speed, m/s.
+  double apply_velocity(double t_mid, NodeField& v) const;
+
+  /// What the prescription pushed on nodes()[k] in a step, N s:
+  /// R = (I - P) [m (v_after - v_before) - dt f], f all other forces, before projection.
+  Vec3 reaction_impulse(int k, const Vec3& force, double mass, const Vec3& v_before, const Vec3& v_after,
+                        double dt) const;
+  /// Its work, J: R . (v_before + v_after) / 2. With it and dt f . (v_before +
+  /// v_after) / 2 for the other forces, the change of m v^2 / 2 is met exactly.
+  double work(int k, const Vec3& force, double mass, const Vec3& v_before, const Vec3& v_after,
+              double dt) const;
+  /// Sum over all constrained nodes, in their order.
+  double work(const NodeField& force, const std::vector<double>& mass, const NodeField& v_before,
+              const NodeField& v_after, double dt) const;
+
+ private:
+  /// u along one fixed direction: sum of weight . profile(t).
+  struct Term {
+    int profile;
+    Vec3 weight;
+  };
+  struct Direction {
+    Vec3 axis;
+    std::vector<Term> terms;
+  };
+  /// Nodes that are in the same boundaries share one group.
+  struct Group {
+    Mat3 projector = Mat3::Identity();
+    std::vector<Direction> directions;
+  };
+  Group merge(const std::vector<int>& members, const std::vector<ResolvedBoundary>& boundaries, int dimension,
+              int node) const;
+  double speed(const std::vector<Term>& terms, double t) const;
+  Vec3 prescribed(const Group& group, double t) const;
+
+  std::vector<VelocityProfile> profiles_;  ///< one per boundary; empty where it holds
+  std::vector<Group> groups_;
+  std::vector<int> nodes_, group_;  ///< group_[k] of nodes_[k]
+};
+
+}  // namespace forming_sim

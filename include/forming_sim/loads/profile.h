@@ -1,0 +1,40 @@
+#pragma once
+// Pressures and prescribed velocities over time.
+#include <string>
+#include <vector>
+
+#include "forming_sim/loads/curve.h"
+
+namespace forming_sim {
+
+/// A number over time: straight lines between knots, level before the first and
+/// after the last. Throws Error(invalid_scene) as Curve does. No knots: zero.
+class ScalarProfile {
+ public:
+  ScalarProfile() = default;
+  ScalarProfile(const std::vector<double>& times, const std::vector<double>& values);
+  double at(double t) const { return curve_.at(t).x(); }
+
+ private:
+  Curve curve_;
+};
+
+/// A velocity over time, m/s: constant outside its knots. shape "linear":
+/// straight lines; "smooth": cubics with zero acceleration at the knots.
+/// Throws Error(invalid_scene) for another shape and as Curve does. No knots: zero.
+class VelocityProfile {
+ public:
+  VelocityProfile() = default;
+  VelocityProfile(const std::vector<double>& times, const std::vector<Vec3>& velocities,
+                  const std::string& shape);
+  Vec3 at(double t) const { return velocity_.at(t); }
+  Vec3 acceleration(double t) const { return velocity_.slope(t); }
+  /// Exact integral of the velocity, m.
+  Vec3 displacement(double from, double to) const { return path_.at(to) - path_.at(from); }
+  const std::vector<double>& times() const { return velocity_.times(); }
+
+ private:
+  Curve velocity_, path_;
+};
+
+}  // namespace forming_sim

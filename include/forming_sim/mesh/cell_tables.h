@@ -1,0 +1,46 @@
+#pragma once
+// How each kind of cell is split into simplices, known at compile time so that
+// the element kernels can unroll over a cell. mesh.h describes the node orders.
+//
+// Every simplex of a well-shaped cell has a positive volume:
+// in 2D its three corners run counter-clockwise (the fourth entry is -1),
+// in 3D (x1 - x0) x (x2 - x0) . (x3 - x0) > 0.
+#include "forming_sim/mesh/mesh.h"
+
+namespace forming_sim {
+
+inline constexpr int kTriangle[1][4] = {{0, 1, 2, -1}};
+
+inline constexpr int kQuad2[2][4] = {{0, 1, 2, -1}, {0, 2, 3, -1}};
+
+inline constexpr int kCrossed[4][4] = {{0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}};
+
+inline constexpr int kTetrahedron[1][4] = {{0, 1, 2, 3}};
+
+/// The six corners beside the diagonal 0-6 form the ring 1 2 3 7 4 5. The
+/// diagonals of the faces are 0-2, 4-6, 0-5, 1-6, 3-6 and 0-7: two hexahedra
+/// match where their shared edges 0-1, 3-2, 4-5, 7-6 (and 0-3 ..., 0-4 ...)
+/// point the same way.
+inline constexpr int kHex6[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
+                                    {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+
+/// Corners of the faces of a hexahedron, counter-clockwise seen from outside,
+/// in the order of the face centres 8 ... 13: bottom, top, front, right, back, left.
+inline constexpr int kHexFaces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                        {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+
+/// Cell centre 14, an edge of a face, the centre of that face; face after face.
+inline constexpr int kHex24[24][4] = {
+    {14, 0, 3, 8},  {14, 3, 2, 8},  {14, 2, 1, 8},  {14, 1, 0, 8},
+    {14, 4, 5, 9},  {14, 5, 6, 9},  {14, 6, 7, 9},  {14, 7, 4, 9},
+    {14, 0, 1, 10}, {14, 1, 5, 10}, {14, 5, 4, 10}, {14, 4, 0, 10},
+    {14, 1, 2, 11}, {14, 2, 6, 11}, {14, 6, 5, 11}, {14, 5, 1, 11},
+    {14, 2, 3, 12}, {14, 3, 7, 12}, {14, 7, 6, 12}, {14, 6, 2, 12},
+    {14, 3, 0, 13}, {14, 0, 4, 13}, {14, 4, 7, 13}, {14, 7, 3, 13}};
+
+/// The shapes, indexed by CellKind.
+inline constexpr CellShape kShapes[kCellKinds] = {
+    {"triangle", 2, 3, 1, kTriangle},       {"quad2", 2, 4, 2, kQuad2}, {"crossed", 2, 5, 4, kCrossed},
+    {"tetrahedron", 3, 4, 1, kTetrahedron}, {"hex6", 3, 8, 6, kHex6},   {"hex24", 3, 15, 24, kHex24}};
+
+}  // namespace forming_sim

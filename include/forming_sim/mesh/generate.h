@@ -1,0 +1,18 @@
+#pragma once
+// Meshes of simple blanks.
+#include "forming_sim/mesh/config.h"
+#include "forming_sim/mesh/mesh.h"
+
+namespace forming_sim {
+
+/// The mesh of a strip (crossed or quad2), plate or bar (hex24 or hex6), with
+/// its surface and these sets:
+///   strip  left (least x) right bottom (least y) top
+///   plate  left (least x) right front (least y) back bottom (least z) top
+///   bar    bottom (least z) top side; symmetry_x (the face x = 0 of a half or
+///          quarter, relative to the origin), symmetry_y (y = 0 of a quarter)
+/// Sets hold the face centres of hex24 too.
+/// Throws Error(invalid_scene) for a length, count or name out of range.
+Mesh generate_blank(const BlankConfig& blank);
+
+}  // namespace forming_sim

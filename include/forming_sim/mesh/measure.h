@@ -1,0 +1,31 @@
+#pragma once
+// Volumes, areas and extents of a mesh.
+#include <array>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include "forming_sim/mesh/mesh.h"
+
+namespace forming_sim {
+
+/// Volume of a simplex, m3; in 2D its area, m2. Positive in the orders of mesh.h.
+double signed_volume(const std::vector<Vec3>& nodes, const std::array<int, 4>& simplex, int dimension);
+
+/// Sum over all simplices, m3 (m2 in 2D).
+double volume(const Mesh& mesh);
+
+/// Normal of a facet times its area, m2; of a segment: its normal to the right
+/// of the way from its first to its second node, times its length, m.
+Vec3 area_vector(const Mesh& mesh, const Facet& facet);
+
+/// Smallest axis-parallel box about all nodes; empty for a mesh without nodes.
+Eigen::AlignedBox3d bounds(const Mesh& mesh);
+
+/// Length of the diagonal of `bounds`, m; 0 for a mesh without nodes.
+double size_of(const Mesh& mesh);
+
+/// "(x, y, z) m", as messages name a place.
+std::string place(const Vec3& x);
+
+}  // namespace forming_sim

@@ -1,0 +1,34 @@
+#pragma once
+// Quadrilaterals and hexahedra into cells of simplices: adds the nodes in the
+// middle of cells and faces.
+#include <array>
+#include <map>
+#include <vector>
+
+#include "forming_sim/mesh/mesh.h"
+
+namespace forming_sim {
+
+using Quad = std::array<int, 4>;  ///< corners, counter-clockwise
+using Hex = std::array<int, 8>;   ///< 0-3 bottom, 4-7 above them
+
+/// The centre node that splitting put on a face or into a cell, by its corners.
+class Centres {
+ public:
+  void add(const int* corners, int count, int centre);
+  /// -1 where there is none.
+  int find(const int* corners, int count) const;
+  /// Adds to a set the centres of the faces whose four corners are all in it.
+  void extend_by_faces(std::vector<int>& set, const std::vector<Hex>& hexes) const;
+
+ private:
+  std::map<std::array<int, 8>, int> nodes_;  // corners in rising order, after -1 for the unused
+};
+
+/// Appends cells of the kind (crossed or quad2; hex24 or hex6) to the mesh and
+/// its nodes. Centres lie at the mean of the corners; hexahedra share those of
+/// their common faces.
+Centres split_quads(Mesh& mesh, const std::vector<Quad>& quads, CellKind kind);
+Centres split_hexes(Mesh& mesh, const std::vector<Hex>& hexes, CellKind kind);
+
+}  // namespace forming_sim

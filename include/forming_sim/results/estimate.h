@@ -1,0 +1,23 @@
+#pragma once
+// What a run will cost, told before it starts.
+#include "forming_sim/scene/scene.h"
+#include "forming_sim/simulation/simulation.h"
+
+namespace forming_sim {
+
+struct Estimate {
+  long nodes = 0, elements = 0;
+  double time_step_s = 0;        ///< mean of the measured steps
+  long steps = 0;                ///< settle stages by their limits: an upper bound there
+  double wall_time_s = 0;        ///< at the measured speed; contact that comes later is not in it
+  double memory_bytes = 0;       ///< of the solver's data
+};
+
+/// Builds the scene and takes some dozens of real steps of it.
+/// Throws SceneError, Error (mesh_error, initial_penetration).
+Estimate estimate_run(const Scene& scene, int threads);
+
+/// The same for a simulation at its start; it has made steps afterwards.
+Estimate estimate_run(Simulation& simulation);
+
+}  // namespace forming_sim

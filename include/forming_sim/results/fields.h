@@ -1,0 +1,38 @@
+#pragma once
+// result.h5 and result.xdmf of a run: a frame at the start, at every output
+// interval, at the end of every stage, and where the run ended.
+#include <optional>
+#include <string>
+
+#include "forming_sim/results/result_file.h"
+#include "forming_sim/results/run_record.h"
+#include "forming_sim/results/schedule.h"
+#include "forming_sim/simulation/observer.h"
+
+namespace forming_sim {
+
+class Fields : public Observer {
+ public:
+  /// resumed: go on with the file that is there, where it fits; a note in the
+  /// record tells where it did not.
+  Fields(const Scene& scene, const std::string& directory, double interval, bool resumed, RunRecord& record)
+      : scene_(scene), directory_(directory), schedule_(interval), resumed_(resumed), record_(record) {}
+  void on_start(const Simulation& simulation) override;
+  void on_step(const Simulation& simulation) override;
+  void on_stage_end(const Simulation& simulation, int index) override;
+  void on_end(const Simulation& simulation, Code code, const std::string& message) override;
+
+ private:
+  void write(const Simulation& simulation, bool interrupted = false);
+  void write_xdmf();
+  const Scene& scene_;
+  std::string directory_;
+  Schedule schedule_;
+  bool resumed_;
+  RunRecord& record_;
+  std::optional<ResultFile> file_;
+  long last_step_ = -1;
+  std::size_t frames_in_xdmf_ = 0;
+};
+
+}  // namespace forming_sim

@@ -1,0 +1,69 @@
+#pragma once
+// What result.h5 holds, as plain data: what stays (ResultHeader) and one
+// output time (Frame). Written by ResultFile, read by ResultReader.
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "forming_sim/mesh/mesh.h"
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+/// A tool's surface in its own frame. A rigid plane has no points; its normal
+/// and a point of it are given, in its own frame.
+struct ToolShape {
+  std::string name;
+  std::vector<Vec3> points;                 ///< m
+  std::vector<std::array<int, 3>> facets;   ///< segments (third node -1) or triangles
+  Vec3 plane_point = Vec3::Zero(), plane_normal = Vec3::Zero();
+};
+
+struct ResultHeader {
+  std::string version, scene_name, scene_text;
+  int dimension = 3;
+  std::vector<std::array<int, 4>> elements;  ///< simplices of all bodies, dimension + 1 nodes each
+  std::vector<int> element_body;             ///< index of the body, per element
+  std::vector<std::string> bodies;
+  NodeField initial_positions;               ///< m
+  std::vector<Facet> surface;
+  std::map<std::string, std::vector<int>> sets;  ///< "body/set": nodes
+  std::vector<ToolShape> tools;
+};
+
+/// Where a tool stands: x = position + rotation X.
+struct FrameTool {
+  Vec3 position = Vec3::Zero();        ///< m
+  Mat3 rotation = Mat3::Identity();
+  Vec3 force = Vec3::Zero();           ///< on the tool; N (N/m in plane strain)
+  bool present = true;                 ///< false once withdrawn
+};
+
+/// Node fields are kept in double, element and facet fields in single precision.
+struct Frame {
+  double time = 0;                     ///< s
+  long step = 0;
+  std::string stage;
+  bool interrupted = false;            ///< written because the run was cancelled here; a resumed run drops it
+  NodeField positions, velocities;     ///< m, m/s
+  std::vector<float> plastic_strain;   ///< equivalent, per element
+  std::vector<std::array<float, 6>> stress;  ///< Cauchy, Pa, per element: xx yy zz xy yz zx
+  std::vector<float> volume_ratio;     ///< V/V0, per element
+  std::vector<float> surface_strain;   ///< largest in-plane log strain, per surface facet
+  std::vector<FrameTool> tools;         ///< in the order of ResultHeader::tools
+};
+
+/// von Mises stress of xx yy zz xy yz zx.
+float mises_stress(const std::array<float, 6>& stress);
+
+/// One frame's place in the file.
+struct FrameEntry {
+  std::string name;                    ///< "000012"
+  double time = 0;
+  long step = 0;
+  bool interrupted = false;
+  std::vector<bool> tools_present;
+};
+
+}  // namespace forming_sim

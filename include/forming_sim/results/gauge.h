@@ -1,0 +1,39 @@
+#pragma once
+// Measures of a running simulation that more than one file shows; taken once a
+// step, however many ask.
+#include <optional>
+#include <vector>
+
+#include "forming_sim/results/probe.h"
+#include "forming_sim/results/run_record.h"
+#include "forming_sim/results/thickness.h"
+#include "forming_sim/simulation/simulation.h"
+
+namespace forming_sim {
+
+struct Measures {
+  Peak plastic_strain;                ///< greatest equivalent plastic strain, now
+  Peak surface_strain;                ///< greatest principal log strain on the surface, now
+  std::optional<double> thickness;    ///< smallest, m
+  std::vector<ProbeValue> probes;     ///< in the order of Gauge::probes()
+};
+
+class Gauge {
+ public:
+  /// Throws SceneError naming the probes that cannot be placed.
+  Gauge(const Simulation& simulation, const std::vector<ProbeConfig>& probes);
+  const std::vector<Probe>& probes() const { return probes_; }
+  const Measures& at(const Simulation& simulation);
+
+ private:
+  std::vector<Probe> probes_;
+  std::vector<Thickness> sheets_;     ///< bodies with sets top and bottom
+  Measures measures_;
+  long step_ = -1;
+};
+
+/// Angle of the springback line now, degrees; NaN where its probes are not there.
+double springback_angle_deg(const SpringbackConfig& config, int dimension, const std::vector<Probe>& probes,
+                            const std::vector<ProbeValue>& values);
+
+}  // namespace forming_sim

@@ -1,0 +1,53 @@
+#pragma once
+// result.h5, the fields of a run:
+//
+//   /                       attributes version, scene, dimension; dataset scene_text
+//   /topology/elements      n x 3|4 int32, corner nodes of the simplices
+//   /topology/body          n int32, index into the attribute names of /bodies
+//   /topology/surface       m x 2|3 int32, boundary facets, normal outwards
+//   /topology/surface_element  m int32, the element of each facet
+//   /topology/initial_positions  nodes x 3, m (z = 0 in plane strain)
+//   /bodies/<index>         attribute name; sets/<name>: node numbers, int32
+//   /tools/<index>          attribute name; points (m), facets, or plane_point and plane_normal
+//   /frames/NNNNNN          attributes time, step, stage, interrupted; positions, velocities, plastic_strain,
+//                           stress (xx yy zz xy yz zx), mises, volume_ratio, surface_strain;
+//                           tools/<index>: points (m, as they stand), position, rotation, force,
+//                           attribute present
+//
+// Every dataset has the attribute "unit". A frame is listed in /frames only
+// after all of it is in the file, so the file is readable up to the last
+// complete frame wherever the program is stopped.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "forming_sim/results/frame.h"
+#include "forming_sim/results/hdf5_file.h"
+
+namespace forming_sim {
+
+/// Writes result.h5. All functions throw Error(output_error) with file, dataset and reason.
+class ResultFile {
+ public:
+  /// A new file; an old one of that name is replaced.
+  ResultFile(const std::string& path, ResultHeader header);
+  /// Goes on with a file of the same topology, scene and version: frames after
+  /// `step` are dropped. nullopt where there is no such file.
+  static std::optional<ResultFile> resume(const std::string& path, ResultHeader header, long step);
+
+  void write(const Frame& frame);
+  const std::vector<FrameEntry>& frames() const { return frames_; }
+  const ResultHeader& header() const { return header_; }
+
+ private:
+  ResultFile(ResultHeader header, Hdf5File file);
+  void write_tool(Hdf5Group& tools, const Frame& frame, std::size_t index);
+
+  ResultHeader header_;
+  Hdf5File file_;
+  std::vector<FrameEntry> frames_;
+  std::vector<FrameTool> last_poses_;   ///< of the last frame written here
+};
+
+}  // namespace forming_sim

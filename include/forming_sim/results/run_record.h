@@ -1,0 +1,44 @@
+#pragma once
+// What the files of a run must remember from its earlier parts: it goes into
+// the checkpoint, so that a resumed run ends with the same summary.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+/// A greatest value and the element where it was found.
+struct Peak {
+  double value = 0;
+  int element = -1;                 ///< -1: nothing found yet
+  Vec3 position = Vec3::Zero();     ///< centre of the element or facet, m
+  double time = 0;                  ///< s
+};
+
+/// A stage that has ended.
+struct StageRecord {
+  std::string name, kind;
+  double end_time = 0;                           ///< s
+  double kinetic = 0, elastic = 0, plastic = 0;  ///< J (J/m in plane strain)
+  double kinetic_over_internal() const;          ///< kinetic / (elastic + plastic); NaN where that is 0
+};
+
+struct RunRecord {
+  std::optional<double> thickness_initial, thickness_min;  ///< m; absent without sets top and bottom
+  Peak surface_strain;                                     ///< over all times of the history
+  std::optional<Peak> surface_strain_formed;               ///< at the end of the last form stage so far
+  std::optional<double> angle_formed_deg;                  ///< likewise
+  std::optional<double> kinetic_over_internal_formed;      ///< likewise
+  std::vector<StageRecord> stages;
+  std::vector<std::string> notes;                          ///< said in the summary's warnings
+  double history_time = 0;                                 ///< of the last row, s
+  std::vector<Vec3> history_impulses;                      ///< of the tools then, N s
+
+  std::string to_json() const;
+  /// Throws Error(resume_error) where the text is not such a record.
+  static RunRecord from_json(const std::string& text);
+};
+
+}  // namespace forming_sim

@@ -1,0 +1,22 @@
+#pragma once
+// From a scene to the files of its run: what every program of the package does.
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "forming_sim/scene/scene.h"
+#include "forming_sim/simulation/simulation.h"
+
+namespace forming_sim {
+
+/// Validates the scene, makes the directory, runs it and leaves result.h5,
+/// result.xdmf, history.csv, summary.json and checkpoint.h5 there.
+/// resume_file: a checkpoint.h5 to go on from; "": from the start.
+/// extra: further observers, called after those of the files, so that they find the
+/// files complete at the end. Not owned.
+/// Throws SceneError where the scene is refused. Every other failure is in the
+/// outcome. summary.json is left in either case where the directory is writable.
+Outcome run_scene(const Scene& scene, const std::string& directory, int threads, const std::string& resume_file,
+                  const std::atomic<bool>& cancel, const std::vector<Observer*>& extra = {});
+
+}  // namespace forming_sim

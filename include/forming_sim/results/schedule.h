@@ -1,0 +1,51 @@
+#pragma once
+// When something is due again: at the first step at or after every multiple of
+// an interval of simulated time, so that a resumed run keeps the same times.
+#include <cmath>
+
+#include "forming_sim/scene/scene.h"
+
+namespace forming_sim {
+
+class Schedule {
+ public:
+  /// interval: s; 0: never due.
+  explicit Schedule(double interval) : interval_(interval) {}
+  /// What was due up to `time` is done.
+  void start(double time) { done_ = multiple(time); }
+  /// True once per multiple.
+  bool due(double time) {
+    if (!(interval_ > 0)) return false;
+    const double now = multiple(time);
+    if (now <= done_) return false;
+    done_ = now;
+    return true;
+  }
+
+ private:
+  double multiple(double time) const { return interval_ > 0 ? std::floor(time / interval_ * (1 + 1e-12)) : 0; }
+  double interval_;
+  double done_ = 0;
+};
+
+/// Simulated time to the end of the last stage, settle stages by their limits, s.
+inline double longest_time(const std::vector<StageConfig>& stages) {
+  double time = 0;
+  for (const StageConfig& stage : stages) time += stage.kind == "settle" ? stage.limit : stage.duration;
+  return time;
+}
+
+/// Intervals of simulated time, s, with the defaults that OutputConfig states.
+struct OutputIntervals {
+  double frames = 0, history = 0, checkpoint = 0;
+};
+inline OutputIntervals output_intervals(const Scene& scene) {
+  OutputIntervals intervals;
+  const OutputConfig& output = scene.output;
+  intervals.frames = output.interval > 0 ? output.interval : longest_time(scene.stages) / output.frames;
+  intervals.history = output.history_interval > 0 ? output.history_interval : intervals.frames / 10;
+  intervals.checkpoint = output.checkpoint_interval;
+  return intervals;
+}
+
+}  // namespace forming_sim

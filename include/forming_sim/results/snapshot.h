@@ -1,0 +1,12 @@
+#pragma once
+// What a simulation is and where it stands, as result.h5 keeps it.
+#include "forming_sim/results/frame.h"
+#include "forming_sim/scene/scene.h"
+#include "forming_sim/simulation/simulation.h"
+
+namespace forming_sim {
+
+ResultHeader take_header(const Simulation& simulation, const Scene& scene);
+Frame take_frame(const Simulation& simulation);
+
+}  // namespace forming_sim

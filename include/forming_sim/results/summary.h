@@ -1,0 +1,59 @@
+#pragma once
+// summary.json: what came of a run. Written at its end, whatever the end was.
+//
+//   status {code, name, message}, version, scene, dimension, resumed_at_s, warnings
+//   nodes, elements, steps, sim_time_s, wall_time_s, ns_per_element_step
+//   time_step_s {first, min, limited_by}
+//   energy_J {kinetic, elastic, plastic, contact, friction, damping, work, initial,
+//             balance_error, kinetic_over_internal, kinetic_over_internal_formed}
+//   contact {crossings, halvings, min_gap_over_h0, h0_m}
+//   plastic_strain {max, where}                      at the end (it never decreases)
+//   surface_strain {max, where, at_end_of_forming {max, where}, at_end {max, where}}
+//                   max: over all rows of the history; forming ends with the last form stage
+//   thickness_m {initial, min}                       smallest at the start, smallest over the history
+//   bodies [{name, mass, centre, momentum, angular_momentum, bounding_box {min, max}}]
+//   tools [{name, peak_force, unit, position, present}]
+//   springback {angle_deg_formed, angle_deg_released, change_deg, probe {from, to}, kinetic_over_internal}
+//   stages [{name, kind, end_time_s, kinetic_J, internal_J, kinetic_over_internal}]
+//
+// SI units; in plane strain energies, masses and forces are per metre of width
+// ("per_metre_of_width": true). where: {element, body, position, time_s}.
+// A number that is not defined is null. A scene that was refused has status,
+// version, scene, dimension and faults [{field, given, remedy}].
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "forming_sim/results/gauge.h"
+#include "forming_sim/scene/scene.h"
+#include "forming_sim/simulation/observer.h"
+
+namespace forming_sim {
+
+/// Everything but resumed_at_s. gauge: measures the simulation as it stands.
+nlohmann::ordered_json summarize(const Simulation& simulation, const Scene& scene, const RunRecord& record,
+                                 Gauge& gauge, Code code, const std::string& message);
+
+/// For a run that did not come to its start.
+nlohmann::ordered_json summarize_refusal(const Scene& scene, const std::vector<Fault>& faults, Code code,
+                                         const std::string& message);
+
+/// DIRECTORY/summary.json, replaced as a whole. Throws Error(output_error).
+void write_summary(const std::string& directory, const nlohmann::ordered_json& summary);
+
+/// Writes the summary when the run ends.
+class SummaryFile : public Observer {
+ public:
+  SummaryFile(const Scene& scene, const std::string& directory, Gauge& gauge, const RunRecord& record)
+      : scene_(scene), directory_(directory), gauge_(gauge), record_(record) {}
+  void on_start(const Simulation& simulation) override;
+  void on_end(const Simulation& simulation, Code code, const std::string& message) override;
+
+ private:
+  const Scene& scene_;
+  std::string directory_;
+  Gauge& gauge_;
+  const RunRecord& record_;
+  double start_time_ = 0;
+};
+
+}  // namespace forming_sim

@@ -1,0 +1,53 @@
+#pragma once
+// A run as rviz markers: the sheet coloured by plastic strain, tools, a legend.
+// Namespaces and ids are fixed: sheet 0; tools k, tool_edges k for tool k;
+// legend 0 to 4.
+#include <string>
+#include <vector>
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include "forming_sim/ros/display_mesh.h"
+#include "forming_sim/ros/run_view.h"
+
+namespace forming_sim {
+
+struct MarkerOptions {
+  std::string frame = "forming_world";
+  int triangle_budget = 20000;  ///< of sheet and tools together
+  double colour_max = 0;        ///< plastic strain at the upper end of the scale; 0: the largest so far
+};
+
+class RunMarkers {
+ public:
+  RunMarkers() = default;
+  RunMarkers(const RunShape& shape, const MarkerOptions& options);
+
+  /// The markers of one instant. The first call puts DELETEALL before them.
+  /// frame.is_finite() must hold: rviz does not check for NaN.
+  visualization_msgs::MarkerArray at(const RunFrame& frame, const ros::Time& stamp);
+
+  std::size_t triangle_count() const;
+
+ private:
+  visualization_msgs::Marker marker(const std::string& ns, int id, int type, const ros::Time& stamp) const;
+  void add_sheet(const RunFrame& frame, const ros::Time& stamp, visualization_msgs::MarkerArray& array) const;
+  void add_tools(const RunFrame& frame, const ros::Time& stamp, visualization_msgs::MarkerArray& array) const;
+  void add_legend(const RunFrame& frame, const ros::Time& stamp, visualization_msgs::MarkerArray& array) const;
+
+  /// Points of a tool in its own frame, m.
+  struct ToolDrawing {
+    std::vector<geometry_msgs::Point> triangles, edges;
+  };
+  ToolDrawing draw(const ToolModel& tool, int budget) const;
+
+  MarkerOptions options_;
+  int dimension_ = 3;
+  Box box_{Vec3::Zero(), Vec3::Zero()};
+  DisplayMesh sheet_;
+  std::vector<ToolDrawing> tools_;
+  double range_ = 0;
+  bool started_ = false;
+};
+
+}  // namespace forming_sim

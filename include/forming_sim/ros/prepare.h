@@ -1,0 +1,34 @@
+#pragma once
+// From a goal to a scene that can run, or to all that is wrong with it.
+#include <string>
+#include <vector>
+
+#include "forming_sim/SceneSpec.h"
+#include "forming_sim/config/fault.h"
+#include "forming_sim/scene/scene.h"
+
+namespace forming_sim {
+
+struct Prepared {
+  Scene scene;
+  std::vector<Fault> faults;  ///< empty: the scene can run
+};
+
+/// Reads, validates and builds the scene of a message, so that a body that starts
+/// inside a tool is found too. Never throws: what goes wrong is among the faults.
+/// scene_text: as its author wrote it; empty: written from the message.
+Prepared prepare(const SceneSpec& message, const std::string& scene_text, int threads);
+
+/// The directory of a run, made and found writable: `given`, or where that is
+/// empty a new one under `output_root`, named by the scene and the local time.
+/// Throws Error(output_error).
+std::string make_output_directory(const std::string& given, const std::string& output_root, const std::string& scene);
+
+/// True for a file that can be opened for reading.
+bool is_readable_file(const std::string& path);
+
+/// Threads for a request: `asked`, or where that is 0 `standard`, or where that
+/// is 0 too one for each processor.
+int choose_threads(int asked, int standard);
+
+}  // namespace forming_sim

@@ -1,0 +1,53 @@
+#pragma once
+// The topics of a run: deformed_mesh, plastic_strain with its topology,
+// tool_forces/<name>, status. Used by the server and by the replay of a result.
+#include <chrono>
+#include <functional>
+#include <vector>
+
+#include <ros/ros.h>
+
+#include "forming_sim/RunStatus.h"
+#include "forming_sim/ros/markers.h"
+#include "forming_sim/ros/run_view.h"
+
+namespace forming_sim {
+
+struct PublishOptions {
+  double rate = 10;       ///< Hz of wall clock, at most
+  MarkerOptions markers;
+  /// Parameters publish_rate, triangle_budget, colour_max, frame.
+  /// Throws Error(invalid_scene) naming a parameter out of range.
+  static PublishOptions read(const ros::NodeHandle& node);
+};
+
+class RunPublisher {
+ public:
+  RunPublisher(const ros::NodeHandle& node, const PublishOptions& options);
+
+  /// A new run: sends the topology and announces the topics of the tools.
+  void start(const RunShape& shape);
+  /// True once the time to publish again has come; costs a look at the clock.
+  bool is_due() const { return std::chrono::steady_clock::now() >= next_; }
+  /// Sends what somebody listens to. `always`: also the latched markers.
+  /// Messages are built only here; nothing waits for a subscriber.
+  void publish(const RunFrame& frame, RunStatus status, bool always);
+  /// Sends a status alone (latched).
+  void publish(RunStatus status);
+
+ private:
+  void publish_strain(const RunFrame& frame, const ros::Time& stamp);
+  void publish_forces(const RunFrame& frame, const ros::Time& stamp);
+
+  ros::NodeHandle node_;
+  PublishOptions options_;
+  ros::Publisher mesh_, strain_, topology_, status_;
+  std::vector<ros::Publisher> forces_;
+  RunMarkers markers_;
+  std::chrono::steady_clock::time_point next_{};
+};
+
+/// A name of a tool as a name of a topic: letters, digits and _; others become _.
+std::string topic_name(const std::string& name);
+
+}  // namespace forming_sim

@@ -1,0 +1,51 @@
+#pragma once
+// What of a run is drawn and published: taken from a running simulation or from
+// a result file, so that both look the same.
+#include <string>
+#include <vector>
+
+#include "forming_sim/loads/tool.h"
+#include "forming_sim/mesh/mesh.h"
+#include "forming_sim/simulation/observer.h"
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+/// What stays while the run goes on.
+struct RunShape {
+  std::string scene;
+  int dimension = 3;
+  NodeField initial_positions;              ///< m
+  std::vector<std::array<int, 4>> elements; ///< dimension + 1 corners each
+  std::vector<Facet> surface;
+  std::vector<std::string> bodies;
+  std::vector<int> first_element;           ///< of each body
+  std::vector<ToolModel> tools;
+};
+
+/// One instant of it.
+struct RunFrame {
+  double time = 0;                          ///< s
+  long step = 0;
+  std::string stage;
+  NodeField positions;                      ///< m
+  std::vector<double> plastic_strain;       ///< per element
+  std::vector<ToolStatus> tools;            ///< as RunShape::tools
+  /// False where a position or a strain is not a finite number.
+  bool is_finite() const;
+};
+
+RunShape shape_of(const Simulation& simulation, const std::string& scene);
+RunFrame frame_of(const Simulation& simulation);
+
+/// Name of the stage that is running, of the last one at the end.
+std::string stage_name(const Simulation& simulation);
+
+/// Corners of the box around the nodes.
+struct Box {
+  Vec3 min, max;
+  double size() const { return (max - min).maxCoeff(); }
+};
+Box box_of(const NodeField& positions);
+
+}  // namespace forming_sim

@@ -1,0 +1,67 @@
+#pragma once
+// The service: action simulate_forming, services validate_scene and
+// estimate_run, the topics of a run.
+#include <atomic>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include <actionlib/server/action_server.h>
+#include <ros/ros.h>
+
+#include "forming_sim/EstimateRun.h"
+#include "forming_sim/SimulateFormingAction.h"
+#include "forming_sim/ValidateScene.h"
+#include "forming_sim/config/fault.h"
+#include "forming_sim/ros/publisher.h"
+
+namespace forming_sim {
+
+/// One run at a time, on a thread of its own: callbacks only hand goals and
+/// cancels over. A goal is rejected with all its faults, or as busy, or accepted;
+/// a cancel counts from the moment the goal came.
+class FormingServer {
+ public:
+  /// node: private to the node; parameters output_root, threads and those of
+  /// PublishOptions. Throws Error for a parameter out of range.
+  explicit FormingServer(const ros::NodeHandle& node);
+  ~FormingServer();
+
+  /// Cancels the run under way, waits until its files are closed and its client
+  /// is told, and takes no more goals. Can be called again.
+  void stop();
+
+ private:
+  using Server = actionlib::ActionServer<SimulateFormingAction>;
+  using Goal = Server::GoalHandle;
+
+  void on_goal(Goal goal);
+  void on_cancel(Goal goal);
+  bool on_validate(ValidateScene::Request& request, ValidateScene::Response& response);
+  bool on_estimate(EstimateRun::Request& request, EstimateRun::Response& response);
+
+  void work();
+  void serve(Goal goal);
+  SimulateFormingResult run(Goal& goal, bool& accepted);
+  void finish(Goal& goal, const SimulateFormingResult& result, bool accepted);
+
+  ros::NodeHandle node_;
+  int threads_ = 0;
+  std::string output_root_;
+  RunPublisher publisher_;
+
+  std::mutex mutex_;                 ///< of the four below
+  std::condition_variable changed_;
+  std::unique_ptr<Goal> waiting_;    ///< handed over, not yet taken by the worker
+  std::unique_ptr<Goal> current_;    ///< the goal that makes the server busy
+  bool stopping_ = false;
+
+  std::atomic<bool> cancel_{false};
+  Server server_;
+  ros::ServiceServer validate_, estimate_;
+  std::thread worker_;
+};
+
+}  // namespace forming_sim

@@ -1,0 +1,162 @@
+#pragma once
+// The packed scalar: eight doubles that behave as one number, so that a law is
+// written once, for a single point (T = double) and for eight elements (T = Pack).
+//
+// This header is compiled once per instruction set (see CMakeLists.txt); Pack
+// lives in a namespace of that set's name, so that no code made for a wider
+// processor is ever linked into a narrower path.
+#include <immintrin.h>
+
+#include <cmath>
+#include <cstdint>
+
+#ifndef FORMING_SIM_ISA
+#define FORMING_SIM_ISA portable
+#endif
+
+namespace forming_sim {
+
+constexpr int kLanes = 8;
+
+// The same words for a plain double, so that templates read alike.
+inline bool any(bool mask) { return mask; }
+inline double select(bool mask, double a, double b) { return mask ? a : b; }
+inline double larger(double a, double b) { return a > b ? a : b; }
+inline double smaller(double a, double b) { return a < b ? a : b; }
+inline double sqrt(double a) { return std::sqrt(a); }
+inline double exp(double a) { return std::exp(a); }
+inline double absolute(double a) { return std::fabs(a); }
+template <class F> double lanewise(F&& f, double a) { return f(a); }
+
+namespace FORMING_SIM_ISA {
+
+typedef double Lanes __attribute__((vector_size(64)));
+typedef std::int64_t Bits __attribute__((vector_size(64)));
+
+struct Mask {
+  Bits v;  ///< all ones where true
+};
+
+struct Pack {
+  Lanes v;
+  Pack() = default;
+  Pack(double s) : v{s, s, s, s, s, s, s, s} {}
+  explicit Pack(Lanes lanes) : v(lanes) {}
+  static Pack load(const double* p) { return Pack(*reinterpret_cast<const Lanes*>(p)); }
+  void store(double* p) const { *reinterpret_cast<Lanes*>(p) = v; }
+  double operator[](int lane) const { return v[lane]; }
+
+  friend Pack operator+(Pack a, Pack b) { return Pack(a.v + b.v); }
+  friend Pack operator-(Pack a, Pack b) { return Pack(a.v - b.v); }
+  friend Pack operator*(Pack a, Pack b) { return Pack(a.v * b.v); }
+  friend Pack operator/(Pack a, Pack b) { return Pack(a.v / b.v); }
+  friend Pack operator-(Pack a) { return Pack(-a.v); }
+  Pack& operator+=(Pack b) { v += b.v; return *this; }
+  Pack& operator-=(Pack b) { v -= b.v; return *this; }
+  Pack& operator*=(Pack b) { v *= b.v; return *this; }
+  friend Mask operator>(Pack a, Pack b) { return {a.v > b.v}; }
+  friend Mask operator<(Pack a, Pack b) { return {a.v < b.v}; }
+  friend Mask operator>=(Pack a, Pack b) { return {a.v >= b.v}; }
+};
+
+inline bool any(Mask m) {
+#if defined(__AVX512DQ__)
+  return _mm512_movepi64_mask((__m512i)m.v) != 0;
+#else
+  typedef std::int64_t Pair __attribute__((vector_size(16)));
+  const Pair* two = reinterpret_cast<const Pair*>(&m.v);
+  return _mm_movemask_pd((__m128d)((two[0] | two[1]) | (two[2] | two[3]))) != 0;
+#endif
+}
+inline Pack select(Mask m, Pack a, Pack b) { return Pack(m.v ? a.v : b.v); }
+inline Pack larger(Pack a, Pack b) { return select(a > b, a, b); }
+inline Pack smaller(Pack a, Pack b) { return select(a < b, a, b); }
+inline Pack absolute(Pack a) { return larger(a, -a); }
+inline double sum(Pack a) {
+  return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
+}
+
+/// Four doubles anywhere in memory: a nodal record.
+typedef double Quad __attribute__((vector_size(32), aligned(8)));
+
+/// Loads kLanes nodal records and hands back their first three components.
+inline void gather_records(const double* const from[kLanes], Pack& x, Pack& y, Pack& z) {
+  Quad q[kLanes];
+  for (int l = 0; l < kLanes; ++l) q[l] = *reinterpret_cast<const Quad*>(from[l]);
+  Lanes a[4];
+  for (int k = 0; k < 4; ++k) a[k] = __builtin_shufflevector(q[k], q[k + 4], 0, 1, 2, 3, 4, 5, 6, 7);
+  const Lanes t0 = __builtin_shufflevector(a[0], a[1], 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes t1 = __builtin_shufflevector(a[0], a[1], 1, 9, 3, 11, 5, 13, 7, 15);
+  const Lanes t2 = __builtin_shufflevector(a[2], a[3], 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes t3 = __builtin_shufflevector(a[2], a[3], 1, 9, 3, 11, 5, 13, 7, 15);
+  x.v = __builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13);
+  y.v = __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13);
+  z.v = __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+/// Stores kLanes records of two doubles, one after the other.
+inline void store_pairs(Pack x, Pack y, double* to) {
+  *reinterpret_cast<Lanes*>(to) = __builtin_shufflevector(x.v, y.v, 0, 8, 1, 9, 2, 10, 3, 11);
+  *reinterpret_cast<Lanes*>(to + kLanes) = __builtin_shufflevector(x.v, y.v, 4, 12, 5, 13, 6, 14, 7, 15);
+}
+/// Stores kLanes records of four doubles, the last of each zero.
+inline void store_quads(Pack x, Pack y, Pack z, double* to) {
+  const Lanes zero = {0, 0, 0, 0, 0, 0, 0, 0};
+  const Lanes xy0 = __builtin_shufflevector(x.v, y.v, 0, 8, 1, 9, 2, 10, 3, 11);
+  const Lanes xy1 = __builtin_shufflevector(x.v, y.v, 4, 12, 5, 13, 6, 14, 7, 15);
+  const Lanes z0 = __builtin_shufflevector(z.v, zero, 0, 8, 1, 9, 2, 10, 3, 11);
+  const Lanes z1 = __builtin_shufflevector(z.v, zero, 4, 12, 5, 13, 6, 14, 7, 15);
+  Lanes* out = reinterpret_cast<Lanes*>(to);
+  out[0] = __builtin_shufflevector(xy0, z0, 0, 1, 8, 9, 2, 3, 10, 11);
+  out[1] = __builtin_shufflevector(xy0, z0, 4, 5, 12, 13, 6, 7, 14, 15);
+  out[2] = __builtin_shufflevector(xy1, z1, 0, 1, 8, 9, 2, 3, 10, 11);
+  out[3] = __builtin_shufflevector(xy1, z1, 4, 5, 12, 13, 6, 7, 14, 15);
+}
+
+template <class F> Pack lanewise(F&& f, Pack a) {
+  Pack r;
+  for (int l = 0; l < kLanes; ++l) r.v[l] = f(a.v[l]);
+  return r;
+}
+inline Pack sqrt(Pack a) {
+  Pack r;
+  for (int l = 0; l < kLanes; ++l) r.v[l] = __builtin_sqrt(a.v[l]);
+  return r;
+}
+
+/// e^x to 2 units in the last place for |x| < 700, clamped beyond: x = n ln 2 + r,
+/// |r| <= ln 2 / 2, e^r by its Taylor polynomial of degree 13.
+inline Pack exp(Pack x) {
+  const double round_magic = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to an integer
+  x = smaller(larger(x, Pack(-700.0)), Pack(700.0));
+  const Lanes shifted = x.v * 1.4426950408889634 + round_magic;
+  const Pack n(shifted - round_magic);
+  const Pack r = (x - n * Pack(6.93145751953125e-1)) - n * Pack(1.42860682030941723212e-6);
+  Pack e(1.0 / 6227020800.0);
+  const double coefficient[] = {1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800, 1.0 / 362880, 1.0 / 40320,
+                                1.0 / 5040,      1.0 / 720,      1.0 / 120,     1.0 / 24,     1.0 / 6,
+                                0.5,             1.0,            1.0};
+  for (double c : coefficient) e = e * r + Pack(c);
+  return Pack((Lanes)(((Bits)shifted << 52) + (Bits)e.v));  // the low bits of `shifted` hold n
+}
+
+}  // namespace FORMING_SIM_ISA
+
+/// J^(-1/3) for J > 0, by Newton's method on y^-3 = J from the tangent at J = 1,
+/// which never lies above the root: the iteration rises to it without overshoot.
+/// Four steps reach round-off for |J - 1| < 0.2; farther away it goes on.
+template <class T> T inverse_cube_root(T J) {
+  T y = larger((T(4) - J) * T(1.0 / 3), T(0.3));
+  for (int i = 0; i < 4; ++i) y = y * (T(4) - J * y * y * y) * T(1.0 / 3);
+  if (any(absolute(J - T(1)) > T(0.2))) {
+    for (int i = 0; i < 60; ++i) {
+      const T next = y * (T(4) - J * y * y * y) * T(1.0 / 3);
+      const T change = next - y;
+      y = next;
+      if (!any(absolute(change) > T(1e-15) * y)) break;
+    }
+  }
+  return y;
+}
+
+}  // namespace forming_sim

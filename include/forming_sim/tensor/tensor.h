@@ -1,0 +1,169 @@
+#pragma once
+// Vectors and symmetric tensors of the direct notation, over a scalar T that is
+// a double or a Pack. D = 2 is plane strain: vectors have two components,
+// tensors keep their 33 component.
+#include "forming_sim/tensor/pack.h"
+
+namespace forming_sim {
+
+template <class T, int D> struct Vector {
+  T c[D];
+  T& operator[](int i) { return c[i]; }
+  const T& operator[](int i) const { return c[i]; }
+  friend Vector operator-(const Vector& a, const Vector& b) {
+    Vector r;
+    for (int i = 0; i < D; ++i) r.c[i] = a.c[i] - b.c[i];
+    return r;
+  }
+  Vector& operator+=(const Vector& b) {
+    for (int i = 0; i < D; ++i) c[i] += b.c[i];
+    return *this;
+  }
+  friend Vector operator*(const T& s, const Vector& a) {
+    Vector r;
+    for (int i = 0; i < D; ++i) r.c[i] = s * a.c[i];
+    return r;
+  }
+};
+
+template <class T, int D> T dot(const Vector<T, D>& a, const Vector<T, D>& b) {
+  T s = a[0] * b[0];
+  for (int i = 1; i < D; ++i) s += a[i] * b[i];
+  return s;
+}
+template <class T> Vector<T, 3> cross(const Vector<T, 3>& a, const Vector<T, 3>& b) {
+  return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+}
+
+/// Symmetric tensor. D = 2: xx yy zz xy; D = 3: xx yy zz xy yz zx.
+template <class T, int D> struct Symmetric {
+  static constexpr int size = D == 2 ? 4 : 6;
+  T c[size];
+  T& operator[](int i) { return c[i]; }
+  const T& operator[](int i) const { return c[i]; }
+};
+
+template <class T, int D> T trace(const Symmetric<T, D>& a) { return a[0] + a[1] + a[2]; }
+
+/// A - tr(A)/3 I, also in plane strain.
+template <class T, int D> Symmetric<T, D> deviator(Symmetric<T, D> a) {
+  const T mean = trace(a) * T(1.0 / 3);
+  for (int i = 0; i < 3; ++i) a[i] -= mean;
+  return a;
+}
+/// A : B
+template <class T, int D> T contract(const Symmetric<T, D>& a, const Symmetric<T, D>& b) {
+  T off = a[3] * b[3];
+  for (int i = 4; i < Symmetric<T, D>::size; ++i) off += a[i] * b[i];
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + T(2) * off;
+}
+/// von Mises norm q = sqrt(3/2 A_D : A_D) of a deviator.
+template <class T, int D> T mises(const Symmetric<T, D>& deviator) {
+  return sqrt(T(1.5) * contract(deviator, deviator));
+}
+template <class T, int D> Vector<T, D> operator*(const Symmetric<T, D>& a, const Vector<T, D>& x) {
+  if constexpr (D == 2) {
+    return {{a[0] * x[0] + a[3] * x[1], a[3] * x[0] + a[1] * x[1]}};
+  } else {
+    return {{a[0] * x[0] + a[3] * x[1] + a[5] * x[2], a[3] * x[0] + a[1] * x[1] + a[4] * x[2],
+             a[5] * x[0] + a[4] * x[1] + a[2] * x[2]}};
+  }
+}
+/// Cofactors of A (symmetric): A^-1 = cofactor / det.
+template <class T, int D> Symmetric<T, D> cofactor(const Symmetric<T, D>& a) {
+  Symmetric<T, D> r;
+  if constexpr (D == 2) {
+    r[0] = a[1] * a[2];
+    r[1] = a[0] * a[2];
+    r[2] = a[0] * a[1] - a[3] * a[3];
+    r[3] = -(a[3] * a[2]);
+  } else {
+    r[0] = a[1] * a[2] - a[4] * a[4];
+    r[1] = a[0] * a[2] - a[5] * a[5];
+    r[2] = a[0] * a[1] - a[3] * a[3];
+    r[3] = a[5] * a[4] - a[3] * a[2];
+    r[4] = a[3] * a[5] - a[0] * a[4];
+    r[5] = a[3] * a[4] - a[5] * a[1];
+  }
+  return r;
+}
+/// det A from A and its cofactors.
+template <class T, int D> T determinant(const Symmetric<T, D>& a, const Symmetric<T, D>& cofactors) {
+  if constexpr (D == 2) return a[2] * cofactors[2];
+  else return a[0] * cofactors[0] + a[3] * cofactors[3] + a[5] * cofactors[5];
+}
+
+/// The edge vectors x_1 .. x_D of a simplex (3.14), their reciprocal vectors
+/// x^1 .. x^D (3.27), (3.28), and the volume V (3.18), (3.19), D = 2: area.
+template <class T, int D> struct Edges {
+  Vector<T, D> x[D];      ///< x_m
+  Vector<T, D> up[D];     ///< x^m
+  T volume;
+};
+
+/// V alone.
+template <class T, int D> T simplex_volume(const Vector<T, D>* x) {
+  if constexpr (D == 2) return T(0.5) * (x[0][0] * x[1][1] - x[0][1] * x[1][0]);
+  else return T(1.0 / 6) * dot(x[0], cross(x[1], x[2]));
+}
+
+template <class T, int D> void find_reciprocal(Edges<T, D>& e) {
+  if constexpr (D == 2) {
+    const T twice = e.x[0][0] * e.x[1][1] - e.x[0][1] * e.x[1][0];
+    const T inverse = T(1) / twice;
+    e.up[0] = {{e.x[1][1] * inverse, -(e.x[1][0] * inverse)}};
+    e.up[1] = {{-(e.x[0][1] * inverse), e.x[0][0] * inverse}};
+    e.volume = T(0.5) * twice;
+  } else {
+    const Vector<T, 3> c = cross(e.x[1], e.x[2]);
+    const T six = dot(e.x[0], c);
+    const T inverse = T(1) / six;
+    e.up[0] = inverse * c;
+    e.up[1] = inverse * cross(e.x[2], e.x[0]);
+    e.up[2] = inverse * cross(e.x[0], e.x[1]);
+    e.volume = six * T(1.0 / 6);
+  }
+}
+
+/// B = x_m x_k G^mk (3.36); D = 2: B_33 = G^33.
+template <class T, int D> Symmetric<T, D> push(const Symmetric<T, D>& G, const Edges<T, D>& e) {
+  // y^m = G^mk x_k, B = x_m y^m
+  Symmetric<T, D> B;
+  if constexpr (D == 2) {
+    const Vector<T, 2> y0 = {{G[0] * e.x[0][0] + G[3] * e.x[1][0], G[0] * e.x[0][1] + G[3] * e.x[1][1]}};
+    const Vector<T, 2> y1 = {{G[3] * e.x[0][0] + G[1] * e.x[1][0], G[3] * e.x[0][1] + G[1] * e.x[1][1]}};
+    B[0] = e.x[0][0] * y0[0] + e.x[1][0] * y1[0];
+    B[1] = e.x[0][1] * y0[1] + e.x[1][1] * y1[1];
+    B[2] = G[2];
+    B[3] = e.x[0][0] * y0[1] + e.x[1][0] * y1[1];
+  } else {
+    Vector<T, 3> y[3];
+    for (int i = 0; i < 3; ++i) {
+      y[0][i] = G[0] * e.x[0][i] + G[3] * e.x[1][i] + G[5] * e.x[2][i];
+      y[1][i] = G[3] * e.x[0][i] + G[1] * e.x[1][i] + G[4] * e.x[2][i];
+      y[2][i] = G[5] * e.x[0][i] + G[4] * e.x[1][i] + G[2] * e.x[2][i];
+    }
+    const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
+    for (int k = 0; k < 6; ++k)
+      B[k] = e.x[0][row[k]] * y[0][column[k]] + e.x[1][row[k]] * y[1][column[k]] + e.x[2][row[k]] * y[2][column[k]];
+  }
+  return B;
+}
+
+/// G^x: components x^m . x^k; D = 2: G^33 = 1.
+template <class T, int D> Symmetric<T, D> metric(const Edges<T, D>& e) {
+  Symmetric<T, D> G;
+  G[0] = dot(e.up[0], e.up[0]);
+  G[1] = dot(e.up[1], e.up[1]);
+  G[3] = dot(e.up[0], e.up[1]);
+  if constexpr (D == 2) {
+    G[2] = T(1);
+  } else {
+    G[2] = dot(e.up[2], e.up[2]);
+    G[4] = dot(e.up[1], e.up[2]);
+    G[5] = dot(e.up[2], e.up[0]);
+  }
+  return G;
+}
+
+}  // namespace forming_sim

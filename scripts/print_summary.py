@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+"""Prints what a run's summary.json says as a short table, and where its files are.
+
+Usage: print_summary.py DIRECTORY
+"""
+import json
+import os
+import sys
+
+
+def main():
+    directory = sys.argv[1]
+    with open(os.path.join(directory, "summary.json")) as file:
+        s = json.load(file)
+    dimension = s["dimension"]
+    newton = "N/m" if dimension == 2 else "N"
+
+    def number(value, scale=1.0, form="{:.4g}"):
+        return "-" if value is None else form.format(value * scale)
+
+    energy = s["energy_J"]
+    rows = [
+        ("scene", f"{s['scene']} ({'plane strain' if dimension == 2 else '3D'})"),
+        ("status", s["status"]["message"]),
+        ("mesh", f"{s['elements']} elements, {s['nodes']} nodes"),
+        ("time", f"{number(s['sim_time_s'], 1e3)} ms simulated in {s['steps']} steps, {number(s['wall_time_s'])} s of solving"),
+        ("speed", f"{number(s['ns_per_element_step'])} ns per element and step"),
+        ("time step", f"{number(s['time_step_s']['first'])} s at first, {number(s['time_step_s']['min'])} s at least, limited by {s['time_step_s']['limited_by']}"),
+        ("largest plastic strain", number(s["plastic_strain"]["max"])),
+        ("largest surface strain", number(s["surface_strain"]["max"]) + " (principal, logarithmic)"),
+        ("thickness", f"{number(s['thickness_m']['initial'], 1e3)} mm at first, {number(s['thickness_m']['min'], 1e3)} mm at least"),
+    ]
+    for tool in s["tools"]:
+        force = tool["peak_force"]
+        rows.append((f"peak force on {tool['name']}", "(" + ", ".join(number(f) for f in force) + f") {newton}"))
+    spring = s.get("springback") or {}
+    if spring.get("angle_deg_released") is not None:
+        rows.append(("angle", f"{number(spring['angle_deg_formed'], 1, '{:.2f}')} deg formed, {number(spring['angle_deg_released'], 1, '{:.2f}')} deg released: springback {number(spring['change_deg'], 1, '{:.2f}')} deg"))
+    rows += [
+        ("energy balance", f"{number(energy['balance_error'], 100)} % of the work is unaccounted for"),
+        ("contact", f"{s['contact']['crossings']} crossings, {s['contact']['halvings']} halved steps, smallest gap {number(s['contact']['min_gap_over_h0'])} h0"),
+    ]
+    width = max(len(name) for name, _ in rows)
+    for name, text in rows:
+        print(f"  {name:<{width}}  {text}")
+    print("\nfiles")
+    for name in sorted(os.listdir(directory)):
+        print("  " + os.path.join(directory, name))
+    return 0 if s["status"]["code"] == 1 else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,26 @@
+// Sends a YAML scene to a forming_server and follows the run.
+#include <cstdio>
+
+#include <ros/ros.h>
+
+#include "forming_sim/ros/client.h"
+#include "forming_sim/ros/signals.h"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "forming_client", ros::init_options::NoSigintHandler | ros::init_options::AnonymousName);
+  forming_sim::ClientRequest request;
+  try {
+    request = forming_sim::read_arguments(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "forming_client: %s\n%s", error.what(), forming_sim::client_usage);
+    return 64;
+  }
+  forming_sim::catch_stop_signals();
+  try {
+    const ros::NodeHandle node;  // keeps the connection to the master while the client lives
+    return forming_sim::run_client(request);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "forming_client: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,60 @@
+// Runs a scene without ROS: forming_offline SCENE.yaml --output DIR
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+
+#include "forming_sim/results/command_line.h"
+#include "forming_sim/results/estimate.h"
+#include "forming_sim/results/progress_line.h"
+#include "forming_sim/results/run_scene.h"
+#include "forming_sim/scene/schema.h"
+#include "forming_sim/scene/validate.h"
+
+namespace {
+
+using namespace forming_sim;
+
+std::atomic<bool> cancel{false};
+
+int run(const OfflineOptions& options, const Scene& scene) {
+  std::signal(SIGINT, [](int) { cancel = true; });
+  std::signal(SIGTERM, [](int) { cancel = true; });
+  ProgressLine progress(isatty(STDERR_FILENO));
+  EndTable table;
+  std::vector<Observer*> watchers;
+  if (!options.quiet) watchers = {&progress, &table};
+  const Outcome outcome = run_scene(scene, options.output, options.thread_count(), options.resume, cancel, watchers);
+  std::fprintf(stderr, "%s: %s\n", name_of(outcome.code), outcome.message.c_str());
+  return outcome.code == Code::success ? 0 : 1;
+}
+
+int perform(const OfflineOptions& options) {
+  using Task = OfflineOptions::Task;
+  std::string text;
+  if (options.task == Task::help) text = offline_usage();
+  else if (options.task == Task::schema) text = schema_text();
+  else if (options.task == Task::schema_markdown) text = schema_markdown();
+  else {
+    const Scene scene = read_valid_scene(options.scene);
+    if (options.task == Task::run) return run(options, scene);
+    text = options.task == Task::estimate ? estimate_text(estimate_cost(scene, options.thread_count())) : "The scene has no faults.\n";
+  }
+  std::fputs(text.c_str(), stdout);
+  return std::fflush(stdout) == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return perform(read_options({argv + 1, argv + argc}));
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return error.code() == Code::invalid_scene || dynamic_cast<const SceneError*>(&error) ? 2 : 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "internal error: %s\n", error.what());
+    return 1;
+  }
+}

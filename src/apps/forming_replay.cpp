@@ -1,0 +1,35 @@
+// Shows a result file on the topics of a run:
+//   forming_replay RESULT.h5 [_duration:=SECONDS] [_loop:=true]
+#include <cstdio>
+
+#include <ros/ros.h>
+
+#include "forming_sim/ros/replay.h"
+#include "forming_sim/ros/signals.h"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "forming_replay", ros::init_options::NoSigintHandler);
+  forming_sim::catch_stop_signals();
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: forming_replay RESULT.h5 [_duration:=SECONDS] [_loop:=true]\n");
+    return 64;
+  }
+  try {
+    ros::NodeHandle node("~");
+    forming_sim::ReplayOptions options;
+    options.file = argv[1];
+    node.param("duration", options.duration_s, options.duration_s);
+    node.param("loop", options.loop, options.loop);
+    ros::AsyncSpinner spinner(1);
+    spinner.start();
+    forming_sim::RunPublisher publisher(node, forming_sim::PublishOptions::read(node));
+    forming_sim::replay(publisher, options);
+    // The last frame stays on the latched topics until the node is stopped.
+    while (ros::ok() && !forming_sim::stop_requested()) ros::WallDuration(0.05).sleep();
+    ros::shutdown();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "forming_replay: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,26 @@
+// The node: serves simulate_forming, validate_scene and estimate_run.
+#include <cstdio>
+
+#include <ros/ros.h>
+
+#include "forming_sim/ros/server.h"
+#include "forming_sim/ros/signals.h"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "forming_server", ros::init_options::NoSigintHandler);
+  forming_sim::catch_stop_signals();
+  try {
+    // Four threads: a service that meshes a large part holds up one of them only.
+    ros::AsyncSpinner spinner(4);
+    forming_sim::FormingServer server(ros::NodeHandle("~"));
+    spinner.start();
+    ROS_INFO("ready for goals on %s", ros::NodeHandle("~").resolveName("simulate_forming").c_str());
+    while (ros::ok() && !forming_sim::stop_requested()) ros::WallDuration(0.02).sleep();
+    server.stop();
+    ros::shutdown();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "forming_server: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

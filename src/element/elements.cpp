@@ -1,0 +1,335 @@
+#include "forming_sim/element/elements.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <sstream>
+
+#include "forming_sim/config/fault.h"
+#include "forming_sim/material/constants.h"
+
+namespace forming_sim {
+
+struct Elements::Group : CellGroup {
+  std::vector<int> node_storage;
+  std::vector<double> strain_table, stress_table, plastic, viscous, lowest;
+  std::vector<Lane> memory_storage;
+  int first_element = 0;
+  long first_record = 0;
+  std::string body;
+};
+
+namespace {
+
+PressureMode mode_of(const BodyModel& body, CellKind kind) {
+  if (body.pressure_average == "element") return PressureMode::element;
+  if (body.pressure_average == "node") return PressureMode::node;
+  return kind == CellKind::triangle || kind == CellKind::tetrahedron ? PressureMode::node : PressureMode::cell;
+}
+
+/// Cells with a node of their own (the centre of a crossed quadrilateral, centre
+/// and faces of 24 tetrahedra) leave that node to the deviator alone when the
+/// pressure is one per cell: in a strong impact it yields and the simplices around
+/// it collapse. A small share theta of each simplex' own pressure holds them,
+///   U = V0 [(1-theta) K/2 (J_cell - 1)^2 + theta K/2 (J - 1)^2],
+/// and does not lock there; on 2 triangles or 6 tetrahedra it would, and they have
+/// no such node (the Taylor bar at 4 cells a radius: face radius 7.35 mm with
+/// theta = 0, 6.86 mm with .05 on 6 tetrahedra; 7.43 mm with .05 on 24, and none without).
+double element_share_of(CellKind kind) {
+  return kind == CellKind::hex24 ? 0.05 : kind == CellKind::crossed ? 0.02 : 0;
+}
+
+}  // namespace
+
+Elements::~Elements() = default;
+
+Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x,
+                   const ElementOptions& options, int threads, const char* kernels)
+    : kernels_(choose_kernels(kernels)), dimension_(dimension), threads_(std::max(1, threads)) {
+  const int nodes = static_cast<int>(x.size()), D = dimension_;
+  mass_.assign(nodes, 0.0);
+  nodal_volume0_.assign(nodes, 0.0);
+  nodal_bulk_.assign(nodes, 0.0);
+  long records = 0;
+  for (const BodyModel& body : bodies) {
+    int element = body.first_element;
+    for (const Cells& cells : body.mesh.cells) {
+      if (cells.count() == 0) continue;
+      const CellShape& shape = shape_of(cells.kind);
+      Group g;
+      g.kind = static_cast<int>(cells.kind);
+      g.dimension = D;
+      g.cell_nodes = shape.nodes;
+      g.cell_simplices = shape.simplices;
+      g.cells = cells.count();
+      g.blocks = (g.cells + kLanes - 1) / kLanes;
+      g.pressure = mode_of(body, cells.kind);
+      g.element_share = element_share_of(cells.kind);
+      any_nodal_ |= g.pressure == PressureMode::node;
+      g.solid = solid_constants(body.material, g.strain_table, g.stress_table);
+      g.density = body.material.density * options.mass_scaling;
+      g.linear_viscosity = options.linear_viscosity;
+      g.quadratic_viscosity = options.quadratic_viscosity;
+      g.first_element = element;
+      g.first_record = records;
+      g.body = body.name;
+      g.plastic.assign(g.blocks, 0.0);
+      g.viscous.assign(g.blocks, 0.0);
+      g.lowest.assign(g.blocks, 1.0);
+      g.node_storage.resize(static_cast<std::size_t>(g.blocks) * shape.nodes * kLanes);
+      const int items = D == 2 ? kMemory<2> : kMemory<3>;
+      g.memory_storage.resize(static_cast<std::size_t>(g.blocks) * shape.simplices * items);
+      for (int b = 0; b < g.blocks; ++b) {
+        for (int l = 0; l < kLanes; ++l) {
+          const int cell = std::min(b * kLanes + l, g.cells - 1);
+          const int* of_cell = cells.nodes.data() + static_cast<std::size_t>(cell) * shape.nodes;
+          for (int a = 0; a < shape.nodes; ++a)
+            g.node_storage[(static_cast<std::size_t>(b) * shape.nodes + a) * kLanes + l] = of_cell[a] + body.first_node;
+          for (int s = 0; s < shape.simplices; ++s) {
+            std::array<int, 4> corner{-1, -1, -1, -1};
+            for (int a = 0; a <= D; ++a) corner[a] = of_cell[shape.simplex[s][a]] + body.first_node;
+            Eigen::Matrix3d X = Eigen::Matrix3d::Identity();
+            for (int m = 0; m < D; ++m) X.col(m) = vec3(x[corner[m + 1]] - x[corner[0]]);
+            if (D == 2) X.col(2) = Vec3::UnitZ();
+            const double V0 = X.determinant() / (D == 2 ? 2 : 6);
+            if (!(V0 > 0)) {
+              std::ostringstream what;
+              what << "element " << element << " of body " << body.name << " has volume " << V0
+                   << " at the start; every simplex needs a positive volume";
+              throw Error(Code::mesh_error, what.str());
+            }
+            const Eigen::Matrix3d up = X.inverse();  // rows: X^m
+            const Eigen::Matrix3d G = up * up.transpose();
+            auto* memory = g.memory_storage.data() + (static_cast<std::size_t>(b) * shape.simplices + s) * items;
+            memory[0][l] = G(0, 0);
+            memory[1][l] = G(1, 1);
+            memory[2][l] = D == 2 ? 1.0 : G(2, 2);
+            memory[3][l] = G(0, 1);
+            if (D == 3) memory[4][l] = G(1, 2), memory[5][l] = G(2, 0);
+            memory[items - 1][l] = V0;
+            if (b * kLanes + l != cell) continue;
+            simplices_.push_back(corner);
+            ++element;
+            for (int a = 0; a <= D; ++a) {
+              mass_[corner[a]] += g.density * V0 / (D + 1);
+              nodal_volume0_[corner[a]] += V0 / (D + 1);
+              nodal_bulk_[corner[a]] = g.solid.K;
+            }
+          }
+        }
+      }
+      records += static_cast<long>(g.blocks) * shape.nodes * kLanes;
+      groups_.push_back(std::move(g));
+    }
+  }
+  record_size_ = D == 2 ? kRecord<2> : kRecord<3>;
+  record_storage_.resize(static_cast<std::size_t>(records) * record_size_ / kLanes);
+  records_ = record_storage_.empty() ? nullptr : record_storage_.data()->value;
+  pressure_.assign(any_nodal_ ? nodes : 0, 0.0);
+
+  // simplices_ was filled block by block, lane by lane: that is cell by cell.
+  std::vector<int> count(nodes + 1, 0);
+  auto each_record = [&](auto&& visit) {
+    for (const Group& g : groups_)
+      for (int cell = 0; cell < g.cells; ++cell)
+        for (int a = 0; a < g.cell_nodes; ++a) {
+          const long r = (static_cast<long>(cell / kLanes) * g.cell_nodes + a) * kLanes + cell % kLanes;
+          visit(g.node_storage[r], g.first_record + r);
+        }
+  };
+  each_record([&](int node, long) { ++count[node + 1]; });
+  for (int n = 0; n < nodes; ++n) count[n + 1] += count[n];
+  record_start_ = count;
+  record_index_.resize(count[nodes]);
+  each_record([&](int node, long r) { record_index_[count[node]++] = static_cast<int>(r); });
+
+  for (Group& g : groups_) {
+    g.nodes = g.node_storage.data();
+    g.memory = reinterpret_cast<double*>(g.memory_storage.data());
+    g.records = records_ + g.first_record * record_size_;
+    g.plastic_work = g.plastic.data();
+    g.viscous_work = g.viscous.data();
+    g.lowest_ratio = g.lowest.data();
+    g.solid.hardening.strain = g.strain_table.data();
+    g.solid.hardening.stress = g.stress_table.data();
+  }
+}
+
+/// Calls work(group, first, last) over chunks of blocks, in parallel.
+template <class Work> void Elements::over_blocks(Work&& work) const {
+  for (const Group& g : groups_) {
+    const int per_chunk = std::max(1, 64 / (g.cell_simplices * kLanes / 8));
+    const int chunks = (g.blocks + per_chunk - 1) / per_chunk;
+    const int threads = std::min(threads_, std::max(1, g.blocks * g.cell_simplices / 64));
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+    for (int c = 0; c < chunks; ++c) work(g, c * per_chunk, std::min(g.blocks, (c + 1) * per_chunk));
+  }
+}
+
+void Elements::nodal_pressure(const NodalView& view) const {
+  over_blocks([&](const Group& g, int first, int last) {
+    CellGroup one_wide = g;
+    one_wide.records = records_ + g.first_record;
+    kernels_.volumes(one_wide, view, first, last);
+  });
+  const int nodes = static_cast<int>(mass_.size());
+#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1 && nodes > 2000)
+  for (int n = 0; n < nodes; ++n) {
+    double V = 0;
+    for (int k = record_start_[n]; k < record_start_[n + 1]; ++k) V += records_[record_index_[k]];
+    pressure_[n] = nodal_bulk_[n] * (V / nodal_volume0_[n] - 1);
+  }
+}
+
+void Elements::forces(const NodeField& x, const NodeField& v, double dt, NodeField& f) {
+  NodalView view{x.data()->data(), v.data()->data(), pressure_.data(), dt};
+  if (any_nodal_) nodal_pressure(view);
+  over_blocks([&](const Group& g, int first, int last) { kernels_.forces(g, view, first, last); });
+  for (const Group& g : groups_)
+    for (double ratio : g.lowest)
+      if (!(ratio > 0)) report_inversion(x);
+  const int nodes = static_cast<int>(mass_.size());
+  const bool flat = dimension_ == 2;
+#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1 && nodes > 2000)
+  for (int n = 0; n < nodes; ++n) {
+    Node sum = Node::Zero();
+    for (int k = record_start_[n]; k < record_start_[n + 1]; ++k) {
+      const double* record = records_ + static_cast<std::size_t>(record_index_[k]) * record_size_;
+      if (flat) sum.head<2>() += Eigen::Map<const Eigen::Vector2d>(record);
+      else sum += Eigen::Map<const Node>(record);
+    }
+    f[n] = sum;
+  }
+}
+
+void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const {
+  const NodalView view{x.data()->data(), v.data()->data(), nullptr, 0};
+  dt = 1e300;
+  element = -1;
+  for (const Group& g : groups_) {
+    std::vector<BlockStep> steps(g.blocks);
+    const int chunks = (g.blocks + 15) / 16;
+#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1 && g.blocks > 64)
+    for (int c = 0; c < chunks; ++c)
+      kernels_.time_step(g, view, c * 16, std::min(g.blocks, (c + 1) * 16), steps.data());
+    for (int b = 0; b < g.blocks; ++b)
+      if (!(steps[b].dt >= dt)) {
+        dt = steps[b].dt;
+        element = g.first_element + std::min(b * kLanes + steps[b].lane, g.cells - 1) * g.cell_simplices;
+      }
+  }
+}
+
+double Elements::plastic_work() const {
+  double sum = 0;
+  for (const Group& g : groups_)
+    for (double w : g.plastic) sum += w;
+  return sum;
+}
+
+double Elements::viscous_work() const {
+  double sum = 0;
+  for (const Group& g : groups_)
+    for (double w : g.viscous) sum += w;
+  return sum;
+}
+
+std::vector<double> Elements::plastic_strain() const {
+  std::vector<double> p(simplices_.size());
+  const int items = dimension_ == 2 ? kMemory<2> : kMemory<3>;
+  for (const Group& g : groups_)
+    for (int cell = 0; cell < g.cells; ++cell)
+      for (int s = 0; s < g.cell_simplices; ++s)
+        p[g.first_element + cell * g.cell_simplices + s] =
+            g.memory_storage[(static_cast<std::size_t>(cell / kLanes) * g.cell_simplices + s) * items + items - 2][cell % kLanes];
+  return p;
+}
+
+ElementFields Elements::observe(const NodeField& x) const {
+  const NodalView view{x.data()->data(), nullptr, pressure_.data(), 0};
+  if (any_nodal_) nodal_pressure(view);
+  ElementFields fields;
+  fields.stress.resize(simplices_.size());
+  fields.volume_ratio.resize(simplices_.size());
+  for (const Group& g : groups_) {
+    std::vector<Lane> stress(static_cast<std::size_t>(g.blocks) * g.cell_simplices * 6);
+    std::vector<Lane> ratio(static_cast<std::size_t>(g.blocks) * g.cell_simplices);
+    std::vector<double> energy(g.blocks);
+#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
+    for (int b = 0; b < g.blocks; ++b)
+      kernels_.observe(g, view, b, b + 1, stress.data()->value, ratio.data()->value, energy.data());
+    for (double e : energy) fields.stored_energy += e;
+    for (int cell = 0; cell < g.cells; ++cell)
+      for (int s = 0; s < g.cell_simplices; ++s) {
+        const std::size_t at = static_cast<std::size_t>(cell / kLanes) * g.cell_simplices + s;
+        const int l = cell % kLanes, element = g.first_element + cell * g.cell_simplices + s;
+        Sym& sigma = fields.stress[element];
+        for (int i = 0; i < 6; ++i) sigma[i] = stress[at * 6 + i][l];
+        fields.volume_ratio[element] = ratio[at][l];
+      }
+  }
+  if (any_nodal_)  // the volumetric energy of nodal pressures belongs to the nodes
+    for (const Group& g : groups_) {
+      if (g.pressure != PressureMode::node) continue;
+      std::vector<char> mine(mass_.size(), 0);
+      for (int node : g.node_storage) mine[node] = 1;
+      for (std::size_t n = 0; n < mine.size(); ++n)
+        if (mine[n]) fields.stored_energy += 0.5 * nodal_volume0_[n] * pressure_[n] * pressure_[n] / nodal_bulk_[n];
+    }
+  return fields;
+}
+
+Elements::Location Elements::locate(int element) const {
+  for (int k = static_cast<int>(groups_.size()) - 1; k >= 0; --k) {
+    const Group& g = groups_[k];
+    if (element >= g.first_element)
+      return {k, (element - g.first_element) / g.cell_simplices, (element - g.first_element) % g.cell_simplices};
+  }
+  return {0, 0, 0};
+}
+
+void Elements::report_inversion(const NodeField& x) const {
+  for (std::size_t e = 0; e < simplices_.size(); ++e) {
+    Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
+    for (int m = 0; m < dimension_; ++m) edges.col(m) = vec3(x[simplices_[e][m + 1]] - x[simplices_[e][0]]);
+    const double V = edges.determinant() / (dimension_ == 2 ? 2 : 6);
+    if (V > 0) continue;
+    const Location where = locate(static_cast<int>(e));
+    const Group& g = groups_[where.group];
+    const int items = dimension_ == 2 ? kMemory<2> : kMemory<3>;
+    const double V0 = g.memory_storage[(static_cast<std::size_t>(where.cell / kLanes) * g.cell_simplices + where.simplex) * items +
+                                       items - 1][where.cell % kLanes];
+    std::ostringstream what;
+    what << "element " << e << " of body " << g.body << " (nodes";
+    for (int a = 0; a <= dimension_; ++a) what << ' ' << simplices_[e][a];
+    what << ") turned inside out at (" << vec3(x[simplices_[e][0]]).transpose() << ") m: V/V0 = " << V / V0
+         << "; a finer mesh there, larger tool radii or slower tools avoid it";
+    throw Error(Code::mesh_error, what.str());
+  }
+  throw Error(Code::mesh_error, "a nodal position is not a number");
+}
+
+void Elements::append_state(std::vector<double>& to) const {
+  for (const Group& g : groups_) {
+    const double* memory = reinterpret_cast<const double*>(g.memory_storage.data());
+    to.insert(to.end(), memory, memory + g.memory_storage.size() * 8);
+    to.insert(to.end(), g.plastic.begin(), g.plastic.end());
+    to.insert(to.end(), g.viscous.begin(), g.viscous.end());
+  }
+}
+
+const double* Elements::read_state(const double* from) {
+  for (Group& g : groups_) {
+    double* memory = reinterpret_cast<double*>(g.memory_storage.data());
+    std::copy(from, from + g.memory_storage.size() * 8, memory);
+    from += g.memory_storage.size() * 8;
+    std::copy(from, from + g.plastic.size(), g.plastic.begin());
+    from += g.plastic.size();
+    std::copy(from, from + g.viscous.size(), g.viscous.begin());
+    from += g.viscous.size();
+  }
+  return from;
+}
+
+const char* Elements::kernel_name() const { return kernels_.name; }
+
+}  // namespace forming_sim

@@ -1,0 +1,323 @@
+// The loops over elements, compiled once per vector width (see CMakeLists.txt).
+// Only raw arrays and types of this width's namespace are used here, so that no
+// inline function of a wider instruction set can leak into the rest of the program.
+#include "forming_sim/element/cell_group.h"
+#include "forming_sim/element/time_step.h"
+#include "forming_sim/element/cell_types.h"
+
+namespace forming_sim {
+namespace FORMING_SIM_ISA {
+namespace {
+
+template <class Cell> constexpr int kD = Cell::dimension;
+
+/// Nodal vectors of a block of cells, gathered: one Pack per component.
+template <class Cell>
+void gather(const int* nodes, const double* field, Vector<Pack, kD<Cell>>* out) {
+  for (int a = 0; a < Cell::nodes; ++a) {
+    const double* from[kLanes];
+    for (int l = 0; l < kLanes; ++l) from[l] = field + 4 * static_cast<long>(nodes[a * kLanes + l]);
+    Pack z;
+    if constexpr (kD<Cell> == 2) gather_records(from, out[a][0], out[a][1], z);
+    else gather_records(from, out[a][0], out[a][1], out[a][2]);
+  }
+}
+
+template <class Cell>
+void edges_of(const Vector<Pack, kD<Cell>>* x, int s, Vector<Pack, kD<Cell>>* edge) {
+  const auto& corner = Cell::table[s];
+  for (int m = 0; m < kD<Cell>; ++m) edge[m] = x[corner[m + 1]] - x[corner[0]];
+}
+
+/// Memory of simplex s: G, p, V0.
+template <int D> struct Memory {
+  Symmetric<Pack, D> G;
+  Pack p, V0;
+  explicit Memory(const double* from) {
+    for (int i = 0; i < Symmetric<Pack, D>::size; ++i) G[i] = Pack::load(from + i * kLanes);
+    p = Pack::load(from + Symmetric<Pack, D>::size * kLanes);
+    V0 = Pack::load(from + (Symmetric<Pack, D>::size + 1) * kLanes);
+  }
+  void store(double* to) const {
+    for (int i = 0; i < Symmetric<Pack, D>::size; ++i) G[i].store(to + i * kLanes);
+    p.store(to + Symmetric<Pack, D>::size * kLanes);
+  }
+};
+
+template <class Cell> double* memory_of(const CellGroup& g, long block, int s) {
+  return g.memory + (block * Cell::simplices + s) * kMemory<kD<Cell>> * kLanes;
+}
+
+/// p of every simplex of the block: K (V/V0 - 1) of the cell (with a share of the
+/// element's own, see elements.cpp), of the element, or the mean of its nodes' pressures.
+template <class Cell>
+void pressures(const CellGroup& g, const NodalView& view, long block, const Pack* V, Pack* p) {
+  constexpr int D = kD<Cell>;
+  const Pack K(g.solid.K);
+  if (g.pressure == PressureMode::node) {
+    const int* nodes = g.nodes + block * Cell::nodes * kLanes;
+    for (int s = 0; s < Cell::simplices; ++s) {
+      Pack total(0.0);
+      for (int a = 0; a <= D; ++a)
+        for (int l = 0; l < kLanes; ++l)
+          total.v[l] += view.pressure[nodes[Cell::table[s][a] * kLanes + l]];
+      p[s] = total * Pack(1.0 / (D + 1));
+    }
+    return;
+  }
+  Pack sum_V(0.0), sum_V0(0.0), V0[Cell::simplices];
+  for (int s = 0; s < Cell::simplices; ++s) {
+    V0[s] = Pack::load(memory_of<Cell>(g, block, s) + (kMemory<D> - 1) * kLanes);
+    sum_V += V[s];
+    sum_V0 += V0[s];
+  }
+  if (g.pressure == PressureMode::element || Cell::simplices == 1) {
+    for (int s = 0; s < Cell::simplices; ++s) p[s] = K * (V[s] / V0[s] - Pack(1.0));
+    return;
+  }
+  const Pack theta(g.element_share);
+  const Pack mean = (Pack(1.0) - theta) * K * (sum_V / sum_V0 - Pack(1.0));
+  for (int s = 0; s < Cell::simplices; ++s) p[s] = mean + theta * K * (V[s] / V0[s] - Pack(1.0));
+}
+
+/// Bulk viscosity of the cell: q = rho l (b1 c D + b2^2 l D |D| where D < 0),
+/// D = (dV/dt)/V, l = V^(1/d), added to p; returns q D V, the power it takes.
+template <class Cell>
+Pack viscous_pressure(const CellGroup& g, const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v,
+                      Pack& q) {
+  constexpr int D = kD<Cell>;
+  Pack V(0.0), rate(0.0);
+  for (int s = 0; s < Cell::simplices; ++s) {
+    Edges<Pack, D> e;
+    edges_of<Cell>(x, s, e.x);
+    find_reciprocal(e);
+    Vector<Pack, D> w[D];
+    edges_of<Cell>(v, s, w);
+    Pack divergence = dot(w[0], e.up[0]);  // nabla . v = v_m . x^m (3.26)
+    for (int m = 1; m < D; ++m) divergence += dot(w[m], e.up[m]);
+    V += e.volume;
+    rate += e.volume * divergence;
+  }
+  const Pack D_v = rate / V;
+  const Pack l = lanewise([](double volume) { return D == 2 ? __builtin_sqrt(volume) : __builtin_cbrt(volume); }, V);
+  const Pack c(__builtin_sqrt((g.solid.K + 4.0 / 3 * g.solid.mu) / g.density));
+  const Pack b2(g.quadratic_viscosity);
+  q = Pack(g.density) * l * D_v *
+      (Pack(g.linear_viscosity) * c + select(D_v < Pack(0.0), b2 * b2 * l * absolute(D_v), Pack(0.0)));
+  return q * D_v * V;
+}
+
+template <class Cell>
+[[gnu::flatten]] void forces_of_block(const CellGroup& g, const NodalView& view, long block) {
+  constexpr int D = kD<Cell>;
+  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
+  Vector<Pack, D> x[Cell::nodes], f[Cell::nodes];
+  gather<Cell>(nodes, view.x, x);
+  for (int a = 0; a < Cell::nodes; ++a)
+    for (int i = 0; i < D; ++i) f[a][i] = Pack(0.0);
+
+  Pack V[Cell::simplices], p[Cell::simplices];
+  for (int s = 0; s < Cell::simplices; ++s) {
+    Vector<Pack, D> edge[D];
+    edges_of<Cell>(x, s, edge);
+    V[s] = simplex_volume<Pack, D>(edge);
+  }
+  pressures<Cell>(g, view, block, V, p);
+  const int in_use = block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes;
+  if (g.linear_viscosity > 0 || g.quadratic_viscosity > 0) {
+    Vector<Pack, D> v[Cell::nodes];
+    gather<Cell>(nodes, view.v, v);
+    Pack q;
+    const Pack power = viscous_pressure<Cell>(g, x, v, q);
+    for (int s = 0; s < Cell::simplices; ++s) p[s] += q;
+    for (int l = 0; l < in_use; ++l) g.viscous_work[block] += power[l] * view.dt;
+  }
+
+  Pack dissipated(0.0), lowest(1e300);
+  for (int s = 0; s < Cell::simplices; ++s) {
+    const auto& corner = Cell::table[s];
+    Edges<Pack, D> e;
+    edges_of<Cell>(x, s, e.x);
+    find_reciprocal(e);
+    double* at = memory_of<Cell>(g, block, s);
+    Memory<D> memory(at);
+    const Symmetric<Pack, D> B = push(memory.G, e);  // (3.51)
+    const Pack J = e.volume / memory.V0;
+    lowest = smaller(lowest, J);
+    const Pack before = memory.p;
+    PointResult<Pack, D> point = update_point(g.solid, B, J, memory.p);
+    if (any(memory.p > before)) {
+      const Symmetric<Pack, D> Gx = metric(e);
+      for (int i = 0; i < Symmetric<Pack, D>::size; ++i)
+        memory.G[i] = point.a * memory.G[i] + (Pack(1.0) - point.a) * Gx[i];  // (3.54)
+      memory.store(at);
+      dissipated += point.dissipation * memory.V0;
+    }
+    for (int i = 0; i < 3; ++i) point.S[i] += p[s];  // sigma = p I + S (3.4)
+    Vector<Pack, D> rest;
+    for (int m = 0; m < D; ++m) {
+      const Vector<Pack, D> force = -e.volume * (point.S * e.up[m]);  // -V sigma . x^m
+      f[corner[m + 1]] += force;
+      rest = m == 0 ? force : rest;
+      if (m > 0) rest += force;
+    }
+    for (int i = 0; i < D; ++i) f[corner[0]][i] -= rest[i];
+  }
+  for (int l = 0; l < in_use; ++l) g.plastic_work[block] += dissipated[l];
+  double low = 1e300;
+  for (int l = 0; l < kLanes; ++l) low = lowest[l] > low ? low : lowest[l];  // keeps a NaN
+  g.lowest_ratio[block] = low;
+
+  double* out = g.records + block * Cell::nodes * kLanes * kRecord<D>;
+  for (int a = 0; a < Cell::nodes; ++a) {
+    if constexpr (D == 2) store_pairs(f[a][0], f[a][1], out + a * kLanes * kRecord<D>);
+    else store_quads(f[a][0], f[a][1], f[a][2], out + a * kLanes * kRecord<D>);
+  }
+}
+
+template <class Cell> void volumes_of_block(const CellGroup& g, const NodalView& view, long block) {
+  constexpr int D = kD<Cell>;
+  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
+  Vector<Pack, D> x[Cell::nodes];
+  gather<Cell>(nodes, view.x, x);
+  Pack share[Cell::nodes];
+  for (int a = 0; a < Cell::nodes; ++a) share[a] = Pack(0.0);
+  for (int s = 0; s < Cell::simplices; ++s) {
+    Vector<Pack, D> edge[D];
+    edges_of<Cell>(x, s, edge);
+    const Pack part = simplex_volume<Pack, D>(edge) * Pack(1.0 / (D + 1));
+    for (int a = 0; a <= D; ++a) share[Cell::table[s][a]] += part;
+  }
+  double* out = g.records + block * Cell::nodes * kLanes;
+  for (int a = 0; a < Cell::nodes; ++a) share[a].store(out + a * kLanes);
+}
+
+template <class Cell>
+[[gnu::flatten]] BlockStep step_of_block(const CellGroup& g, const NodalView& view, long block) {
+  constexpr int D = kD<Cell>;
+  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
+  Vector<Pack, D> x[Cell::nodes];
+  gather<Cell>(nodes, view.x, x);
+  StepBound<Pack, D, Cell::nodes> bound(g);
+  for (int s = 0; s < Cell::simplices; ++s) {
+    Edges<Pack, D> e;
+    edges_of<Cell>(x, s, e.x);
+    find_reciprocal(e);
+    const Memory<D> memory(memory_of<Cell>(g, block, s));
+    bound.add(e, push(memory.G, e), memory.V0, Cell::table[s]);
+  }
+  Pack rate(0.0);
+  if (g.quadratic_viscosity > 0) {
+    Vector<Pack, D> v[Cell::nodes];
+    gather<Cell>(nodes, view.v, v);
+    Pack V(0.0);
+    for (int s = 0; s < Cell::simplices; ++s) {
+      Edges<Pack, D> e;
+      edges_of<Cell>(x, s, e.x);
+      find_reciprocal(e);
+      Vector<Pack, D> w[D];
+      edges_of<Cell>(v, s, w);
+      for (int m = 0; m < D; ++m) rate += e.volume * dot(w[m], e.up[m]);
+      V += e.volume;
+    }
+    rate = absolute(rate / V);
+  }
+  const Pack dt = bound.step(rate);
+  BlockStep r{dt[0], 0};
+  for (int l = 1; l < kLanes; ++l)
+    if (!(dt[l] >= r.dt)) r = {dt[l], l};  // a NaN wins
+  return r;
+}
+
+template <class Cell>
+void observe_block(const CellGroup& g, const NodalView& view, long block, double* stress, double* ratio,
+                   double* energy) {
+  constexpr int D = kD<Cell>;
+  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
+  Vector<Pack, D> x[Cell::nodes];
+  gather<Cell>(nodes, view.x, x);
+  Pack V[Cell::simplices], p[Cell::simplices];
+  for (int s = 0; s < Cell::simplices; ++s) {
+    Vector<Pack, D> edge[D];
+    edges_of<Cell>(x, s, edge);
+    V[s] = simplex_volume<Pack, D>(edge);
+  }
+  pressures<Cell>(g, view, block, V, p);
+  Pack stored(0.0), cell_V(0.0), cell_V0(0.0);
+  const double own = g.pressure == PressureMode::element ? 1 : g.element_share;
+  for (int s = 0; s < Cell::simplices; ++s) {
+    Edges<Pack, D> e;
+    edges_of<Cell>(x, s, e.x);
+    find_reciprocal(e);
+    Memory<D> memory(memory_of<Cell>(g, block, s));
+    const Symmetric<Pack, D> B = push(memory.G, e);
+    const Pack J = e.volume / memory.V0;
+    stored += memory.V0 * deviatoric_energy(g.solid, B, J);
+    if (g.pressure != PressureMode::node)
+      stored += Pack(0.5 * g.solid.K * own) * memory.V0 * (J - Pack(1.0)) * (J - Pack(1.0));
+    cell_V += e.volume;
+    cell_V0 += memory.V0;
+    const PointResult<Pack, D> point = update_point(g.solid, B, J, memory.p);
+    double* to = stress + (block * Cell::simplices + s) * 6 * kLanes;
+    for (int i = 0; i < 6; ++i) {
+      Pack component = i < Symmetric<Pack, D>::size ? point.S[i] : Pack(0.0);
+      if (i < 3) component += p[s];
+      component.store(to + i * kLanes);
+    }
+    J.store(ratio + (block * Cell::simplices + s) * kLanes);
+  }
+  if (g.pressure == PressureMode::cell) {
+    const Pack strain = cell_V / cell_V0 - Pack(1.0);
+    stored += Pack(0.5 * g.solid.K * (1 - own)) * cell_V0 * strain * strain;
+  }
+  const int in_use = block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes;
+  energy[block] = 0;
+  for (int l = 0; l < in_use; ++l) energy[block] += stored[l];
+}
+
+/// Calls `work` with the cell type of the group's kind.
+template <class Work> void with_cell(const CellGroup& g, Work&& work) {
+  switch (static_cast<CellKind>(g.kind)) {
+    case CellKind::triangle: return work(cell_types::Triangle());
+    case CellKind::quad2: return work(cell_types::Quad2());
+    case CellKind::crossed: return work(cell_types::Crossed());
+    case CellKind::tetrahedron: return work(cell_types::Tetrahedron());
+    case CellKind::hex6: return work(cell_types::Hex6());
+    case CellKind::hex24: return work(cell_types::Hex24());
+  }
+}
+
+void forces(const CellGroup& g, const NodalView& view, int first, int last) {
+  with_cell(g, [&](auto cell) {
+    for (int b = first; b < last; ++b) forces_of_block<decltype(cell)>(g, view, b);
+  });
+}
+void volumes(const CellGroup& g, const NodalView& view, int first, int last) {
+  with_cell(g, [&](auto cell) {
+    for (int b = first; b < last; ++b) volumes_of_block<decltype(cell)>(g, view, b);
+  });
+}
+void time_step(const CellGroup& g, const NodalView& view, int first, int last, BlockStep* out) {
+  with_cell(g, [&](auto cell) {
+    for (int b = first; b < last; ++b) out[b] = step_of_block<decltype(cell)>(g, view, b);
+  });
+}
+void observe(const CellGroup& g, const NodalView& view, int first, int last, double* stress, double* ratio,
+             double* energy) {
+  with_cell(g, [&](auto cell) {
+    for (int b = first; b < last; ++b) observe_block<decltype(cell)>(g, view, b, stress, ratio, energy);
+  });
+}
+
+#define FORMING_SIM_TEXT(word) #word
+#define FORMING_SIM_NAME(word) FORMING_SIM_TEXT(word)
+
+}  // namespace
+
+const Kernels& kernels() {
+  static const Kernels k{FORMING_SIM_NAME(FORMING_SIM_ISA), forces, volumes, time_step, observe};
+  return k;
+}
+
+}  // namespace FORMING_SIM_ISA
+}  // namespace forming_sim

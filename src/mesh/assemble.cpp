@@ -1,0 +1,182 @@
+// From what a mesh file or a message says to a body: splits, sets, checks.
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "forming_sim/config/fault.h"
+#include "forming_sim/mesh/cell_tables.h"
+#include "forming_sim/mesh/measure.h"
+#include "forming_sim/mesh/split.h"
+#include "raw_mesh.h"
+
+namespace forming_sim {
+namespace {
+
+constexpr double kFlat = 1e-9;         // of the body's size: z of a plane-strain body
+constexpr std::size_t kNamed = 5;      // cells named in a message
+
+[[noreturn]] void refuse(const RawMesh& raw, const std::string& what) {
+  throw Error(Code::mesh_error, raw.source + ": " + what);
+}
+
+void check_points(const RawMesh& raw) {
+  for (std::size_t p = 0; p < raw.points.size(); ++p)
+    if (!raw.points[p].allFinite())
+      refuse(raw, "node " + std::to_string(raw.point_tags[p]) + " lies at " + place(raw.points[p]) +
+                      "; every coordinate must be a finite number");
+}
+
+void lay_flat(RawMesh& raw) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& x : raw.points) box.extend(x);
+  for (std::size_t p = 0; p < raw.points.size(); ++p) {
+    double& z = raw.points[p].z();
+    if (std::abs(z) > kFlat * box.diagonal().norm())
+      refuse(raw, "node " + std::to_string(raw.point_tags[p]) + " of a mesh of triangles and quadrilaterals lies at " +
+                      place(raw.points[p]) + "; a plane-strain body lies in z = 0, and a solid one needs tetrahedra or hexahedra");
+    z = 0;
+  }
+  for (RawCell& cell : raw.cells) {
+    const int n = shape_of(cell.kind).corners;
+    double twice_area = 0;
+    for (int k = 0; k < n; ++k) {
+      const Vec3 &a = raw.points[cell.nodes[k]], &b = raw.points[cell.nodes[(k + 1) % n]];
+      twice_area += a.x() * b.y() - a.y() * b.x();
+    }
+    if (twice_area < 0) std::reverse(cell.nodes + 1, cell.nodes + n);
+  }
+}
+
+// Tetrahedra know nothing of the centre that hex24 puts on a shared face.
+void check_kinds_apart(const RawMesh& raw) {
+  std::set<std::array<int, 3>> corners_of_hexes;
+  for (const RawCell& cell : raw.cells)
+    if (cell.kind == RawKind::hexahedron)
+      for (const auto& face : kHexFaces)
+        for (int skip = 0; skip < 4; ++skip) {
+          std::array<int, 3> key;
+          for (int k = 0, at = 0; k < 4; ++k)
+            if (k != skip) key[at++] = cell.nodes[face[k]];
+          std::sort(key.begin(), key.end());
+          corners_of_hexes.insert(key);
+        }
+  if (corners_of_hexes.empty()) return;
+  for (const RawCell& cell : raw.cells)
+    if (cell.kind == RawKind::tetrahedron)
+      for (int skip = 0; skip < 4; ++skip) {
+        std::array<int, 3> key;
+        for (int k = 0, at = 0; k < 4; ++k)
+          if (k != skip) key[at++] = cell.nodes[k];
+        std::sort(key.begin(), key.end());
+        if (corners_of_hexes.count(key))
+          refuse(raw, "tetrahedron " + std::to_string(cell.tag) +
+                          " lies on a face of a hexahedron, which is split about its centre; mesh a body with one of the two kinds");
+      }
+}
+
+struct Split {
+  std::vector<long long> tags;  // of the cells in the order of Mesh::cells
+  Centres faces;                // centres of quadrilaterals, hexahedra and their faces
+};
+
+Split split(const RawMesh& raw, Mesh& mesh) {
+  Split result;
+  std::vector<Quad> quads;
+  std::vector<Hex> hexes;
+  const auto take = [&](RawKind kind, auto&& each) {
+    for (const RawCell& cell : raw.cells)
+      if (cell.kind == kind) {
+        each(cell);
+        result.tags.push_back(cell.tag);
+      }
+  };
+  const auto as_they_are = [&](RawKind raw_kind, CellKind kind) {
+    Cells block{kind, {}};
+    take(raw_kind, [&](const RawCell& c) { block.nodes.insert(block.nodes.end(), c.nodes, c.nodes + shape_of(raw_kind).corners); });
+    if (!block.nodes.empty()) mesh.cells.push_back(std::move(block));
+  };
+  as_they_are(RawKind::triangle, CellKind::triangle);
+  take(RawKind::quadrilateral, [&](const RawCell& c) { quads.push_back({c.nodes[0], c.nodes[1], c.nodes[2], c.nodes[3]}); });
+  if (!quads.empty()) result.faces = split_quads(mesh, quads, CellKind::crossed);
+  as_they_are(RawKind::tetrahedron, CellKind::tetrahedron);
+  take(RawKind::hexahedron, [&](const RawCell& c) {
+    hexes.emplace_back();
+    std::copy(c.nodes, c.nodes + 8, hexes.back().begin());
+  });
+  if (!hexes.empty()) result.faces = split_hexes(mesh, hexes, CellKind::hex24);
+  return result;
+}
+
+// Names the cells with a simplex that is not positive by their author's numbers.
+void check_cells(const RawMesh& raw, const Mesh& mesh, const std::vector<long long>& tags) {
+  const auto simplices = mesh.simplices();
+  std::vector<std::size_t> bad;
+  std::size_t cell = 0, simplex = 0;
+  for (const Cells& block : mesh.cells)
+    for (int c = 0; c < block.count(); ++c, ++cell) {
+      bool good = true;
+      for (int s = 0; s < shape_of(block.kind).simplices; ++s, ++simplex)
+        good = good && signed_volume(mesh.nodes, simplices[simplex], mesh.dimension) > 0;
+      if (!good) bad.push_back(cell);
+    }
+  if (bad.empty()) return;
+  std::ostringstream text;
+  text << bad.size() << " of " << cell << " cells are inverted, flat or not convex: ";
+  for (std::size_t k = 0; k < std::min(kNamed, bad.size()); ++k) text << (k ? ", " : "") << tags[bad[k]];
+  if (bad.size() > kNamed) text << " ...";
+  text << "; every cell needs a positive volume: turn round their node order or mesh the body anew";
+  refuse(raw, text.str());
+}
+
+void lay_sets(const RawMesh& raw, const Centres& centres, Mesh& mesh) {
+  std::vector<char> used(mesh.nodes.size(), 0);
+  for (const Cells& block : mesh.cells)
+    for (int n : block.nodes) used[n] = 1;
+  for (const auto& [name, cells] : raw.groups) {
+    std::vector<int> nodes;
+    const auto take = [&](int n) { if (n >= 0 && used[n]) nodes.push_back(n); };
+    for (const RawCell& cell : cells) {
+      const int corners = shape_of(cell.kind).corners;
+      for (int k = 0; k < corners; ++k) take(cell.nodes[k]);
+      if (corners == 4 || corners == 8) take(centres.find(cell.nodes, corners));
+      if (cell.kind == RawKind::hexahedron)
+        for (const auto& face : kHexFaces) {
+          const int four[4] = {cell.nodes[face[0]], cell.nodes[face[1]], cell.nodes[face[2]], cell.nodes[face[3]]};
+          take(centres.find(four, 4));
+        }
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    if (!nodes.empty()) mesh.sets[name] = std::move(nodes);
+  }
+}
+
+}  // namespace
+
+const RawShape& shape_of(RawKind kind) {
+  static constexpr RawShape shapes[] = {{"point", 0, 1},         {"line", 1, 2},        {"triangle", 2, 3},
+                                        {"quadrilateral", 2, 4}, {"tetrahedron", 3, 4}, {"hexahedron", 3, 8}};
+  return shapes[static_cast<int>(kind)];
+}
+
+Mesh assemble(RawMesh raw) {
+  check_points(raw);
+  if (raw.dimension == 2) lay_flat(raw);
+  check_kinds_apart(raw);
+  Mesh mesh;
+  mesh.dimension = raw.dimension;
+  mesh.nodes = raw.points;
+  const Split parts = split(raw, mesh);
+  check_cells(raw, mesh, parts.tags);
+  lay_sets(raw, parts.faces, mesh);
+  try {
+    find_surface(mesh);
+    check_volumes(mesh);
+  } catch (const Error& error) {
+    const std::string what = error.what();  // "mesh: ...": the source takes the place of the first word
+    throw Error(error.code(), raw.source + what.substr(what.find(':')));
+  }
+  return mesh;
+}
+
+}  // namespace forming_sim

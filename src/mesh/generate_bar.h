@@ -1,0 +1,11 @@
+#pragma once
+// The O-grid of a round bar; used by generate_blank, which has checked the numbers.
+#include "forming_sim/mesh/config.h"
+#include "forming_sim/mesh/mesh.h"
+
+namespace forming_sim {
+
+/// Cells and sets of the bar; hex24 or hex6.
+Mesh generate_bar(const BlankConfig& blank, CellKind kind);
+
+}  // namespace forming_sim

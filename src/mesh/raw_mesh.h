@@ -1,0 +1,41 @@
+#pragma once
+// A body's mesh as its source says it, before it is split and checked.
+#include <map>
+#include <string>
+#include <vector>
+
+#include "forming_sim/mesh/mesh.h"
+
+namespace forming_sim {
+
+/// What a source may hold; corners in the order of mesh.h.
+enum class RawKind { point, line, triangle, quadrilateral, tetrahedron, hexahedron };
+struct RawShape {
+  const char* name;
+  int dimension, corners;
+};
+const RawShape& shape_of(RawKind kind);
+
+struct RawCell {
+  RawKind kind;
+  long long tag;     ///< number by which its author knows it
+  int nodes[8];      ///< indices into RawMesh::points
+};
+
+struct RawMesh {
+  std::string source;                  ///< as messages name it
+  int dimension = 3;
+  std::vector<Vec3> points;            ///< metres
+  std::vector<long long> point_tags;   ///< as their author knows them
+  std::vector<RawCell> cells;          ///< of the body, of the one dimension
+  std::map<std::string, std::vector<RawCell>> groups;  ///< cells of any dimension
+};
+
+/// Splits the cells, lays the groups out as sets, finds the surface and checks
+/// everything. Throws Error(mesh_error).
+Mesh assemble(RawMesh raw);
+
+/// The body of a .msh file at a path, scaled; by way of libgmsh.
+RawMesh read_gmsh(const std::string& path, const std::string& group, double unit_scale);
+
+}  // namespace forming_sim

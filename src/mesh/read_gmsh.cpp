@@ -1,0 +1,225 @@
+// A .msh file by way of libgmsh, which has one state for the whole process.
+#include <gmsh.h>
+
+#include <algorithm>
+#include <fstream>
+#include <mutex>
+#include <unordered_map>
+
+#include "forming_sim/config/fault.h"
+#include "raw_mesh.h"
+
+namespace forming_sim {
+namespace {
+
+using Groups = std::vector<std::pair<int, int>>;  // dimension and tag
+
+// The time of one reading; only one thread at a time.
+class Session {
+ public:
+  Session() : lock_(mutex()) {
+    static const bool once = [] {
+      gmsh::initialize(0, nullptr, false);
+      gmsh::option::setNumber("General.Terminal", 0);
+      // Errors go to the log: thrown from within a reading, they would leave gmsh
+      // locked, and every later file would seem empty.
+      gmsh::option::setNumber("General.AbortOnError", 0);
+      return true;
+    }();
+    (void)once;
+    gmsh::clear();
+    gmsh::logger::start();
+  }
+  void open(const std::string& path) const {
+    gmsh::open(path);
+    std::vector<std::string> log;
+    gmsh::logger::get(log);
+    for (const std::string& line : log)
+      if (line.compare(0, 7, "Error: ") == 0) throw line.substr(7);
+  }
+  ~Session() {
+    try {
+      gmsh::logger::stop();
+      gmsh::clear();
+    } catch (...) {  // nothing is left to clear
+    }
+  }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex one;
+    return one;
+  }
+  std::lock_guard<std::mutex> lock_;
+};
+
+std::string name_of(const std::pair<int, int>& group) {
+  std::string name;
+  gmsh::model::getPhysicalName(group.first, group.second, name);
+  return name.empty() ? "group_" + std::to_string(group.second) : name;
+}
+
+struct Reader {
+  std::string source;
+  std::unordered_map<std::size_t, int> index;  // of a node's tag
+  RawMesh raw;
+
+  [[noreturn]] void refuse(const std::string& what) const { throw Error(Code::mesh_error, source + ": " + what); }
+
+  RawKind kind_of(int type) const {
+    switch (type) {
+      case 15: return RawKind::point;
+      case 1: return RawKind::line;
+      case 2: return RawKind::triangle;
+      case 3: return RawKind::quadrilateral;
+      case 4: return RawKind::tetrahedron;
+      case 5: return RawKind::hexahedron;
+      default: break;
+    }
+    std::string name;
+    int dimension, order, nodes, primary;
+    std::vector<double> local;
+    gmsh::model::mesh::getElementProperties(type, name, dimension, order, nodes, local, primary);
+    if (order > 1)
+      refuse("holds cells of order " + std::to_string(order) + " (" + name +
+             "); linear cells are needed: mesh with Mesh.ElementOrder = 1, or convert by gmsh -order 1 -save FILE -o NEW.msh");
+    refuse("holds cells of the kind " + name +
+           "; triangles, quadrilaterals, tetrahedra and hexahedra can be used, so mesh the body with these");
+  }
+
+  void read_nodes(double scale) {
+    std::vector<std::size_t> tags;
+    std::vector<double> x, unused;
+    gmsh::model::mesh::getNodes(tags, x, unused, -1, -1, false, false);
+    std::vector<std::size_t> order(tags.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return tags[a] < tags[b]; });
+    for (std::size_t i : order) {
+      if (!index.emplace(tags[i], static_cast<int>(raw.points.size())).second) continue;
+      raw.points.push_back(scale * Vec3(x[3 * i], x[3 * i + 1], x[3 * i + 2]));
+      raw.point_tags.push_back(static_cast<long long>(tags[i]));
+    }
+  }
+
+  void append_cells(int dimension, int entity, std::vector<RawCell>& cells) const {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> tags, nodes;
+    gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
+    for (std::size_t t = 0; t < types.size(); ++t) {
+      if (tags[t].empty()) continue;
+      const RawKind kind = kind_of(types[t]);
+      const int corners = shape_of(kind).corners;
+      for (std::size_t c = 0; c < tags[t].size(); ++c) {
+        RawCell cell{kind, static_cast<long long>(tags[t][c]), {}};
+        for (int k = 0; k < corners; ++k) {
+          const auto found = index.find(nodes[t][c * corners + k]);
+          if (found == index.end())
+            refuse("cell " + std::to_string(cell.tag) + " names node " + std::to_string(nodes[t][c * corners + k]) +
+                   ", which the file does not hold");
+          cell.nodes[k] = found->second;
+        }
+        cells.push_back(cell);
+      }
+    }
+  }
+
+  void append_group(const std::pair<int, int>& group, std::vector<RawCell>& cells) const {
+    std::vector<int> entities;
+    gmsh::model::getEntitiesForPhysicalGroup(group.first, group.second, entities);
+    for (int entity : entities) append_cells(group.first, entity, cells);
+  }
+
+  void choose_body(const Groups& groups, const std::string& wanted) {
+    if (wanted.empty()) {
+      for (int dimension = 3; dimension >= 2 && raw.cells.empty(); --dimension) {
+        append_cells(dimension, -1, raw.cells);
+        raw.dimension = dimension;
+      }
+      if (raw.cells.empty()) refuse("holds no triangles, quadrilaterals, tetrahedra or hexahedra; mesh it first (gmsh -2 or gmsh -3)");
+      return;
+    }
+    std::string names;
+    raw.dimension = -1;
+    for (const auto& group : groups) {
+      names += (names.empty() ? "" : ", ") + name_of(group);
+      if (name_of(group) == wanted) raw.dimension = std::max(raw.dimension, group.first);
+    }
+    if (raw.dimension < 0)
+      refuse("has no physical group \"" + wanted + "\"; it has " + (names.empty() ? std::string("none") : names));
+    for (const auto& group : groups)
+      if (group.first == raw.dimension && name_of(group) == wanted) append_group(group, raw.cells);
+    if (raw.dimension < 2 || raw.cells.empty())
+      refuse("the physical group \"" + wanted + "\" holds no triangles, quadrilaterals, tetrahedra or hexahedra, so it is no body");
+  }
+
+  // Drops the nodes that the body does not use: they would have no mass.
+  void drop_unused_nodes() {
+    std::vector<int> place(raw.points.size(), -1);
+    for (const RawCell& cell : raw.cells)
+      for (int k = 0; k < shape_of(cell.kind).corners; ++k) place[cell.nodes[k]] = 0;
+    int count = 0;
+    for (std::size_t p = 0; p < place.size(); ++p)
+      if (place[p] == 0) {
+        raw.points[count] = raw.points[p];
+        raw.point_tags[count] = raw.point_tags[p];
+        place[p] = count++;
+      }
+    raw.points.resize(count);
+    raw.point_tags.resize(count);
+    const auto renumber = [&](RawCell& cell) {
+      bool whole = true;
+      for (int k = 0; k < shape_of(cell.kind).corners; ++k) whole = (cell.nodes[k] = place[cell.nodes[k]]) >= 0 && whole;
+      return whole;
+    };
+    for (RawCell& cell : raw.cells) renumber(cell);
+    for (auto& [name, cells] : raw.groups)
+      cells.erase(std::remove_if(cells.begin(), cells.end(), [&](RawCell& c) { return !renumber(c); }), cells.end());
+  }
+};
+
+// Whatever does not begin like a mesh, gmsh would run as a script.
+void check_beginning(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  std::getline(file, line);
+  if (line.compare(0, 11, "$MeshFormat") != 0 && line.compare(0, 9, "$Comments") != 0)
+    throw Error(Code::mesh_error, "mesh file \"" + path + "\": " +
+                                      (line.empty() ? "the file or its first line is empty" : "its first line is not that of a mesh") +
+                                      "; a .msh begins with $MeshFormat");
+}
+
+RawMesh read(const std::string& path, const std::string& group, double unit_scale) {
+  check_beginning(path);
+  const Session session;
+  session.open(path);
+  Reader reader;
+  reader.source = "mesh file \"" + path + "\"";
+  reader.raw.source = reader.source;
+  reader.read_nodes(unit_scale);
+  Groups groups;
+  gmsh::model::getPhysicalGroups(groups);
+  reader.choose_body(groups, group);
+  for (const auto& g : groups) reader.append_group(g, reader.raw.groups[name_of(g)]);
+  reader.drop_unused_nodes();
+  return std::move(reader.raw);
+}
+
+}  // namespace
+
+RawMesh read_gmsh(const std::string& path, const std::string& group, double unit_scale) {
+  const std::string source = "mesh file \"" + path + "\": ";
+  const std::string remedy = "; it may be cut short: write it again with gmsh (format 2.2 or 4.1)";
+  try {
+    return read(path, group, unit_scale);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::string& message) {
+    throw Error(Code::mesh_error, source + "gmsh cannot read it: " + message + remedy);
+  } catch (const std::exception& error) {
+    throw Error(Code::mesh_error, source + "gmsh cannot read it: " + error.what() + remedy);
+  } catch (...) {
+    throw Error(Code::mesh_error, source + "gmsh cannot read it" + remedy);
+  }
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,65 @@
+// The files of surfaces, by way of assimp.
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <filesystem>
+
+#include "forming_sim/config/fault.h"
+#include "tool_surface.h"
+
+namespace forming_sim {
+namespace {
+
+using Transform = Eigen::Matrix<double, 3, 4>;
+
+Transform times(const Transform& a, const aiMatrix4x4& m) {
+  Eigen::Matrix4d b;
+  b << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4;
+  return a * b;
+}
+
+// The meshes of a node and of the nodes below it, each where its node puts it.
+void append(const aiScene& scene, const aiNode& node, const Transform& to_root, Triangles& all) {
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    const aiMesh& part = *scene.mMeshes[node.mMeshes[i]];
+    const int first = static_cast<int>(all.points.size());
+    for (unsigned v = 0; v < part.mNumVertices; ++v) {
+      const aiVector3D& x = part.mVertices[v];
+      all.points.push_back(to_root * Eigen::Vector4d(x.x, x.y, x.z, 1));
+    }
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices == 3)
+        all.corners.push_back({first + int(face.mIndices[0]), first + int(face.mIndices[1]), first + int(face.mIndices[2])});
+    }
+  }
+  for (unsigned c = 0; c < node.mNumChildren; ++c)
+    append(scene, *node.mChildren[c], times(to_root, node.mChildren[c]->mTransformation), all);
+}
+
+}  // namespace
+
+Triangles read_triangles(const std::string& path, double unit_scale) {
+  Triangles all;
+  all.source = "mesh file \"" + path + "\"";
+  if (std::filesystem::file_size(path) == 0)
+    throw Error(Code::mesh_error, all.source + ": the file is empty; a tool needs a surface of triangles");
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+  if (!scene || !scene->mRootNode)
+    throw Error(Code::mesh_error, all.source + ": assimp cannot read it: " + importer.GetErrorString() + "; write it again");
+  // With the up direction left alone, the root of a COLLADA scene holds its unit
+  // and nothing else; the user's unit_scale takes its place.
+  const bool collada = std::filesystem::path(path).extension().string().size() == 4 &&
+                       std::tolower(path[path.size() - 3]) == 'd';
+  Transform root = Transform::Zero();
+  root.leftCols<3>().setIdentity();
+  if (!collada) root = times(root, scene->mRootNode->mTransformation);
+  append(*scene, *scene->mRootNode, unit_scale * root, all);
+  return all;
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,92 @@
+#include "forming_sim/mesh/split.h"
+
+#include <algorithm>
+
+#include "forming_sim/mesh/cell_tables.h"
+
+namespace forming_sim {
+namespace {
+
+std::array<int, 8> key_of(const int* corners, int count) {
+  std::array<int, 8> key;
+  key.fill(-1);
+  std::copy(corners, corners + count, key.begin());
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+std::array<int, 4> face_of(const Hex& hex, int face) {
+  std::array<int, 4> corners;
+  for (int k = 0; k < 4; ++k) corners[k] = hex[kHexFaces[face][k]];
+  return corners;
+}
+
+int add_mean(Mesh& mesh, const int* corners, int count) {
+  Vec3 sum = Vec3::Zero();
+  for (int k = 0; k < count; ++k) sum += mesh.nodes[corners[k]];
+  mesh.nodes.push_back(sum / count);
+  return static_cast<int>(mesh.nodes.size()) - 1;
+}
+
+}  // namespace
+
+void Centres::add(const int* corners, int count, int centre) { nodes_.emplace(key_of(corners, count), centre); }
+
+int Centres::find(const int* corners, int count) const {
+  const auto found = nodes_.find(key_of(corners, count));
+  return found == nodes_.end() ? -1 : found->second;
+}
+
+void Centres::extend_by_faces(std::vector<int>& set, const std::vector<Hex>& hexes) const {
+  std::sort(set.begin(), set.end());
+  const std::vector<int> corners_only = set;
+  for (const Hex& hex : hexes)
+    for (int f = 0; f < 6; ++f) {
+      const auto face = face_of(hex, f);
+      const bool inside = std::all_of(face.begin(), face.end(), [&](int n) {
+        return std::binary_search(corners_only.begin(), corners_only.end(), n);
+      });
+      const int centre = inside ? find(face.data(), 4) : -1;
+      if (centre >= 0) set.push_back(centre);
+    }
+  std::sort(set.begin(), set.end());
+  set.erase(std::unique(set.begin(), set.end()), set.end());
+}
+
+Centres split_quads(Mesh& mesh, const std::vector<Quad>& quads, CellKind kind) {
+  Centres centres;
+  Cells block{kind, {}};
+  block.nodes.reserve(quads.size() * shape_of(kind).nodes);
+  for (const Quad& quad : quads) {
+    block.nodes.insert(block.nodes.end(), quad.begin(), quad.end());
+    if (kind != CellKind::crossed) continue;
+    const int centre = add_mean(mesh, quad.data(), 4);
+    block.nodes.push_back(centre);
+    centres.add(quad.data(), 4, centre);
+  }
+  if (!quads.empty()) mesh.cells.push_back(std::move(block));
+  return centres;
+}
+
+Centres split_hexes(Mesh& mesh, const std::vector<Hex>& hexes, CellKind kind) {
+  Centres centres;
+  Cells block{kind, {}};
+  block.nodes.reserve(hexes.size() * shape_of(kind).nodes);
+  for (const Hex& hex : hexes) {
+    block.nodes.insert(block.nodes.end(), hex.begin(), hex.end());
+    if (kind != CellKind::hex24) continue;
+    for (int f = 0; f < 6; ++f) {
+      const auto face = face_of(hex, f);
+      int centre = centres.find(face.data(), 4);
+      if (centre < 0) centres.add(face.data(), 4, centre = add_mean(mesh, face.data(), 4));
+      block.nodes.push_back(centre);
+    }
+    const int centre = add_mean(mesh, hex.data(), 8);
+    centres.add(hex.data(), 8, centre);
+    block.nodes.push_back(centre);
+  }
+  if (!hexes.empty()) mesh.cells.push_back(std::move(block));
+  return centres;
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,56 @@
+#include "forming_sim/results/estimate.h"
+
+#include <cmath>
+
+#include "forming_sim/results/schedule.h"
+#include "forming_sim/scene/build.h"
+#include "forming_sim/scene/validate.h"
+
+namespace forming_sim {
+namespace {
+
+constexpr long kWarmSteps = 5;         ///< first touch of the memory, choice of the kernels
+constexpr long kLeastSteps = 30, kMostSteps = 2000;
+constexpr double kMeasuredTime = 0.2;  ///< s
+
+}  // namespace
+
+Estimate estimate_run(const Scene& scene, int threads) {
+  std::vector<Fault> faults = validate(scene);
+  if (!faults.empty()) throw SceneError(std::move(faults));
+  Simulation simulation(build_plan(scene), build_model(scene), threads);
+  return estimate_run(simulation);
+}
+
+Estimate estimate_run(Simulation& simulation) {
+  Estimate estimate;
+  estimate.nodes = simulation.model().node_count();
+  estimate.elements = simulation.model().element_count();
+  // The state and its copy in a checkpoint, and per element what is kept besides:
+  // connectivity, the blocks of the kernels, the fields of a frame.
+  estimate.memory_bytes = 2.0 * static_cast<double>(simulation.save().size()) + 400.0 * static_cast<double>(estimate.elements);
+
+  bool more = true;
+  for (long i = 0; i < kWarmSteps && more; ++i) more = simulation.step();
+  const double time = simulation.time(), wall = simulation.wall_time();
+  const long first = simulation.steps();
+  const auto enough = [&] {
+    const long steps = simulation.steps() - first;
+    return steps >= kMostSteps || (steps >= kLeastSteps && simulation.wall_time() - wall >= kMeasuredTime);
+  };
+  while (more && !enough()) more = simulation.step();
+
+  const long measured = simulation.steps() - first;
+  if (measured == 0) {  // the whole run is shorter than the warm-up
+    estimate.steps = first;
+    estimate.time_step_s = first > 0 ? time / static_cast<double>(first) : 0;
+    estimate.wall_time_s = wall;
+    return estimate;
+  }
+  estimate.time_step_s = (simulation.time() - time) / static_cast<double>(measured);
+  estimate.steps = static_cast<long>(std::ceil(longest_time(simulation.plan().stages) / estimate.time_step_s));
+  estimate.wall_time_s = (simulation.wall_time() - wall) / static_cast<double>(measured) * static_cast<double>(estimate.steps);
+  return estimate;
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,76 @@
+#include "forming_sim/results/gauge.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace forming_sim {
+namespace {
+
+template <class Nodes>
+Vec3 centre(const Nodes& nodes, int count, const NodeField& positions) {
+  Vec3 sum = Vec3::Zero();
+  for (int k = 0; k < count; ++k) sum += vec3(positions[nodes[k]]);
+  return sum / count;
+}
+
+Peak greatest_plastic_strain(const Simulation& simulation) {
+  const std::vector<double> strain = simulation.plastic_strain();
+  Peak peak;
+  peak.time = simulation.time();
+  if (strain.empty()) return peak;
+  peak.element = static_cast<int>(std::max_element(strain.begin(), strain.end()) - strain.begin());
+  peak.value = strain[peak.element];
+  peak.position = centre(simulation.elements()[peak.element], simulation.model().dimension + 1, simulation.positions());
+  return peak;
+}
+
+Peak greatest_surface_strain(const Simulation& simulation) {
+  const std::vector<double> strain = simulation.surface_strain();
+  Peak peak;
+  peak.time = simulation.time();
+  if (strain.empty()) return peak;
+  const auto index = std::max_element(strain.begin(), strain.end()) - strain.begin();
+  const Facet& facet = simulation.surface()[index];
+  peak.value = strain[index];
+  peak.element = facet.element;
+  peak.position = centre(facet.nodes, simulation.model().dimension, simulation.positions());
+  return peak;
+}
+
+}  // namespace
+
+Gauge::Gauge(const Simulation& simulation, const std::vector<ProbeConfig>& probes)
+    : probes_(find_probes(probes, simulation.model(), simulation.elements())) {
+  for (const BodyModel& body : simulation.model().bodies)
+    if (auto sheet = Thickness::of(body.mesh, body.first_node)) sheets_.push_back(std::move(*sheet));
+}
+
+const Measures& Gauge::at(const Simulation& simulation) {
+  if (step_ == simulation.steps()) return measures_;
+  step_ = simulation.steps();
+  measures_.plastic_strain = greatest_plastic_strain(simulation);
+  measures_.surface_strain = greatest_surface_strain(simulation);
+  measures_.thickness.reset();
+  for (const Thickness& sheet : sheets_) {
+    const double thickness = sheet.smallest(simulation.positions());
+    measures_.thickness = std::min(measures_.thickness.value_or(thickness), thickness);
+  }
+  measures_.probes.clear();
+  const std::vector<Sym> stress = probes_.empty() ? std::vector<Sym>() : simulation.stress();
+  for (const Probe& probe : probes_)
+    measures_.probes.push_back(measure(probe, simulation.model().dimension, simulation.elements(),
+                                       simulation.positions(), simulation.velocities(), stress));
+  return measures_;
+}
+
+double springback_angle_deg(const SpringbackConfig& config, int dimension, const std::vector<Probe>& probes,
+                            const std::vector<ProbeValue>& values) {
+  const auto find = [&](const std::string& name) {
+    return std::find_if(probes.begin(), probes.end(), [&](const Probe& p) { return p.name == name; }) - probes.begin();
+  };
+  const std::size_t from = find(config.from), to = find(config.to);
+  if (from >= values.size() || to >= values.size()) return std::numeric_limits<double>::quiet_NaN();
+  return line_angle_deg(dimension, values[from].position, values[to].position);
+}
+
+}  // namespace forming_sim

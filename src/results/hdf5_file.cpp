@@ -1,0 +1,63 @@
+#include "forming_sim/results/hdf5_file.h"
+
+#include <hdf5.h>
+
+#include <algorithm>
+
+#include "forming_sim/results/hdf5_error.h"
+
+namespace forming_sim {
+namespace {
+
+static_assert(sizeof(hid_t) == sizeof(std::int64_t), "HDF5 1.10 or newer");
+
+/// Metadata reaches the file in flush() only, so that what is there between two
+/// flushes is a whole file.
+Hdf5Handle access_list() {
+  Hdf5Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5AC_cache_config_t cache;
+  cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  H5Pget_mdc_config(list.id(), &cache);
+  cache.evictions_enabled = false;
+  cache.incr_mode = H5C_incr__off;
+  cache.flash_incr_mode = H5C_flash_incr__off;
+  cache.decr_mode = H5C_decr__off;
+  H5Pset_mdc_config(list.id(), &cache);
+  // A file that is being written can be looked at meanwhile.
+  H5Pset_file_locking(list.id(), false, true);
+  return list;
+}
+
+}  // namespace
+
+Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path) {
+  silence_hdf5();
+  const Hdf5Handle access = access_list();
+  switch (mode) {
+    case Mode::create:
+      handle_ = Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
+      break;
+    case Mode::read: handle_ = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose); break;
+    case Mode::append: handle_ = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose); break;
+  }
+  if (!handle_.valid()) throw_hdf5_error(mode == Mode::create ? "create" : "open", path);
+}
+
+Hdf5File::~Hdf5File() = default;
+
+Hdf5Group Hdf5File::root() const {
+  Hdf5Handle group(H5Gopen2(handle_.id(), "/", H5P_DEFAULT), H5Gclose);
+  if (!group.valid()) throw_hdf5_error("open", path_ + ":/");
+  return Hdf5Group(std::move(group), path_ + ":");
+}
+
+void Hdf5File::flush() {
+  if (H5Fflush(handle_.id(), H5F_SCOPE_LOCAL) < 0) throw_hdf5_error("write", path_);
+}
+
+void Hdf5File::close() {
+  flush();
+  handle_ = Hdf5Handle();
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,219 @@
+#include <hdf5.h>
+
+#include <algorithm>
+
+#include "forming_sim/results/hdf5_error.h"
+#include "forming_sim/results/hdf5_file.h"
+
+namespace forming_sim {
+namespace {
+
+template <class T> hid_t native();
+template <> hid_t native<double>() { return H5T_NATIVE_DOUBLE; }
+template <> hid_t native<float>() { return H5T_NATIVE_FLOAT; }
+template <> hid_t native<std::int32_t>() { return H5T_NATIVE_INT32; }
+template <> hid_t native<std::int64_t>() { return H5T_NATIVE_INT64; }
+template <> hid_t native<std::uint8_t>() { return H5T_NATIVE_UINT8; }
+
+constexpr std::uint64_t kChunkBytes = 1u << 20;
+
+/// Chunks of whole rows of about a megabyte.
+void set_storage(hid_t list, const std::vector<std::uint64_t>& shape, std::size_t size, Storage storage) {
+  std::uint64_t row = size;
+  for (std::size_t axis = 1; axis < shape.size(); ++axis) row *= shape[axis];
+  const bool empty = std::find(shape.begin(), shape.end(), 0u) != shape.end();
+  if (storage == Storage::plain || empty || shape.empty()) return;
+  std::vector<hsize_t> chunk(shape.begin(), shape.end());
+  chunk[0] = std::clamp<hsize_t>(kChunkBytes / row, 1, shape[0]);
+  H5Pset_chunk(list, static_cast<int>(chunk.size()), chunk.data());
+  if (storage == Storage::checked) {
+    H5Pset_fletcher32(list);
+  } else {
+    H5Pset_shuffle(list);
+    H5Pset_deflate(list, 1);
+  }
+}
+
+Hdf5Handle text_type(std::size_t length) {
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.id(), std::max<std::size_t>(length, 1));
+  H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
+  H5Tset_cset(type.id(), H5T_CSET_UTF8);
+  return type;
+}
+
+std::string without_padding(std::string text) {
+  text.resize(text.find_last_not_of('\0') + 1);
+  return text;
+}
+
+/// False where it could not be written.
+bool put_attribute(hid_t object, const std::string& name, hid_t type, const void* value) {
+  if (H5Aexists(object, name.c_str()) > 0) H5Adelete(object, name.c_str());
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Handle attribute(H5Acreate2(object, name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  return attribute.valid() && H5Awrite(attribute.id(), type, value) >= 0;
+}
+
+bool put_attribute(hid_t object, const std::string& name, const std::string& value) {
+  const std::string text = value.empty() ? std::string(1, '\0') : value;
+  return put_attribute(object, name, text_type(value.size()).id(), text.data());
+}
+
+bool get_attribute(hid_t object, const std::string& name, hid_t type, void* value) {
+  const Hdf5Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose);
+  return attribute.valid() && H5Aread(attribute.id(), type, value) >= 0;
+}
+
+herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* names) {
+  static_cast<std::vector<std::string>*>(names)->push_back(name);
+  return 0;
+}
+
+}  // namespace
+
+void Hdf5Group::fail(const std::string& action, const std::string& name) const {
+  throw_hdf5_error(action, label_ + "/" + name);
+}
+
+template <class T>
+void Hdf5Group::write(const std::string& name, const T* data, const std::vector<std::uint64_t>& shape,
+                      const std::string& unit, Storage storage) {
+  const std::vector<hsize_t> size(shape.begin(), shape.end());
+  const Hdf5Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose);
+  const Hdf5Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(list.id(), false);  // the same run gives the same file
+  set_storage(list.id(), shape, sizeof(T), storage);
+  const Hdf5Handle set(
+      H5Dcreate2(handle_.id(), name.c_str(), native<T>(), space.id(), H5P_DEFAULT, list.id(), H5P_DEFAULT), H5Dclose);
+  if (!set.valid()) fail("create dataset", name);
+  const bool empty = std::find(shape.begin(), shape.end(), 0u) != shape.end();
+  if (!empty && H5Dwrite(set.id(), native<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) fail("write dataset", name);
+  if (!unit.empty() && !put_attribute(set.id(), "unit", unit)) fail("write the unit of", name);
+}
+
+template <class T>
+std::vector<T> Hdf5Group::read(const std::string& name, std::vector<std::uint64_t>* shape) const {
+  const Hdf5Handle set(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!set.valid()) fail("open dataset", name);
+  const Hdf5Handle space(H5Dget_space(set.id()), H5Sclose);
+  const int axes = H5Sget_simple_extent_ndims(space.id());
+  std::vector<hsize_t> size(std::max(axes, 0));
+  H5Sget_simple_extent_dims(space.id(), size.data(), nullptr);
+  if (shape) shape->assign(size.begin(), size.end());
+  std::vector<T> data(static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.id()), 0)));
+  if (!data.empty() && H5Dread(set.id(), native<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()) < 0)
+    fail("read dataset", name);
+  return data;
+}
+
+#define FORMING_SIM_HDF5_TYPE(T)                                                                                 \
+  template void Hdf5Group::write<T>(const std::string&, const T*, const std::vector<std::uint64_t>&,              \
+                                    const std::string&, Storage);                                                \
+  template std::vector<T> Hdf5Group::read<T>(const std::string&, std::vector<std::uint64_t>*) const;
+FORMING_SIM_HDF5_TYPE(double)
+FORMING_SIM_HDF5_TYPE(float)
+FORMING_SIM_HDF5_TYPE(std::int32_t)
+FORMING_SIM_HDF5_TYPE(std::uint8_t)
+#undef FORMING_SIM_HDF5_TYPE
+
+void Hdf5Group::write_text(const std::string& name, const std::string& text) {
+  const Hdf5Handle type = text_type(text.size());
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Handle set(
+      H5Dcreate2(handle_.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  if (!set.valid()) fail("create dataset", name);
+  const std::string value = text.empty() ? std::string(1, '\0') : text;
+  if (H5Dwrite(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data()) < 0) fail("write dataset", name);
+}
+
+std::string Hdf5Group::read_text(const std::string& name) const {
+  const Hdf5Handle set(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!set.valid()) fail("open dataset", name);
+  const Hdf5Handle type(H5Dget_type(set.id()), H5Tclose);
+  std::string value(H5Tget_size(type.id()), '\0');
+  if (H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data()) < 0) fail("read dataset", name);
+  return without_padding(value);
+}
+
+void Hdf5Group::write_checked(const std::string& name, const std::string& bytes) {
+  write(name, reinterpret_cast<const std::uint8_t*>(bytes.data()), {bytes.size()}, "", Storage::checked);
+}
+
+std::string Hdf5Group::read_checked(const std::string& name) const {
+  const std::vector<std::uint8_t> bytes = read<std::uint8_t>(name);
+  return std::string(bytes.begin(), bytes.end());
+}
+
+void Hdf5Group::set(const std::string& attribute, const std::string& value) {
+  if (!put_attribute(handle_.id(), attribute, value)) fail("write attribute", attribute);
+}
+void Hdf5Group::set(const std::string& attribute, double value) {
+  if (!put_attribute(handle_.id(), attribute, native<double>(), &value)) fail("write attribute", attribute);
+}
+void Hdf5Group::set(const std::string& attribute, std::int64_t value) {
+  if (!put_attribute(handle_.id(), attribute, native<std::int64_t>(), &value)) fail("write attribute", attribute);
+}
+
+std::string Hdf5Group::text(const std::string& attribute) const {
+  const Hdf5Handle handle(H5Aopen(handle_.id(), attribute.c_str(), H5P_DEFAULT), H5Aclose);
+  if (!handle.valid()) fail("read attribute", attribute);
+  const Hdf5Handle type(H5Aget_type(handle.id()), H5Tclose);
+  std::string value(H5Tget_size(type.id()), '\0');
+  if (H5Aread(handle.id(), type.id(), value.data()) < 0) fail("read attribute", attribute);
+  return without_padding(value);
+}
+double Hdf5Group::number(const std::string& attribute) const {
+  double value = 0;
+  if (!get_attribute(handle_.id(), attribute, native<double>(), &value)) fail("read attribute", attribute);
+  return value;
+}
+std::int64_t Hdf5Group::integer(const std::string& attribute) const {
+  std::int64_t value = 0;
+  if (!get_attribute(handle_.id(), attribute, native<std::int64_t>(), &value)) fail("read attribute", attribute);
+  return value;
+}
+
+bool Hdf5Group::has(const std::string& name) const {
+  return H5Lexists(handle_.id(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::vector<std::string> Hdf5Group::names() const {
+  std::vector<std::string> names;
+  hsize_t position = 0;
+  if (H5Literate(handle_.id(), H5_INDEX_NAME, H5_ITER_INC, &position, collect_name, &names) < 0) fail("list", "");
+  return names;
+}
+
+Hdf5Group Hdf5Group::group(const std::string& name) const {
+  Hdf5Handle group(H5Gopen2(handle_.id(), name.c_str(), H5P_DEFAULT), H5Gclose);
+  if (!group.valid()) fail("open group", name);
+  return Hdf5Group(std::move(group), label_ + "/" + name);
+}
+
+Hdf5Group Hdf5Group::create(const std::string& name) {
+  Hdf5Handle group(H5Gcreate2(handle_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  if (!group.valid()) fail("create group", name);
+  return Hdf5Group(std::move(group), label_ + "/" + name);
+}
+
+Hdf5Group Hdf5Group::create_unlinked(const std::string& label) const {
+  Hdf5Handle group(H5Gcreate_anon(handle_.id(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  if (!group.valid()) fail("create group", label);
+  return Hdf5Group(std::move(group), label_ + "/" + label);
+}
+
+void Hdf5Group::link(const Hdf5Group& object, const std::string& name) {
+  if (H5Olink(object.handle_.id(), handle_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) fail("link", name);
+}
+
+void Hdf5Group::link(const Hdf5Group& source, const std::string& source_name, const std::string& name) {
+  if (H5Lcreate_hard(source.handle_.id(), source_name.c_str(), handle_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
+    fail("link", name);
+}
+
+void Hdf5Group::remove(const std::string& name) {
+  if (H5Ldelete(handle_.id(), name.c_str(), H5P_DEFAULT) < 0) fail("remove", name);
+}
+
+}  // namespace forming_sim

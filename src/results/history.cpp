@@ -1,0 +1,98 @@
+#include "forming_sim/results/history.h"
+
+#include <algorithm>
+
+namespace forming_sim {
+namespace {
+
+const char* const kAxes[] = {"x", "y", "z"};
+
+void add(std::vector<std::string>& values, const Vec3& vector) {
+  for (int axis = 0; axis < 3; ++axis) values.push_back(csv_number(vector[axis]));
+}
+
+}  // namespace
+
+std::vector<std::string> history_columns(const Model& model, const std::vector<Probe>& probes) {
+  const std::string per_width = model.dimension == 2 ? "_per_m" : "";
+  std::vector<std::string> columns{"time_s", "step", "dt_s", "stage"};
+  for (const char* name : {"kinetic", "elastic", "plastic", "contact", "friction", "damping", "work", "initial"})
+    columns.push_back(std::string(name) + "_J" + per_width);
+  columns.push_back("balance_error");
+  for (const ToolModel& tool : model.tools) {
+    for (const char* axis : kAxes) columns.push_back("tool_" + tool.name + "_force_" + axis + "_N" + per_width);
+    for (const char* axis : kAxes) columns.push_back("tool_" + tool.name + "_position_" + axis + "_m");
+  }
+  for (const char* name : {"max_plastic_strain", "max_surface_strain", "min_thickness_m", "min_gap_over_h0"})
+    columns.push_back(name);
+  for (const Probe& probe : probes) {
+    for (const char* axis : kAxes) columns.push_back("probe_" + probe.name + "_position_" + axis + "_m");
+    for (const char* axis : kAxes) columns.push_back("probe_" + probe.name + "_velocity_" + axis + "_m_per_s");
+    for (const char* component : {"xx", "yy", "zz", "xy", "yz", "zx"})
+      columns.push_back("probe_" + probe.name + "_stress_" + component + "_Pa");
+  }
+  return columns;
+}
+
+std::string stage_name(const Simulation& simulation) {
+  const auto& stages = simulation.plan().stages;
+  if (stages.empty()) return "";
+  const StageConfig& stage = stages[std::min<std::size_t>(simulation.stage(), stages.size() - 1)];
+  return stage.name.empty() ? stage.kind : stage.name;
+}
+
+void History::on_start(const Simulation& simulation) {
+  schedule_.start(simulation.time());
+  const std::vector<std::string> columns = history_columns(simulation.model(), gauge_.probes());
+  if (resumed_) {
+    file_ = CsvFile::resume(path_, columns, record_.history_time);
+    if (file_) return;
+    record_.notes.push_back("history.csv begins at the checkpoint: the directory held no history of the earlier part");
+  }
+  file_ = std::make_unique<CsvFile>(path_, columns);
+  if (!resumed_) write(simulation);
+}
+
+void History::on_step(const Simulation& simulation) {
+  if (schedule_.due(simulation.time())) write(simulation);
+}
+
+void History::on_stage_end(const Simulation& simulation, int) { write(simulation); }
+
+void History::on_end(const Simulation& simulation, Code code, const std::string&) {
+  // A row at a cancel would be one that an unbroken run does not have.
+  if (file_ && code != Code::output_error && code != Code::cancelled) write(simulation);
+}
+
+void History::write(const Simulation& simulation) {
+  if (simulation.steps() == last_step_) return;
+  last_step_ = simulation.steps();
+  const Measures& measures = gauge_.at(simulation);
+  const Energies& e = simulation.energies();
+  const double elapsed = simulation.time() - record_.history_time;
+  std::vector<std::string> values{csv_number(simulation.time()), std::to_string(simulation.steps()),
+                                  csv_number(simulation.dt()), csv_text(stage_name(simulation))};
+  for (double energy : {e.kinetic, e.elastic, e.plastic, e.contact, e.friction, e.damping, e.work, e.initial})
+    values.push_back(csv_number(energy));
+  values.push_back(csv_number(simulation.balance_error()));
+  record_.history_impulses.resize(simulation.tools().size(), Vec3::Zero());
+  for (std::size_t i = 0; i < simulation.tools().size(); ++i) {
+    const ToolStatus& tool = simulation.tools()[i];
+    add(values, elapsed > 0 ? Vec3((tool.impulse - record_.history_impulses[i]) / elapsed) : tool.force);
+    add(values, tool.position);
+    record_.history_impulses[i] = tool.impulse;
+  }
+  values.push_back(csv_number(measures.plastic_strain.value));
+  values.push_back(csv_number(measures.surface_strain.value));
+  values.push_back(measures.thickness ? csv_number(*measures.thickness) : "");
+  values.push_back(csv_number(simulation.contact_status().min_gap_over_layer));
+  for (const ProbeValue& probe : measures.probes) {
+    add(values, probe.position);
+    add(values, probe.velocity);
+    for (int k = 0; k < 6; ++k) values.push_back(csv_number(probe.stress[k]));
+  }
+  record_.history_time = simulation.time();
+  file_->append(values);
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,52 @@
+#include "forming_sim/results/recorder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace forming_sim {
+
+void Recorder::on_start(const Simulation& simulation) {
+  schedule_.start(simulation.time());
+  if (record_.surface_strain.element < 0) look(simulation);  // not again after a resume
+}
+
+void Recorder::on_step(const Simulation& simulation) {
+  if (schedule_.due(simulation.time())) look(simulation);
+}
+
+void Recorder::on_stage_end(const Simulation& simulation, int index) {
+  look(simulation);
+  const StageConfig& stage = simulation.plan().stages[index];
+  const Energies& energies = simulation.energies();
+  const StageRecord ended{stage.name.empty() ? stage.kind : stage.name, stage.kind, simulation.time(),
+                          energies.kinetic, energies.elastic, energies.plastic};
+  record_.stages.push_back(ended);
+  if (stage.kind != "form") return;
+  const Measures& measures = gauge_.at(simulation);
+  record_.surface_strain_formed = measures.surface_strain;
+  record_.kinetic_over_internal_formed.reset();
+  if (std::isfinite(ended.kinetic_over_internal()))
+    record_.kinetic_over_internal_formed = ended.kinetic_over_internal();
+  if (!output_.springback) return;
+  const double angle =
+      springback_angle_deg(*output_.springback, simulation.model().dimension, gauge_.probes(), measures.probes);
+  if (std::isfinite(angle)) record_.angle_formed_deg = angle;
+}
+
+void Recorder::on_end(const Simulation& simulation, Code code, const std::string&) {
+  // What a cancelled run takes with it must be what an unbroken one has.
+  if (code != Code::cancelled) look(simulation);
+}
+
+void Recorder::look(const Simulation& simulation) {
+  const Measures& now = gauge_.at(simulation);
+  if (now.thickness) {
+    if (!record_.thickness_initial) record_.thickness_initial = now.thickness;
+    record_.thickness_min = std::min(record_.thickness_min.value_or(*now.thickness), *now.thickness);
+  }
+  const Peak& strain = now.surface_strain;
+  if (strain.element >= 0 && (record_.surface_strain.element < 0 || strain.value > record_.surface_strain.value))
+    record_.surface_strain = strain;
+}
+
+}  // namespace forming_sim

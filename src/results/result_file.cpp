@@ -1,0 +1,118 @@
+#include "forming_sim/results/result_file.h"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "forming_sim/config/fault.h"
+#include "forming_sim/results/result_reader.h"
+#include "result_header.h"
+
+namespace forming_sim {
+namespace {
+
+std::string frame_name(std::size_t number) {
+  char name[32];
+  std::snprintf(name, sizeof name, "%06zu", number);
+  return name;
+}
+
+bool same_model(const ResultHeader& a, const ResultHeader& b) {
+  return a.version == b.version && a.scene_text == b.scene_text && a.dimension == b.dimension &&
+         a.elements == b.elements && a.tools.size() == b.tools.size();
+}
+
+void write_fields(Hdf5Group& group, const Frame& frame) {
+  const std::uint64_t nodes = frame.positions.size(), elements = frame.stress.size();
+  group.write("positions", coordinates(frame.positions).data(), {nodes, 3}, "m");
+  group.write("velocities", coordinates(frame.velocities).data(), {nodes, 3}, "m/s");
+  group.write("plastic_strain", frame.plastic_strain.data(), {frame.plastic_strain.size()}, "1");
+  group.write("stress", elements ? frame.stress[0].data() : nullptr, {elements, 6}, "Pa");
+  std::vector<float> mises(frame.stress.size());
+  for (std::size_t e = 0; e < mises.size(); ++e) mises[e] = mises_stress(frame.stress[e]);
+  group.write("mises", mises.data(), {elements}, "Pa");
+  group.write("volume_ratio", frame.volume_ratio.data(), {frame.volume_ratio.size()}, "1");
+  group.write("surface_strain", frame.surface_strain.data(), {frame.surface_strain.size()}, "1");
+}
+
+}  // namespace
+
+float mises_stress(const std::array<float, 6>& s) {
+  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  const double shear = double(s[3]) * s[3] + double(s[4]) * s[4] + double(s[5]) * s[5];
+  return static_cast<float>(std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * shear));
+}
+
+ResultFile::ResultFile(ResultHeader header, Hdf5File file) : header_(std::move(header)), file_(std::move(file)) {}
+
+ResultFile::ResultFile(const std::string& path, ResultHeader header)
+    : header_(std::move(header)), file_(path, Hdf5File::Mode::create) {
+  write_header(file_.root(), header_);
+  file_.flush();
+}
+
+std::optional<ResultFile> ResultFile::resume(const std::string& path, ResultHeader header, long step) {
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  try {
+    Hdf5File file(path, Hdf5File::Mode::append);
+    if (!same_model(read_header(file.root()), header)) return std::nullopt;
+    ResultFile result(std::move(header), std::move(file));
+    Hdf5Group frames = result.file_.root().group("frames");
+    for (FrameEntry& entry : read_entries(result.file_.root())) {
+      if (entry.step > step || entry.interrupted) frames.remove(entry.name);
+      else result.frames_.push_back(std::move(entry));
+    }
+    result.file_.flush();
+    return result;
+  } catch (const Error&) {
+    return std::nullopt;  // not a file of ours, or one that was cut off
+  }
+}
+
+void ResultFile::write(const Frame& frame) {
+  const std::string name = frame_name(frames_.size());
+  Hdf5Group frames = file_.root().group("frames");
+  Hdf5Group group = frames.create_unlinked(name);
+  group.set("time", frame.time);
+  group.set("time_unit", "s");
+  group.set("step", std::int64_t{frame.step});
+  group.set("stage", frame.stage);
+  group.set("interrupted", std::int64_t{frame.interrupted});
+  write_fields(group, frame);
+  Hdf5Group tools = group.create("tools");
+  FrameEntry entry{name, frame.time, frame.step, frame.interrupted, {}};
+  for (std::size_t i = 0; i < frame.tools.size(); ++i) {
+    write_tool(tools, frame, i);
+    entry.tools_present.push_back(frame.tools[i].present);
+  }
+  file_.flush();             // the frame is in the file,
+  frames.link(group, name);  // then it is listed
+  file_.flush();
+  frames_.push_back(std::move(entry));
+  last_poses_ = frame.tools;
+}
+
+void ResultFile::write_tool(Hdf5Group& tools, const Frame& frame, std::size_t index) {
+  const FrameTool& pose = frame.tools[index];
+  const std::string name = std::to_string(index);
+  Hdf5Group tool = tools.create(name);
+  tool.set("present", std::int64_t{pose.present});
+  tool.write("position", pose.position.data(), {3}, "m", Storage::plain);
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rotation = pose.rotation;
+  tool.write("rotation", rotation.data(), {3, 3}, "1", Storage::plain);
+  tool.write("force", pose.force.data(), {3}, header_.dimension == 2 ? "N/m" : "N", Storage::plain);
+  const std::vector<Vec3>& shape = header_.tools.at(index).points;
+  if (shape.empty()) return;
+  const bool rests = index < last_poses_.size() && last_poses_[index].position == pose.position &&
+                     last_poses_[index].rotation == pose.rotation;
+  if (rests) {
+    const Hdf5Group last = file_.root().group("frames").group(frames_.back().name).group("tools").group(name);
+    tool.link(last, "points", "points");
+    return;
+  }
+  std::vector<Vec3> points;
+  for (const Vec3& x : shape) points.push_back(pose.position + pose.rotation * x);
+  tool.write("points", points[0].data(), {points.size(), 3}, "m");
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,77 @@
+#include "forming_sim/results/run_record.h"
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "forming_sim/config/fault.h"
+
+namespace forming_sim {
+namespace {
+
+using nlohmann::json;
+
+json of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+Vec3 vector(const json& j) { return Vec3(j.at(0), j.at(1), j.at(2)); }
+
+json of(const Peak& peak) {
+  return {{"value", peak.value}, {"element", peak.element}, {"position", of(peak.position)}, {"time", peak.time}};
+}
+Peak peak(const json& j) { return {j.at("value"), j.at("element"), vector(j.at("position")), j.at("time")}; }
+
+json of(const StageRecord& stage) {
+  return {{"name", stage.name},       {"kind", stage.kind},       {"end_time", stage.end_time},
+          {"kinetic", stage.kinetic}, {"elastic", stage.elastic}, {"plastic", stage.plastic}};
+}
+StageRecord stage(const json& j) {
+  return {j.at("name"), j.at("kind"), j.at("end_time"), j.at("kinetic"), j.at("elastic"), j.at("plastic")};
+}
+
+json of(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+std::optional<double> number(const json& j) {
+  return j.is_null() ? std::nullopt : std::optional<double>(j.get<double>());
+}
+
+}  // namespace
+
+double StageRecord::kinetic_over_internal() const {
+  const double internal = elastic + plastic;
+  return internal > 0 ? kinetic / internal : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string RunRecord::to_json() const {
+  json j = {{"thickness_initial", of(thickness_initial)},
+            {"thickness_min", of(thickness_min)},
+            {"surface_strain", of(surface_strain)},
+            {"surface_strain_formed", surface_strain_formed ? of(*surface_strain_formed) : json(nullptr)},
+            {"angle_formed_deg", of(angle_formed_deg)},
+            {"kinetic_over_internal_formed", of(kinetic_over_internal_formed)},
+            {"stages", json::array()},
+            {"notes", notes},
+            {"history_time", history_time},
+            {"history_impulses", json::array()}};
+  for (const StageRecord& s : stages) j["stages"].push_back(of(s));
+  for (const Vec3& impulse : history_impulses) j["history_impulses"].push_back(of(impulse));
+  return j.dump();
+}
+
+RunRecord RunRecord::from_json(const std::string& text) {
+  try {
+    const json j = json::parse(text);
+    RunRecord record;
+    record.thickness_initial = number(j.at("thickness_initial"));
+    record.thickness_min = number(j.at("thickness_min"));
+    record.surface_strain = peak(j.at("surface_strain"));
+    if (!j.at("surface_strain_formed").is_null()) record.surface_strain_formed = peak(j.at("surface_strain_formed"));
+    record.angle_formed_deg = number(j.at("angle_formed_deg"));
+    record.kinetic_over_internal_formed = number(j.at("kinetic_over_internal_formed"));
+    for (const json& s : j.at("stages")) record.stages.push_back(stage(s));
+    record.notes = j.at("notes").get<std::vector<std::string>>();
+    record.history_time = j.at("history_time");
+    for (const json& impulse : j.at("history_impulses")) record.history_impulses.push_back(vector(impulse));
+    return record;
+  } catch (const json::exception& error) {
+    throw Error(Code::resume_error, std::string("the checkpoint's record of the run cannot be read: ") + error.what());
+  }
+}
+
+}  // namespace forming_sim

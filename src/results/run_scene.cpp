@@ -1,0 +1,62 @@
+#include "forming_sim/results/run_scene.h"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "forming_sim/results/run_files.h"
+#include "forming_sim/results/summary.h"
+#include "forming_sim/results/text_file.h"
+#include "forming_sim/scene/build.h"
+#include "forming_sim/scene/validate.h"
+
+namespace forming_sim {
+namespace {
+
+/// Leaves a summary of what kept the run from starting, where that is possible.
+void note_refusal(const Scene& scene, const std::string& directory, const std::vector<Fault>& faults, Code code,
+                  const std::string& message) {
+  try {
+    make_output_directory(directory);
+    write_summary(directory, summarize_refusal(scene, faults, code, message));
+  } catch (const Error&) {
+    // The reason of the refusal is told to the caller; it matters more.
+  }
+}
+
+Outcome run_valid(const Scene& scene, const std::string& directory, int threads, const std::string& resume_file,
+                  const std::atomic<bool>& cancel, const std::vector<Observer*>& extra) {
+  make_output_directory(directory);
+  std::optional<Checkpoint> checkpoint;
+  if (!resume_file.empty()) {
+    checkpoint = load_checkpoint(resume_file);
+    require_same_run(*checkpoint, scene, resume_file);
+  }
+  Simulation simulation(build_plan(scene), build_model(scene), threads);
+  if (checkpoint) simulation.restore(checkpoint->state);
+  RunFiles files = open_run_files(simulation, scene, directory, checkpoint ? &*checkpoint : nullptr);
+  for (const auto& observer : files.observers) simulation.add(*observer);
+  for (Observer* observer : extra) simulation.add(*observer);
+  return simulation.run(cancel);
+}
+
+}  // namespace
+
+Outcome run_scene(const Scene& scene, const std::string& directory, int threads, const std::string& resume_file,
+                  const std::atomic<bool>& cancel, const std::vector<Observer*>& extra) {
+  try {
+    std::vector<Fault> faults = validate(scene);
+    if (!faults.empty()) throw SceneError(std::move(faults));
+    return run_valid(scene, directory, threads, resume_file, cancel, extra);
+  } catch (const SceneError& error) {
+    note_refusal(scene, directory, error.faults(), error.code(), error.what());
+    throw;
+  } catch (const Error& error) {
+    note_refusal(scene, directory, {}, error.code(), error.what());
+    return {error.code(), error.what()};
+  } catch (const std::exception& error) {
+    note_refusal(scene, directory, {}, Code::internal_error, error.what());
+    return {Code::internal_error, error.what()};
+  }
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,65 @@
+#include "forming_sim/results/snapshot.h"
+
+#include "forming_sim/results/history.h"
+#include "forming_sim/results/version.h"
+#include "forming_sim/scene/yaml.h"
+
+namespace forming_sim {
+
+ResultHeader take_header(const Simulation& simulation, const Scene& scene) {
+  const Model& model = simulation.model();
+  ResultHeader header;
+  header.version = package_version();
+  header.scene_name = scene.name;
+  header.scene_text = scene.text.empty() ? write_scene(scene) : scene.text;
+  header.dimension = model.dimension;
+  header.elements = simulation.elements();
+  header.element_body.resize(header.elements.size());
+  header.initial_positions = simulation.initial_positions();
+  header.surface = simulation.surface();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    header.bodies.push_back(body.name);
+    for (int e = 0; e < body.element_count; ++e) header.element_body[body.first_element + e] = static_cast<int>(b);
+    for (const auto& [name, nodes] : body.mesh.sets) {
+      std::vector<int>& joined = header.sets[body.name + "/" + name];
+      for (int node : nodes) joined.push_back(body.first_node + node);
+    }
+  }
+  for (const ToolModel& tool : model.tools) {
+    ToolShape shape;
+    shape.name = tool.name;
+    if (tool.is_plane()) {
+      shape.plane_point = tool.point;
+      shape.plane_normal = tool.normal;
+    } else {
+      shape.points = tool.mesh.nodes;
+      for (const Facet& facet : tool.mesh.surface) shape.facets.push_back(facet.nodes);
+    }
+    header.tools.push_back(std::move(shape));
+  }
+  return header;
+}
+
+Frame take_frame(const Simulation& simulation) {
+  Frame frame;
+  frame.time = simulation.time();
+  frame.step = simulation.steps();
+  frame.stage = stage_name(simulation);
+  frame.positions = simulation.positions();
+  frame.velocities = simulation.velocities();
+  const auto single = [](const std::vector<double>& values) { return std::vector<float>(values.begin(), values.end()); };
+  frame.plastic_strain = single(simulation.plastic_strain());
+  frame.volume_ratio = single(simulation.volume_ratio());
+  frame.surface_strain = single(simulation.surface_strain());
+  for (const Sym& stress : simulation.stress()) {
+    std::array<float, 6> row;
+    for (int k = 0; k < 6; ++k) row[k] = static_cast<float>(stress[k]);
+    frame.stress.push_back(row);
+  }
+  for (const ToolStatus& tool : simulation.tools())
+    frame.tools.push_back({tool.position, tool.rotation, tool.force, tool.present});
+  return frame;
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,186 @@
+#include "forming_sim/results/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "forming_sim/results/body_measures.h"
+#include "forming_sim/results/text_file.h"
+#include "forming_sim/results/version.h"
+
+namespace forming_sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON knows no NaN and no infinity.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+Json vector(const Vec3& v) { return Json::array({number(v.x()), number(v.y()), number(v.z())}); }
+double ratio(double a, double b) { return b > 0 ? a / b : NAN; }
+
+Json head(const Scene& scene, Code code, const std::string& message) {
+  Json j;
+  j["status"] = {{"code", static_cast<int>(code)}, {"name", name_of(code)}, {"message", message}};
+  j["version"] = package_version();
+  j["scene"] = scene.name;
+  j["dimension"] = scene.dimension;
+  return j;
+}
+
+Json place(const Peak& peak, const Model& model) {
+  if (peak.element < 0) return nullptr;
+  std::string name;
+  for (const BodyModel& body : model.bodies)
+    if (peak.element >= body.first_element && peak.element < body.first_element + body.element_count) name = body.name;
+  return {{"element", peak.element}, {"body", name}, {"position", vector(peak.position)}, {"time_s", number(peak.time)}};
+}
+
+Json maximum(const Peak& peak, const Model& model) {
+  return {{"max", peak.element < 0 ? Json(nullptr) : number(peak.value)}, {"where", place(peak, model)}};
+}
+
+Json energies(const Simulation& simulation, const RunRecord& record) {
+  const Energies& e = simulation.energies();
+  return {{"kinetic", number(e.kinetic)},
+          {"elastic", number(e.elastic)},
+          {"plastic", number(e.plastic)},
+          {"contact", number(e.contact)},
+          {"friction", number(e.friction)},
+          {"damping", number(e.damping)},
+          {"work", number(e.work)},
+          {"initial", number(e.initial)},
+          {"balance_error", number(simulation.balance_error())},
+          {"kinetic_over_internal", number(ratio(e.kinetic, e.elastic + e.plastic))},
+          {"kinetic_over_internal_formed", number(record.kinetic_over_internal_formed)}};
+}
+
+Json bodies(const Simulation& simulation) {
+  Json list = Json::array();
+  for (const BodyModel& body : simulation.model().bodies) {
+    const BodyMeasures measures = measure_body(body.first_node, body.node_count, simulation.nodal_mass(),
+                                               simulation.positions(), simulation.velocities());
+    list.push_back({{"name", body.name},
+                    {"mass", number(measures.mass)},
+                    {"centre", vector(measures.centre)},
+                    {"momentum", vector(measures.momentum)},
+                    {"angular_momentum", vector(measures.angular_momentum)},
+                    {"bounding_box", {{"min", vector(measures.box.min())}, {"max", vector(measures.box.max())}}}});
+  }
+  return list;
+}
+
+Json tools(const Simulation& simulation) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < simulation.tools().size(); ++i) {
+    const ToolStatus& tool = simulation.tools()[i];
+    list.push_back({{"name", simulation.model().tools[i].name},
+                    {"peak_force", vector(tool.peak_force)},
+                    {"unit", simulation.model().dimension == 2 ? "N/m" : "N"},
+                    {"position", vector(tool.position)},
+                    {"present", tool.present}});
+  }
+  return list;
+}
+
+/// The released angle is that of a run that came to its end.
+Json springback(const Simulation& simulation, const Scene& scene, const RunRecord& record, Gauge& gauge, Code code) {
+  if (!scene.output.springback) return nullptr;
+  const SpringbackConfig& config = *scene.output.springback;
+  const double formed = record.angle_formed_deg.value_or(NAN);
+  const bool ended = code == Code::success || code == Code::limit_reached;
+  const double released = ended ? springback_angle_deg(config, simulation.model().dimension, gauge.probes(),
+                                                       gauge.at(simulation).probes)
+                                : NAN;
+  const Energies& e = simulation.energies();
+  return {{"angle_deg_formed", number(formed)},
+          {"angle_deg_released", number(released)},
+          {"change_deg", number(std::isfinite(formed) && std::isfinite(released) ? angle_change_deg(formed, released) : NAN)},
+          {"probe", {{"from", config.from}, {"to", config.to}}},
+          {"kinetic_over_internal", number(ended ? ratio(e.kinetic, e.elastic + e.plastic) : NAN)}};
+}
+
+Json stages(const RunRecord& record) {
+  Json list = Json::array();
+  for (const StageRecord& stage : record.stages)
+    list.push_back({{"name", stage.name},
+                    {"kind", stage.kind},
+                    {"end_time_s", number(stage.end_time)},
+                    {"kinetic_J", number(stage.kinetic)},
+                    {"internal_J", number(stage.elastic + stage.plastic)},
+                    {"kinetic_over_internal", number(stage.kinetic_over_internal())}});
+  return list;
+}
+
+std::optional<double> smaller(const std::optional<double>& a, const std::optional<double>& b) {
+  if (!a || !b) return a ? a : b;
+  return std::min(*a, *b);
+}
+
+}  // namespace
+
+Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord& record, Gauge& gauge, Code code,
+               const std::string& message) {
+  const Model& model = simulation.model();
+  const Measures& now = gauge.at(simulation);
+  const double element_steps = static_cast<double>(model.element_count()) * static_cast<double>(simulation.steps());
+  const StepLimit smallest = simulation.smallest_step();
+  const ContactStatus contact = simulation.contact_status();
+
+  Json j = head(scene, code, message);
+  j["per_metre_of_width"] = model.dimension == 2;
+  j["nodes"] = model.node_count();
+  j["elements"] = model.element_count();
+  j["steps"] = simulation.steps();
+  j["sim_time_s"] = number(simulation.time());
+  j["wall_time_s"] = number(simulation.wall_time());
+  j["ns_per_element_step"] = number(ratio(1e9 * simulation.wall_time(), element_steps));
+  j["time_step_s"] = {{"first", number(simulation.first_dt())},
+                      {"min", number(smallest.dt)},
+                      {"limited_by", smallest.reason}};
+  j["energy_J"] = energies(simulation, record);
+  j["contact"] = {{"crossings", contact.crossings},
+                  {"halvings", contact.halvings},
+                  {"min_gap_over_h0", number(contact.min_gap_over_layer)},
+                  {"h0_m", number(contact.layer)}};
+  j["plastic_strain"] = maximum(now.plastic_strain, model);
+  const bool higher_now = record.surface_strain.element < 0 || now.surface_strain.value > record.surface_strain.value;
+  j["surface_strain"] = maximum(higher_now ? now.surface_strain : record.surface_strain, model);
+  j["surface_strain"]["at_end_of_forming"] =
+      record.surface_strain_formed ? maximum(*record.surface_strain_formed, model) : Json(nullptr);
+  j["surface_strain"]["at_end"] = maximum(now.surface_strain, model);
+  j["thickness_m"] = {{"initial", number(record.thickness_initial)},
+                      {"min", number(smaller(record.thickness_min, now.thickness))}};
+  j["bodies"] = bodies(simulation);
+  j["tools"] = tools(simulation);
+  j["springback"] = springback(simulation, scene, record, gauge, code);
+  j["stages"] = stages(record);
+  std::vector<std::string> warnings = simulation.warnings();
+  warnings.insert(warnings.end(), record.notes.begin(), record.notes.end());
+  j["warnings"] = warnings;
+  return j;
+}
+
+Json summarize_refusal(const Scene& scene, const std::vector<Fault>& faults, Code code, const std::string& message) {
+  Json j = head(scene, code, message);
+  j["faults"] = Json::array();
+  for (const Fault& fault : faults)
+    j["faults"].push_back({{"field", fault.field}, {"given", fault.given}, {"remedy", fault.remedy}});
+  return j;
+}
+
+void write_summary(const std::string& directory, const Json& summary) {
+  // Names may hold bytes that are not UTF-8: they are replaced, never thrown over.
+  const std::string text = summary.dump(2, ' ', false, Json::error_handler_t::replace);
+  replace_file(in_directory(directory, "summary.json"), text + "\n");
+}
+
+void SummaryFile::on_start(const Simulation& simulation) { start_time_ = simulation.time(); }
+
+void SummaryFile::on_end(const Simulation& simulation, Code code, const std::string& message) {
+  Json summary = summarize(simulation, scene_, record_, gauge_, code, message);
+  summary["resumed_at_s"] = start_time_ > 0 ? number(start_time_) : Json(nullptr);
+  write_summary(directory_, summary);
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,7 @@
+#include "forming_sim/results/version.h"
+
+namespace forming_sim {
+
+const char* package_version() { return FORMING_SIM_VERSION; }
+
+}  // namespace forming_sim

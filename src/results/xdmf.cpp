@@ -1,0 +1,108 @@
+#include "forming_sim/results/xdmf.h"
+
+#include <sstream>
+
+namespace forming_sim {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (char c : text) {
+    switch (c) {
+      case '&': result += "&amp;"; break;
+      case '<': result += "&lt;"; break;
+      case '>': result += "&gt;"; break;
+      case '"': result += "&quot;"; break;
+      default: result += c;
+    }
+  }
+  return result;
+}
+
+class Writer {
+ public:
+  Writer(const ResultHeader& header, const std::string& h5_name) : header_(header), h5_(escaped(h5_name)) {
+    out_.precision(17);
+  }
+
+  std::string text(const std::vector<FrameEntry>& frames) {
+    out_ << "<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
+         << "<Grid Name=\"" << escaped(header_.scene_name)
+         << "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+    for (const FrameEntry& frame : frames) write(frame);
+    out_ << "</Grid>\n</Domain>\n</Xdmf>\n";
+    return out_.str();
+  }
+
+ private:
+  void write(const FrameEntry& frame) {
+    out_ << "<Grid Name=\"" << frame.name << "\" GridType=\"Collection\" CollectionType=\"Spatial\">\n"
+         << "<Time Value=\"" << frame.time << "\"/>\n";
+    const std::string path = "/frames/" + frame.name + "/";
+    const std::size_t elements = header_.elements.size(), nodes = header_.initial_positions.size();
+    out_ << "<Grid Name=\"blank\" GridType=\"Uniform\">\n";
+    topology(header_.dimension == 2 ? "Triangle" : "Tetrahedron", header_.dimension + 1, elements,
+             "/topology/elements");
+    geometry(nodes, path + "positions");
+    attribute("velocities", "Vector", "Node", nodes, 3, 8, path + "velocities");
+    attribute("plastic_strain", "Scalar", "Cell", elements, 1, 4, path + "plastic_strain");
+    attribute("stress", "Matrix", "Cell", elements, 6, 4, path + "stress");
+    attribute("mises", "Scalar", "Cell", elements, 1, 4, path + "mises");
+    attribute("volume_ratio", "Scalar", "Cell", elements, 1, 4, path + "volume_ratio");
+    out_ << "<Attribute Name=\"body\" AttributeType=\"Scalar\" Center=\"Cell\">\n";
+    item(elements, 1, "Int", 4, "/topology/body");
+    out_ << "</Attribute>\n</Grid>\n";
+    for (std::size_t i = 0; i < header_.tools.size(); ++i)
+      if (frame.tools_present.at(i) && !header_.tools[i].points.empty()) tool(i, path);
+    out_ << "</Grid>\n";
+  }
+
+  void tool(std::size_t index, const std::string& frame_path) {
+    const ToolShape& shape = header_.tools[index];
+    const std::string number = std::to_string(index);
+    out_ << "<Grid Name=\"tool " << escaped(shape.name) << "\" GridType=\"Uniform\">\n";
+    topology(header_.dimension == 2 ? "Polyline" : "Triangle", header_.dimension, shape.facets.size(),
+             "/tools/" + number + "/facets");
+    geometry(shape.points.size(), frame_path + "tools/" + number + "/points");
+    out_ << "</Grid>\n";
+  }
+
+  void topology(const char* type, int corners, std::size_t count, const std::string& path) {
+    out_ << "<Topology TopologyType=\"" << type << "\" NodesPerElement=\"" << corners << "\" NumberOfElements=\""
+         << count << "\">\n";
+    item(count, corners, "Int", 4, path);
+    out_ << "</Topology>\n";
+  }
+
+  void geometry(std::size_t nodes, const std::string& path) {
+    out_ << "<Geometry GeometryType=\"XYZ\">\n";
+    item(nodes, 3, "Float", 8, path);
+    out_ << "</Geometry>\n";
+  }
+
+  void attribute(const char* name, const char* type, const char* centre, std::size_t count, int columns, int precision,
+                 const std::string& path) {
+    out_ << "<Attribute Name=\"" << name << "\" AttributeType=\"" << type << "\" Center=\"" << centre << "\">\n";
+    item(count, columns, "Float", precision, path);
+    out_ << "</Attribute>\n";
+  }
+
+  void item(std::size_t rows, int columns, const char* type, int precision, const std::string& path) {
+    out_ << "<DataItem Dimensions=\"" << rows;
+    if (columns > 1) out_ << ' ' << columns;
+    out_ << "\" NumberType=\"" << type << "\" Precision=\"" << precision << "\" Format=\"HDF\">" << h5_ << ':' << path
+         << "</DataItem>\n";
+  }
+
+  const ResultHeader& header_;
+  std::string h5_;
+  std::ostringstream out_;
+};
+
+}  // namespace
+
+std::string xdmf_text(const ResultHeader& header, const std::vector<FrameEntry>& frames, const std::string& h5_name) {
+  return Writer(header, h5_name).text(frames);
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,179 @@
+#include "forming_sim/ros/client.h"
+
+#include <actionlib/client/simple_action_client.h>
+#include <ros/ros.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <mutex>
+#include <stdexcept>
+
+#include "forming_sim/ResultCode.h"
+#include "forming_sim/SimulateFormingAction.h"
+#include "forming_sim/config/fault.h"
+#include "forming_sim/ros/convert.h"
+#include "forming_sim/ros/client_progress.h"
+#include "forming_sim/ros/signals.h"
+#include "forming_sim/scene/yaml.h"
+
+namespace forming_sim {
+namespace {
+
+using Client = actionlib::SimpleActionClient<SimulateFormingAction>;
+
+SimulateFormingGoal goal_of(const ClientRequest& request) {
+  Scene scene = read_scene_file(request.scene_file);
+  SimulateFormingGoal goal;
+  goal.scene_text = scene.text;
+  make_urls_absolute(scene);
+  goal.scene = scene_message(scene);
+  const auto absolute = [](const std::string& path) {
+    return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string();
+  };
+  goal.output_directory = absolute(request.output_directory);
+  goal.resume = absolute(request.resume);
+  goal.threads = request.threads;
+  return goal;
+}
+
+void print_faults(const SimulateFormingResult& result) {
+  for (const SceneFault& fault : result.faults) {
+    std::fprintf(stderr, "  %s: given %s; %s\n", fault.field.c_str(), fault.given.c_str(), fault.remedy.c_str());
+  }
+}
+
+void print_summary(const SimulateFormingResult& result) {
+  const RunSummary& s = result.summary;
+  const auto row = [](const char* name, double value, double scale, const char* unit) {
+    if (std::isfinite(value)) std::printf("  %-26s %.4g %s\n", name, scale * value, unit);
+  };
+  row("simulated time", s.sim_time_s, 1e3, "ms");
+  row("steps", static_cast<double>(s.steps), 1, "");
+  row("wall time", s.wall_time_s, 1, "s");
+  row("largest plastic strain", s.max_plastic_strain, 1, "");
+  row("smallest thickness", s.min_thickness_m, 1e3, "mm");
+  row("springback", s.springback_deg, 1, "deg");
+  row("energy balance error", s.energies.balance_error, 100, "%");
+  row("crossings", static_cast<double>(s.crossings), 1, "");
+  for (const ToolState& tool : s.tools) {
+    row(("peak force on " + tool.name).c_str(), std::hypot(tool.peak_force.x, tool.peak_force.y, tool.peak_force.z), 1,
+        s.dimension == 2 ? "N per m of width" : "N");
+  }
+  if (!result.files.empty()) std::printf("files in %s:\n", result.directory.c_str());
+  for (const std::string& file : result.files) std::printf("  %s\n", file.c_str());
+}
+
+bool wait_for_server(Client& client, double wait_s) {
+  for (double waited = 0; waited < wait_s && ros::ok() && !stop_requested(); waited += 0.1) {
+    if (client.waitForServer(ros::Duration(0.1))) return true;
+  }
+  return client.isServerConnected();
+}
+
+/// Follows the goal to its end. False where the server has gone.
+bool follow(Client& client, ClientProgress& line, std::mutex& mutex) {
+  bool cancelled = false;
+  int missed = 0;
+  while (!client.waitForResult(ros::Duration(0.1))) {
+    if (!ros::ok()) return false;
+    if (stop_requested() && !cancelled) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      line.end();
+      std::printf("cancelling\n");
+      client.cancelGoal();
+      cancelled = true;
+    }
+    missed = client.isServerConnected() ? 0 : missed + 1;
+    if (missed > 30) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+int run_client(const ClientRequest& request) {
+  SimulateFormingGoal goal;
+  try {
+    goal = goal_of(request);
+  } catch (const SceneError& error) {
+    std::fprintf(stderr, "%s has %zu fault(s):\n", request.scene_file.c_str(), error.faults().size());
+    for (const Fault& fault : error.faults()) std::fprintf(stderr, "  %s\n", fault.sentence().c_str());
+    return 2;
+  }
+  const std::string name = request.server + "/simulate_forming";
+  Client client(name, true);
+  if (!wait_for_server(client, request.wait_s)) {
+    std::fprintf(stderr, "forming_client: no server on %s after %g s; start one with `roslaunch forming_sim forming.launch`\n",
+                 name.c_str(), request.wait_s);
+    return 1;
+  }
+  std::mutex mutex;
+  ClientProgress line(stdout);
+  client.sendGoal(goal, Client::SimpleDoneCallback(), Client::SimpleActiveCallback(),
+                  [&](const SimulateFormingFeedbackConstPtr& feedback) {
+                    const std::lock_guard<std::mutex> lock(mutex);
+                    line.show(feedback->status);
+                  });
+  const bool ended = follow(client, line, mutex);
+  const std::lock_guard<std::mutex> lock(mutex);
+  line.end();
+  if (!ended) {
+    std::fprintf(stderr, "forming_client: the server on %s has gone\n", name.c_str());
+    return 1;
+  }
+  const SimulateFormingResult result = client.getResult() ? *client.getResult() : SimulateFormingResult();
+  if (result.code == ResultCode::SUCCESS && client.getState() == actionlib::SimpleClientGoalState::SUCCEEDED) {
+    std::printf("%s\n", result.message.c_str());
+    print_summary(result);
+    return 0;
+  }
+  const bool rejected = client.getState() == actionlib::SimpleClientGoalState::REJECTED;
+  if (result.faults.empty()) {
+    std::fprintf(stderr, "%s: %s\n", client.getState().toString().c_str(), result.message.c_str());
+  } else {
+    std::fprintf(stderr, "the goal was rejected, %zu fault(s):\n", result.faults.size());
+    print_faults(result);
+  }
+  print_summary(result);
+  if (result.code == ResultCode::CANCELLED) return 130;
+  return rejected ? 2 : 1;
+}
+
+const char* const client_usage =
+    "usage: forming_client SCENE.yaml [--output DIR] [--resume CHECKPOINT] [--server NAME] [--threads N] [--wait SECONDS]\n"
+    "Sends the scene to a forming_server and follows the run. Exit code 0: it succeeded.\n";
+
+ClientRequest read_arguments(int argc, char** argv) {
+  ClientRequest request;
+  for (int i = 1; i < argc; ++i) {
+    const std::string option = argv[i];
+    if (option.rfind("--", 0) != 0) {
+      if (!request.scene_file.empty()) throw std::invalid_argument("one scene at a time: given " + request.scene_file + " and " + option);
+      request.scene_file = option;
+      continue;
+    }
+    if (i + 1 >= argc) throw std::invalid_argument("option " + option + " needs a value");
+    const std::string value = argv[++i];
+    const auto number = [&] {
+      std::size_t used = 0;
+      double parsed = -1;
+      try {
+        parsed = std::stod(value, &used);
+      } catch (const std::exception&) {
+      }
+      if (used != value.size() || !(parsed >= 0 && parsed < 1e6)) throw std::invalid_argument("option " + option + ": given " + value + "; give a number of 0 or more");
+      return parsed;
+    };
+    if (option == "--output") request.output_directory = value;
+    else if (option == "--resume") request.resume = value;
+    else if (option == "--server") request.server = value;
+    else if (option == "--threads") request.threads = static_cast<int>(number());
+    else if (option == "--wait") request.wait_s = number();
+    else throw std::invalid_argument("unknown option " + option);
+  }
+  if (request.scene_file.empty()) throw std::invalid_argument("no scene given");
+  return request;
+}
+
+}  // namespace forming_sim

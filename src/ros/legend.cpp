@@ -1,0 +1,47 @@
+// The legend: a bar of colours left of the sheet, what it means, its ends, and
+// where the run stands.
+#include <cstdio>
+
+#include "forming_sim/ros/colour.h"
+#include "forming_sim/ros/markers.h"
+#include "geometry.h"
+
+namespace forming_sim {
+
+using visualization_msgs::Marker;
+
+void RunMarkers::add_legend(const RunFrame& frame, const ros::Time& stamp,
+                            visualization_msgs::MarkerArray& array) const {
+  constexpr int bar_cubes = 24;
+  const double size = box_.size(), height = 0.5 * size, text_height = 0.04 * size;
+  const Vec3 up = dimension_ == 2 ? Vec3::UnitY() : Vec3::UnitZ();
+  const Vec3 centre = 0.5 * (box_.min + box_.max);
+  Vec3 foot = centre - 0.5 * height * up;
+  foot.x() = box_.min.x() - 0.3 * size;
+
+  Marker bar = marker("legend", 0, Marker::CUBE_LIST, stamp);
+  bar.scale.x = bar.scale.y = bar.scale.z = height / bar_cubes;
+  for (int i = 0; i < bar_cubes; ++i) {
+    bar.points.push_back(point_message(foot + height * (i + 0.5) / bar_cubes * up));
+    bar.colors.push_back(scale_colour((i + 0.5) / bar_cubes));
+  }
+  array.markers.push_back(bar);
+
+  const auto write = [&](int id, const Vec3& place, const std::string& text) {
+    Marker m = marker("legend", id, Marker::TEXT_VIEW_FACING, stamp);
+    m.pose.position = point_message(place);
+    m.scale.z = text_height;
+    m.text = text;
+    array.markers.push_back(m);
+  };
+  const double range = options_.colour_max > 0 ? options_.colour_max : range_;
+  char text[160];
+  write(1, foot + (height + 3.2 * text_height) * up, "equivalent\nplastic strain");
+  write(2, foot - 1.0 * text_height * up, "0");
+  std::snprintf(text, sizeof text, "%.3g", range);
+  write(3, foot + (height + 1.0 * text_height) * up, text);
+  std::snprintf(text, sizeof text, "%s\nt = %.3f ms\nstep %ld", frame.stage.c_str(), 1e3 * frame.time, frame.step);
+  write(4, foot - 4.0 * text_height * up, text);
+}
+
+}  // namespace forming_sim

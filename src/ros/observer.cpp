@@ -1,0 +1,61 @@
+#include "forming_sim/ros/observer.h"
+
+#include <algorithm>
+
+#include "forming_sim/simulation/simulation.h"
+
+namespace forming_sim {
+namespace {
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+RosObserver::RosObserver(RunPublisher& publisher, std::string scene, Feedback feedback)
+    : publisher_(publisher), scene_(std::move(scene)), feedback_(std::move(feedback)) {}
+
+void RosObserver::on_start(const Simulation& simulation) {
+  clock_.start(simulation.progress(), now_s());
+  thickness_.clear();
+  for (const BodyModel& body : simulation.model().bodies) {
+    if (auto thickness = Thickness::of(body.mesh, body.first_node)) thickness_.push_back(std::move(*thickness));
+  }
+  publisher_.start(shape_of(simulation, scene_));
+  tell(simulation, true, Code::none, "running");
+}
+
+void RosObserver::on_step(const Simulation& simulation) {
+  if (publisher_.is_due()) tell(simulation, false, Code::none, "running");
+}
+
+void RosObserver::on_stage_end(const Simulation& simulation, int) {
+  tell(simulation, true, Code::none, "running");
+}
+
+void RosObserver::on_end(const Simulation& simulation, Code code, const std::string& message) {
+  tell(simulation, true, code, message);
+}
+
+double RosObserver::min_thickness(const Simulation& simulation) const {
+  double smallest = -1;
+  for (const Thickness& thickness : thickness_) {
+    const double here = thickness.smallest(simulation.positions());
+    smallest = smallest < 0 ? here : std::min(smallest, here);
+  }
+  return smallest;
+}
+
+void RosObserver::tell(const Simulation& simulation, bool always, Code code, const std::string& message) {
+  const RunFrame frame = frame_of(simulation);
+  RunStatus status = status_of(simulation, frame, scene_, clock_.left(simulation.progress(), now_s()),
+                               min_thickness(simulation));
+  status.running = code == Code::none;
+  status.code = static_cast<int>(code);
+  status.message = message;
+  feedback_(status);
+  publisher_.publish(frame, std::move(status), always);
+}
+
+}  // namespace forming_sim

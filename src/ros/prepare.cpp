@@ -1,0 +1,74 @@
+#include "forming_sim/ros/prepare.h"
+
+#include <unistd.h>
+
+#include <ctime>
+#include <filesystem>
+#include <system_error>
+#include <thread>
+
+#include "forming_sim/ros/convert.h"
+#include "forming_sim/ros/publisher.h"
+#include "forming_sim/scene/build.h"
+#include "forming_sim/scene/validate.h"
+#include "forming_sim/scene/yaml.h"
+#include "forming_sim/simulation/simulation.h"
+
+namespace forming_sim {
+
+namespace fs = std::filesystem;
+
+Prepared prepare(const SceneSpec& message, const std::string& scene_text, int threads) {
+  Prepared prepared;
+  try {
+    std::vector<Fault> known;
+    prepared.scene = scene_from(message, known);
+    prepared.faults = validate(prepared.scene, known);
+    if (!prepared.faults.empty()) return prepared;
+    prepared.scene.text = scene_text.empty() ? write_scene(prepared.scene) : scene_text;
+    // A body that starts inside a tool is found where the simulation is built.
+    Simulation(build_plan(prepared.scene), build_model(prepared.scene), threads);
+  } catch (const SceneError& error) {
+    prepared.faults.insert(prepared.faults.end(), error.faults().begin(), error.faults().end());
+  } catch (const Error& error) {
+    prepared.faults.push_back({error.code(), "scene", error.what(), "change the scene so that it can start"});
+  } catch (const std::exception& error) {
+    prepared.faults.push_back({Code::internal_error, "scene", error.what(), "please report this as a defect"});
+  }
+  return prepared;
+}
+
+std::string make_output_directory(const std::string& given, const std::string& output_root, const std::string& scene) {
+  fs::path path = given;
+  if (given.empty()) {
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    localtime_r(&now, &local);
+    char stamp[32];
+    std::strftime(stamp, sizeof stamp, "%Y%m%d_%H%M%S", &local);
+    const fs::path base = fs::path(output_root) / (topic_name(scene) + "_" + stamp);
+    path = base;
+    for (int n = 2; fs::exists(path); ++n) path = base.string() + "_" + std::to_string(n);
+  }
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error || !fs::is_directory(path)) {
+    throw Error(Code::output_error, "cannot make the directory " + path.string() + " (" + error.message() + ")");
+  }
+  if (access(path.c_str(), W_OK | X_OK) != 0) {
+    throw Error(Code::output_error, "cannot write in the directory " + path.string());
+  }
+  return fs::absolute(path).lexically_normal().string();
+}
+
+bool is_readable_file(const std::string& path) {
+  return fs::is_regular_file(path) && access(path.c_str(), R_OK) == 0;
+}
+
+int choose_threads(int asked, int standard) {
+  if (asked > 0) return asked;
+  if (standard > 0) return standard;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+}  // namespace forming_sim

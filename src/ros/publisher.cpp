@@ -1,0 +1,114 @@
+#include "forming_sim/ros/publisher.h"
+
+#include <cctype>
+#include <cmath>
+
+#include <geometry_msgs/WrenchStamped.h>
+
+#include "forming_sim/PlasticStrain.h"
+#include "forming_sim/PlasticStrainTopology.h"
+#include "geometry.h"
+
+namespace forming_sim {
+
+PublishOptions PublishOptions::read(const ros::NodeHandle& node) {
+  PublishOptions options;
+  node.param("publish_rate", options.rate, options.rate);
+  node.param("triangle_budget", options.markers.triangle_budget, options.markers.triangle_budget);
+  node.param("colour_max", options.markers.colour_max, options.markers.colour_max);
+  node.param("frame", options.markers.frame, options.markers.frame);
+  const auto refuse = [&](const std::string& name, const std::string& given, const std::string& remedy) {
+    throw Error(Code::invalid_scene, "parameter " + node.resolveName(name) + ": given " + given + "; " + remedy);
+  };
+  if (!(options.rate > 0 && options.rate <= 1000)) {
+    refuse("publish_rate", std::to_string(options.rate), "give a rate above 0 and at most 1000, in Hz");
+  }
+  if (options.markers.triangle_budget < 100) {
+    refuse("triangle_budget", std::to_string(options.markers.triangle_budget), "give at least 100 triangles");
+  }
+  if (!(options.markers.colour_max >= 0 && std::isfinite(options.markers.colour_max))) {
+    refuse("colour_max", std::to_string(options.markers.colour_max),
+           "give a plastic strain above 0, or 0 for the largest of the run so far");
+  }
+  return options;
+}
+
+std::string topic_name(const std::string& name) {
+  std::string topic;
+  for (const unsigned char c : name) topic += std::isalnum(c) ? static_cast<char>(c) : '_';
+  return topic.empty() || std::isdigit(static_cast<unsigned char>(topic.front())) ? "tool_" + topic : topic;
+}
+
+RunPublisher::RunPublisher(const ros::NodeHandle& node, const PublishOptions& options)
+    : node_(node), options_(options) {
+  mesh_ = node_.advertise<visualization_msgs::MarkerArray>("deformed_mesh", 2, true);
+  strain_ = node_.advertise<PlasticStrain>("plastic_strain", 2);
+  topology_ = node_.advertise<PlasticStrainTopology>("plastic_strain_topology", 1, true);
+  status_ = node_.advertise<RunStatus>("status", 2, true);
+}
+
+void RunPublisher::start(const RunShape& shape) {
+  markers_ = RunMarkers(shape, options_.markers);
+  next_ = {};
+  forces_.clear();
+  for (const ToolModel& tool : shape.tools) {
+    forces_.push_back(node_.advertise<geometry_msgs::WrenchStamped>("tool_forces/" + topic_name(tool.name), 10));
+  }
+  PlasticStrainTopology topology;
+  topology.header.frame_id = options_.markers.frame;
+  topology.header.stamp = ros::Time::now();
+  topology.scene = shape.scene;
+  topology.dimension = shape.dimension;
+  for (const Node& x : shape.initial_positions) topology.nodes.push_back(point_message(vec3(x)));
+  for (const auto& element : shape.elements) {
+    topology.elements.insert(topology.elements.end(), element.begin(), element.begin() + shape.dimension + 1);
+  }
+  topology.bodies = shape.bodies;
+  topology.first_element.assign(shape.first_element.begin(), shape.first_element.end());
+  topology_.publish(topology);
+}
+
+void RunPublisher::publish(const RunFrame& frame, RunStatus status, bool always) {
+  next_ = std::chrono::steady_clock::now() +
+          std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(1 / options_.rate));
+  const ros::Time stamp = ros::Time::now();
+  if (frame.is_finite()) {
+    if (always || mesh_.getNumSubscribers() > 0) mesh_.publish(markers_.at(frame, stamp));
+    publish_strain(frame, stamp);
+  }
+  publish_forces(frame, stamp);
+  publish(std::move(status));
+}
+
+void RunPublisher::publish(RunStatus status) {
+  status.header.stamp = ros::Time::now();
+  status.header.frame_id = options_.markers.frame;
+  status_.publish(status);
+}
+
+void RunPublisher::publish_strain(const RunFrame& frame, const ros::Time& stamp) {
+  if (strain_.getNumSubscribers() == 0) return;
+  PlasticStrain message;
+  message.header.stamp = stamp;
+  message.header.frame_id = options_.markers.frame;
+  message.time_s = frame.time;
+  message.step = frame.step;
+  message.values = frame.plastic_strain;
+  strain_.publish(message);
+}
+
+void RunPublisher::publish_forces(const RunFrame& frame, const ros::Time& stamp) {
+  for (std::size_t k = 0; k < forces_.size(); ++k) {
+    if (forces_[k].getNumSubscribers() == 0) continue;
+    const ToolStatus& tool = frame.tools[k];
+    if (!tool.force.allFinite() || !tool.moment.allFinite()) continue;
+    geometry_msgs::WrenchStamped message;
+    message.header.stamp = stamp;
+    message.header.frame_id = options_.markers.frame;
+    message.wrench.force = vector_message(tool.force);
+    message.wrench.torque = vector_message(tool.moment);
+    forces_[k].publish(message);
+  }
+}
+
+}  // namespace forming_sim

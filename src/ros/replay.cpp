@@ -1,0 +1,98 @@
+#include "forming_sim/ros/replay.h"
+
+#include <algorithm>
+
+#include "forming_sim/ros/signals.h"
+#include "forming_sim/ros/status.h"
+#include "forming_sim/results/result_reader.h"
+
+namespace forming_sim {
+namespace {
+
+RunShape shape_of(const ResultHeader& header) {
+  RunShape shape;
+  shape.scene = header.scene_name;
+  shape.dimension = header.dimension;
+  shape.initial_positions = header.initial_positions;
+  shape.elements = header.elements;
+  shape.surface = header.surface;
+  shape.bodies = header.bodies;
+  for (std::size_t body = 0; body < header.bodies.size(); ++body) {
+    const auto first = std::find(header.element_body.begin(), header.element_body.end(), static_cast<int>(body));
+    shape.first_element.push_back(static_cast<int>(first - header.element_body.begin()));
+  }
+  for (const ToolShape& tool : header.tools) {
+    ToolModel model;
+    model.name = tool.name;
+    model.mesh.dimension = header.dimension;
+    model.mesh.nodes = tool.points;
+    for (const auto& nodes : tool.facets) model.mesh.surface.push_back({nodes, -1});
+    model.point = tool.plane_point;
+    model.normal = tool.plane_normal;
+    shape.tools.push_back(std::move(model));
+  }
+  return shape;
+}
+
+RunFrame run_frame(const Frame& stored) {
+  RunFrame frame;
+  frame.time = stored.time;
+  frame.step = stored.step;
+  frame.stage = stored.stage;
+  frame.positions = stored.positions;
+  frame.plastic_strain.assign(stored.plastic_strain.begin(), stored.plastic_strain.end());
+  for (const ToolPose& pose : stored.tools) {
+    ToolStatus status;
+    status.position = pose.position;
+    status.rotation = pose.rotation;
+    status.force = pose.force;
+    status.present = pose.present;
+    frame.tools.push_back(status);
+  }
+  return frame;
+}
+
+RunStatus status_of(const RunShape& shape, const RunFrame& frame, double progress) {
+  RunStatus status;
+  status.scene = shape.scene;
+  status.message = "replay of a result";
+  status.stage = frame.stage;
+  status.progress = progress;
+  status.eta_s = -1;
+  status.step = frame.step;
+  status.time_s = frame.time;
+  for (std::size_t k = 0; k < shape.tools.size(); ++k) {
+    status.tools.push_back(tool_message(shape.tools[k].name, frame.tools[k]));
+  }
+  for (const double p : frame.plastic_strain) status.max_plastic_strain = std::max(status.max_plastic_strain, p);
+  status.min_thickness_m = -1;
+  return status;
+}
+
+/// Waits until that time; false when the program is to stop.
+bool wait_until(const ros::WallTime& time) {
+  while (ros::ok() && !stop_requested() && ros::WallTime::now() < time) ros::WallDuration(0.005).sleep();
+  return ros::ok() && !stop_requested();
+}
+
+}  // namespace
+
+void replay(RunPublisher& publisher, const ReplayOptions& options) {
+  const ResultReader reader(options.file);
+  const auto& entries = reader.frames();
+  if (entries.empty()) throw Error(Code::output_error, options.file + " has no frame to show");
+  const RunShape shape = shape_of(reader.header());
+  const double first = entries.front().time, span = entries.back().time - first;
+  do {
+    publisher.start(shape);
+    const ros::WallTime begin = ros::WallTime::now();
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      const double progress = span > 0 ? (entries[i].time - first) / span : 1;
+      if (!wait_until(begin + ros::WallDuration(progress * options.duration_s))) return;
+      const RunFrame frame = run_frame(reader.frame(i));
+      publisher.publish(frame, status_of(shape, frame, progress), true);
+    }
+  } while (options.loop);
+}
+
+}  // namespace forming_sim

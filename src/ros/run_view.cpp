@@ -1,0 +1,60 @@
+#include "forming_sim/ros/run_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "forming_sim/simulation/simulation.h"
+
+namespace forming_sim {
+
+bool RunFrame::is_finite() const {
+  return std::all_of(positions.begin(), positions.end(), [](const Node& x) { return x.allFinite(); }) &&
+         std::all_of(plastic_strain.begin(), plastic_strain.end(), [](double p) { return std::isfinite(p); });
+}
+
+RunShape shape_of(const Simulation& simulation, const std::string& scene) {
+  RunShape shape;
+  shape.scene = scene;
+  shape.dimension = simulation.model().dimension;
+  shape.initial_positions = simulation.initial_positions();
+  shape.elements = simulation.elements();
+  shape.surface = simulation.surface();
+  for (const BodyModel& body : simulation.model().bodies) {
+    shape.bodies.push_back(body.name);
+    shape.first_element.push_back(body.first_element);
+  }
+  shape.tools = simulation.model().tools;
+  return shape;
+}
+
+RunFrame frame_of(const Simulation& simulation) {
+  RunFrame frame;
+  frame.time = simulation.time();
+  frame.step = simulation.steps();
+  frame.stage = stage_name(simulation);
+  frame.positions = simulation.positions();
+  frame.plastic_strain = simulation.plastic_strain();
+  frame.tools = simulation.tools();
+  return frame;
+}
+
+std::string stage_name(const Simulation& simulation) {
+  const auto& stages = simulation.plan().stages;
+  if (stages.empty()) return "";
+  const int last = static_cast<int>(stages.size()) - 1;
+  const StageConfig& stage = stages[std::clamp(simulation.stage(), 0, last)];
+  return stage.name.empty() ? stage.kind : stage.name;
+}
+
+Box box_of(const NodeField& positions) {
+  Box box{Vec3::Zero(), Vec3::Zero()};
+  if (positions.empty()) return box;
+  box.min = box.max = vec3(positions.front());
+  for (const Node& x : positions) {
+    box.min = box.min.cwiseMin(vec3(x));
+    box.max = box.max.cwiseMax(vec3(x));
+  }
+  return box;
+}
+
+}  // namespace forming_sim

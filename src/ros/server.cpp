@@ -1,0 +1,226 @@
+#include "forming_sim/ros/server.h"
+
+#include <cstdlib>
+
+#include "forming_sim/ResultCode.h"
+#include "forming_sim/ros/convert.h"
+#include "forming_sim/ros/observer.h"
+#include "forming_sim/ros/prepare.h"
+#include "forming_sim/ros/summary.h"
+#include "forming_sim/results/estimate.h"
+#include "forming_sim/results/run_scene.h"
+
+namespace forming_sim {
+namespace {
+
+std::string default_output_root() {
+  const char* home = std::getenv("HOME");
+  return std::string(home ? home : ".") + "/forming_sim_runs";
+}
+
+SimulateFormingResult result_of(Code code, const std::string& message) {
+  SimulateFormingResult result;
+  result.code = static_cast<int>(code);
+  result.message = message;
+  return result;
+}
+
+SimulateFormingResult rejection(const std::vector<Fault>& faults) {
+  Code code = faults.front().code;
+  for (const Fault& fault : faults) if (fault.code != code) code = Code::invalid_scene;
+  std::string text = faults.size() == 1 ? "the goal has a fault:" : "the goal has " + std::to_string(faults.size()) + " faults:";
+  for (const Fault& fault : faults) text += "\n  " + fault.sentence();
+  SimulateFormingResult result = result_of(code, text);
+  result.faults = fault_messages(faults);
+  return result;
+}
+
+CostEstimate estimate_message(const RunEstimate& estimate) {
+  CostEstimate message;
+  message.nodes = estimate.nodes;
+  message.elements = estimate.elements;
+  message.time_step_s = estimate.time_step_s;
+  message.sim_time_s = estimate.sim_time_s;
+  message.steps = estimate.steps;
+  message.wall_time_s = estimate.wall_time_s;
+  message.memory_bytes = estimate.memory_bytes;
+  return message;
+}
+
+}  // namespace
+
+FormingServer::FormingServer(const ros::NodeHandle& node)
+    : node_(node),
+      publisher_(node, PublishOptions::read(node)),
+      server_(
+          node_, "simulate_forming", [this](Goal goal) { on_goal(goal); }, [this](Goal goal) { on_cancel(goal); }, false) {
+  node_.param("threads", threads_, 0);
+  if (threads_ < 0) {
+    throw Error(Code::invalid_scene, "parameter " + node_.resolveName("threads") + ": given " + std::to_string(threads_) +
+                                         "; give a number of threads, or 0 for one a processor");
+  }
+  node_.param<std::string>("output_root", output_root_, "");
+  if (output_root_.empty()) output_root_ = default_output_root();
+  validate_ = node_.advertiseService("validate_scene", &FormingServer::on_validate, this);
+  estimate_ = node_.advertiseService("estimate_run", &FormingServer::on_estimate, this);
+  RunStatus idle;
+  idle.message = "no run so far";
+  publisher_.publish(idle);
+  worker_ = std::thread([this] { work(); });
+  server_.start();
+}
+
+FormingServer::~FormingServer() { stop(); }
+
+void FormingServer::stop() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+    cancel_ = true;
+  }
+  changed_.notify_all();
+  if (worker_.joinable()) worker_.join();
+}
+
+void FormingServer::on_goal(Goal goal) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!current_ && !stopping_) {
+      current_ = std::make_unique<Goal>(goal);
+      waiting_ = std::make_unique<Goal>(goal);
+      cancel_ = false;
+      changed_.notify_all();
+      return;
+    }
+  }
+  const auto result = result_of(Code::busy, "another run is under way; send the goal again when it has ended, or cancel it");
+  goal.setRejected(result, result.message);
+}
+
+void FormingServer::on_cancel(Goal goal) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (current_ && *current_ == goal) cancel_ = true;
+}
+
+void FormingServer::work() {
+  for (;;) {
+    Goal goal;
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      changed_.wait(lock, [this] { return stopping_ || waiting_; });
+      if (!waiting_) return;
+      goal = *waiting_;
+      waiting_.reset();
+    }
+    serve(goal);
+  }
+}
+
+void FormingServer::serve(Goal goal) {
+  bool accepted = false;
+  SimulateFormingResult result;
+  try {
+    result = run(goal, accepted);
+  } catch (const Error& error) {
+    result.code = static_cast<int>(error.code());
+    result.message = error.what();
+  } catch (const std::exception& error) {
+    result.code = ResultCode::INTERNAL_ERROR;
+    result.message = std::string("the run ended with an unexpected error: ") + error.what();
+  }
+  if (result.code == ResultCode::NONE) {
+    result.code = ResultCode::INTERNAL_ERROR;
+    result.message = "the run ended without an outcome: " + result.message;
+  }
+  {
+    // From here a new goal is welcome: its client may have waited for this result only.
+    const std::lock_guard<std::mutex> lock(mutex_);
+    current_.reset();
+  }
+  finish(goal, result, accepted);
+}
+
+SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
+  const auto request = goal.getGoal();
+  const int threads = choose_threads(request->threads, threads_);
+  Scene scene;
+  {
+    Prepared prepared = prepare(request->scene, request->scene_text, threads);
+    if (request->threads < 0) {
+      prepared.faults.push_back({Code::invalid_scene, "threads", std::to_string(request->threads), "give 1 or more, or 0 for the server's"});
+    }
+    if (!request->resume.empty() && !is_readable_file(request->resume)) {
+      prepared.faults.push_back({Code::resume_error, "resume", '"' + request->resume + '"', "give the checkpoint file of an earlier run on the server's machine"});
+    }
+    if (!prepared.faults.empty()) return rejection(prepared.faults);
+    scene = std::move(prepared.scene);
+  }
+  std::string directory;
+  try {
+    if (cancel_) return result_of(Code::cancelled, "cancelled before the first step");
+    directory = make_output_directory(request->output_directory, output_root_, scene.name);
+  } catch (const Error& error) {
+    return rejection({{error.code(), request->output_directory.empty() ? "output_root" : "output_directory",
+                       error.what(), "give a directory that the server may write to"}});
+  }
+
+  goal.setAccepted("running; files go to " + directory);
+  accepted = true;
+  ROS_INFO("%s: running with %d threads, files in %s", scene.name.c_str(), threads, directory.c_str());
+
+  RosObserver observer(publisher_, scene.name, [&goal](const RunStatus& status) {
+    SimulateFormingFeedback feedback;
+    feedback.status = status;
+    goal.publishFeedback(feedback);
+  });
+  const Outcome outcome = run_scene(scene, directory, threads, request->resume, cancel_, {&observer});
+
+  SimulateFormingResult result = result_of(outcome.code, outcome.message);
+  result.directory = directory;
+  result.files = run_files(directory);
+  try {
+    result.summary = read_summary(directory);
+  } catch (const Error& error) {
+    if (outcome.code == Code::success) return result_of(error.code(), error.what());
+  }
+  return result;
+}
+
+void FormingServer::finish(Goal& goal, const SimulateFormingResult& result, bool accepted) {
+  ROS_INFO("%s: %s", goal.getGoal()->scene.name.c_str(), result.message.c_str());
+  if (result.code == ResultCode::CANCELLED) {
+    goal.setCanceled(result, result.message);
+  } else if (!accepted) {
+    goal.setRejected(result, result.message);
+  } else if (result.code == ResultCode::SUCCESS) {
+    goal.setSucceeded(result, result.message);
+  } else {
+    goal.setAborted(result, result.message);
+  }
+}
+
+bool FormingServer::on_validate(ValidateScene::Request& request, ValidateScene::Response& response) {
+  const Prepared prepared = prepare(request.scene, "", 1);
+  response.valid = prepared.faults.empty();
+  response.faults = fault_messages(prepared.faults);
+  return true;
+}
+
+bool FormingServer::on_estimate(EstimateRun::Request& request, EstimateRun::Response& response) {
+  const int threads = choose_threads(request.threads, threads_);
+  Prepared prepared = prepare(request.scene, "", threads);
+  if (prepared.faults.empty()) {
+    try {
+      response.estimate = estimate_message(estimate_cost(prepared.scene, threads));
+    } catch (const Error& error) {
+      prepared.faults.push_back({error.code(), "scene", error.what(), "change the scene so that it can start"});
+    } catch (const std::exception& error) {
+      prepared.faults.push_back({Code::internal_error, "scene", error.what(), "please report this as a defect"});
+    }
+  }
+  response.valid = prepared.faults.empty();
+  response.faults = fault_messages(prepared.faults);
+  return true;
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,95 @@
+#include "forming_sim/ros/summary.h"
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "forming_sim/config/fault.h"
+#include "forming_sim/tensor/vec.h"
+#include "geometry.h"
+
+namespace forming_sim {
+namespace {
+
+using nlohmann::json;
+
+/// The number at a path such as /energy_J/kinetic; NaN where there is none.
+double number(const json& root, const char* path) {
+  const json::json_pointer pointer(path);
+  if (!root.contains(pointer) || !root[pointer].is_number()) return std::numeric_limits<double>::quiet_NaN();
+  return root[pointer].get<double>();
+}
+
+long count(const json& root, const char* path) {
+  const json::json_pointer pointer(path);
+  return root.contains(pointer) && root[pointer].is_number() ? root[pointer].get<long>() : 0;
+}
+
+EnergyLedger ledger(const json& root) {
+  EnergyLedger message;
+  message.kinetic = number(root, "/energy_J/kinetic");
+  message.elastic = number(root, "/energy_J/elastic");
+  message.plastic = number(root, "/energy_J/plastic");
+  message.contact = number(root, "/energy_J/contact");
+  message.friction = number(root, "/energy_J/friction");
+  message.damping = number(root, "/energy_J/damping");
+  message.work = number(root, "/energy_J/work");
+  message.initial = number(root, "/energy_J/initial");
+  message.balance_error = number(root, "/energy_J/balance_error");
+  return message;
+}
+
+}  // namespace
+
+RunSummary read_summary(const std::string& directory) {
+  const std::string path = directory + "/summary.json";
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  RunSummary summary;
+  summary.json = text.str();
+  const json root = json::parse(summary.json, nullptr, false);
+  if (!file || root.is_discarded() || !root.is_object()) {
+    throw Error(Code::output_error, "cannot read the summary " + path);
+  }
+  summary.scene = root.value("scene", "");
+  summary.dimension = static_cast<int>(count(root, "/dimension"));
+  summary.nodes = count(root, "/nodes");
+  summary.elements = count(root, "/elements");
+  summary.steps = count(root, "/steps");
+  summary.sim_time_s = number(root, "/sim_time_s");
+  summary.wall_time_s = number(root, "/wall_time_s");
+  summary.ns_per_element_step = number(root, "/ns_per_element_step");
+  summary.energies = ledger(root);
+  summary.crossings = count(root, "/contact/crossings");
+  summary.halvings = count(root, "/contact/halvings");
+  summary.min_gap_over_layer = number(root, "/contact/min_gap_over_h0");
+  summary.max_plastic_strain = number(root, "/plastic_strain/max");
+  summary.max_surface_strain = number(root, "/surface_strain/max");
+  summary.initial_thickness_m = number(root, "/thickness_m/initial");
+  summary.min_thickness_m = number(root, "/thickness_m/min");
+  summary.angle_formed_deg = number(root, "/springback/angle_deg_formed");
+  summary.angle_released_deg = number(root, "/springback/angle_deg_released");
+  summary.springback_deg = number(root, "/springback/change_deg");
+  for (const json& tool : root.value("tools", json::array())) {
+    ToolState state;
+    state.name = tool.value("name", "");
+    const json force = tool.value("peak_force", json::array());
+    if (force.is_array() && force.size() == 3) state.peak_force = vector_message(Vec3(force[0], force[1], force[2]));
+    state.pose.orientation.w = 1;
+    summary.tools.push_back(state);
+  }
+  return summary;
+}
+
+std::vector<std::string> run_files(const std::string& directory) {
+  std::vector<std::string> files;
+  for (const char* name : {"result.h5", "result.xdmf", "history.csv", "summary.json", "checkpoint.h5"}) {
+    if (std::filesystem::exists(std::filesystem::path(directory) / name)) files.emplace_back(name);
+  }
+  return files;
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,177 @@
+#include "geometry.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "forming_sim/mesh/generate.h"
+#include "forming_sim/mesh/import.h"
+#include "forming_sim/mesh/measure.h"
+#include "forming_sim/mesh/profile.h"
+#include "forming_sim/mesh/sets.h"
+#include "rules.h"
+
+namespace forming_sim {
+
+namespace {
+
+bool has_faults(const std::vector<Fault>& known, const std::string& path) {
+  return std::any_of(known.begin(), known.end(), [&](const Fault& fault) { return fault.field.compare(0, path.size(), path) == 0; });
+}
+
+/// What the user gave where a mesh cannot be made: the url, or that it is inline or generated.
+std::string origin_of(const std::optional<MeshConfig>& mesh, const char* otherwise) {
+  return !mesh ? otherwise : mesh->url.empty() ? "an inline mesh" : given_text(mesh->url);
+}
+
+/// Runs `make`; what it throws becomes a fault of `path`.
+template <class Make> bool attempt(const std::string& path, const std::string& given, std::vector<Fault>& faults, Make&& make) {
+  try {
+    make();
+    return true;
+  } catch (const Error& error) {
+    faults.push_back({error.code(), path, given, error.what()});
+  } catch (const std::bad_alloc&) {
+    faults.push_back({Code::mesh_error, path, given, "there is not memory enough for this mesh; give fewer cells"});
+  }
+  return false;
+}
+
+std::vector<std::string> set_names(const Mesh& mesh) {
+  std::vector<std::string> names;
+  for (const auto& [name, nodes] : mesh.sets) names.push_back(name);
+  return names;
+}
+
+/// Adds the sets that the scene declares to those of the mesh.
+void add_sets(const BodyConfig& body, const std::string& path, Mesh& mesh, std::vector<Fault>& faults) {
+  for (std::size_t k = 0; k < body.sets.size(); ++k) {
+    const SetConfig& set = body.sets[k];
+    const std::string here = join_path(path + ".sets", k);
+    if (mesh.sets.count(set.name) > 0) {
+      faults.push_back({Code::invalid_scene, here + ".name", given_text(set.name), "give another name: the mesh has the sets " + one_of(set_names(mesh), ", ") + " already"});
+      continue;
+    }
+    std::vector<int> nodes;
+    const std::string chosen = set.choose == "plane" ? "the plane through " + given_text(set.point) + " with normal " + given_text(set.normal)
+                                                     : "the box from " + given_text(set.min) + " to " + given_text(set.max);
+    if (!attempt(here, chosen, faults, [&] { nodes = choose_nodes(mesh, set); })) continue;
+    if (nodes.empty()) {
+      const auto box = bounds(mesh);
+      faults.push_back({Code::invalid_scene, here, chosen, "choose at least one node: no node of body " + body.name + " is there, which extends from " + given_text(Vec3(box.min())) + " to " + given_text(Vec3(box.max())) + " m"});
+    }
+    mesh.sets[set.name] = std::move(nodes);
+  }
+}
+
+/// A surface face all of whose nodes are in the set.
+bool covers_a_face(const Mesh& mesh, const std::vector<int>& set) {
+  return std::any_of(mesh.surface.begin(), mesh.surface.end(), [&](const Facet& facet) {
+    return std::all_of(facet.nodes.begin(), facet.nodes.end(), [&](int n) { return n < 0 || std::binary_search(set.begin(), set.end(), n); });
+  });
+}
+
+void check_used_sets(const BodyConfig& body, const std::string& path, const Mesh& mesh, std::vector<Fault>& faults) {
+  FaultList list(faults);
+  const auto exists = [&](const std::string& set, const std::string& here) {
+    if (set.empty() || mesh.sets.count(set) > 0) return !set.empty();
+    add_missing_set(set, body.name, set_names(mesh), here + ".set", list);
+    return false;
+  };
+  for (std::size_t k = 0; k < body.boundaries.size(); ++k) exists(body.boundaries[k].set, join_path(path + ".boundaries", k));
+  for (std::size_t k = 0; k < body.pressures.size(); ++k) {
+    const std::string here = join_path(path + ".pressures", k);
+    const std::string& set = body.pressures[k].set;
+    if (!exists(set, here) || mesh.sets.at(set).empty() || covers_a_face(mesh, mesh.sets.at(set))) continue;
+    list.add(here + ".set", given_text(set), "give a set that holds all nodes of at least one surface face: on none of this one can a pressure act");
+  }
+}
+
+bool make_body(const Scene& scene, std::size_t i, const std::vector<Fault>& known, Mesh& mesh, std::vector<Fault>& faults) {
+  const BodyConfig& body = scene.bodies[i];
+  const std::string path = body_path(i);
+  const bool one_source = body.blank.has_value() != body.mesh.has_value();
+  if (!one_source || has_faults(known, path + ".blank") || has_faults(known, path + ".mesh")) return false;
+  const std::string source = path + (body.blank ? ".blank" : body.mesh->url.empty() ? ".mesh" : ".mesh.url");
+  const bool made = attempt(source, origin_of(body.mesh, "this blank"), faults, [&] {
+    mesh = body.blank ? generate_blank(*body.blank) : load_body_mesh(*body.mesh, scene.base_directory);
+    check_volumes(mesh);
+  });
+  if (!made) return false;
+  if (mesh.dimension != scene.dimension && (scene.dimension == 2 || scene.dimension == 3)) {
+    faults.push_back({Code::invalid_scene, source, origin_of(body.mesh, "this blank") + ", whose cells have dimension " + std::to_string(mesh.dimension),
+                      scene.dimension == 2 ? "give a mesh of triangles or quadrilaterals, or set dimension to 3" : "give a mesh of tetrahedra or hexahedra, or set dimension to 2"});
+    return false;
+  }
+  return true;
+}
+
+bool make_tool(const Scene& scene, std::size_t i, const std::vector<Fault>& known, Mesh& mesh, std::vector<Fault>& faults) {
+  const ToolConfig& tool = scene.tools[i];
+  const std::string path = tool_path(i);
+  const int sources = int(tool.mesh.has_value()) + int(tool.profile.has_value()) + int(!tool.normal.isZero(0));
+  if (sources != 1 || has_faults(known, path + ".mesh") || has_faults(known, path + ".profile")) return false;
+  if (tool.profile) return attempt(path + ".profile", "this profile", faults, [&] { mesh = mesh_profile(*tool.profile); });
+  if (!tool.mesh) return true;  // a plane
+  return attempt(path + (tool.mesh->url.empty() ? ".mesh" : ".mesh.url"), origin_of(tool.mesh, ""), faults,
+                 [&] { mesh = load_tool_surface(*tool.mesh, scene.base_directory); });
+}
+
+void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
+  BodyModel body;
+  body.name = config.name;
+  body.first_node = model.node_count();
+  body.first_element = model.element_count();
+  body.node_count = static_cast<int>(mesh.nodes.size());
+  body.element_count = mesh.simplex_count();
+  body.material = config.material;
+  body.pressure_average = config.pressure_average;
+  body.mesh = std::move(mesh);
+  model.bodies.push_back(std::move(body));
+}
+
+void add_tool(const ToolConfig& config, Mesh mesh, Model& model) {
+  ToolModel tool;
+  tool.name = config.name;
+  tool.mesh = std::move(mesh);
+  tool.point = config.point;
+  if (!config.normal.isZero(0)) tool.normal = config.normal.stableNormalized();
+  tool.position = config.position;
+  tool.rotation_deg = config.rotation_deg;
+  tool.motion = config.motion;
+  tool.friction = config.friction;
+  model.tools.push_back(std::move(tool));
+}
+
+}  // namespace
+
+Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known) {
+  Geometry geometry;
+  geometry.model.dimension = scene.dimension;
+  std::vector<Mesh> bodies(scene.bodies.size()), tools(scene.tools.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!make_body(scene, i, known, bodies[i], geometry.faults)) bodies[i] = Mesh{};
+    else if (!has_faults(known, body_path(i) + ".sets")) {
+      add_sets(scene.bodies[i], body_path(i), bodies[i], geometry.faults);
+      check_used_sets(scene.bodies[i], body_path(i), bodies[i], geometry.faults);
+    }
+  }
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    if (!make_tool(scene, i, known, tools[i], geometry.faults)) tools[i] = Mesh{};
+  }
+  for (std::size_t i = 0; i < scene.output.probes.size(); ++i) {
+    const ProbeConfig& probe = scene.output.probes[i];
+    const int body = body_of(probe, scene);
+    if (probe.set.empty() || body < 0 || bodies[static_cast<std::size_t>(body)].nodes.empty()) continue;
+    const Mesh& mesh = bodies[static_cast<std::size_t>(body)];
+    if (mesh.sets.count(probe.set) > 0) continue;
+    FaultList list(geometry.faults);
+    add_missing_set(probe.set, scene.bodies[static_cast<std::size_t>(body)].name, set_names(mesh), join_path("output.probes", i) + ".set", list);
+  }
+  check_sizes(scene, bodies, tools, geometry.faults);
+  for (std::size_t i = 0; i < bodies.size(); ++i) add_body(scene.bodies[i], std::move(bodies[i]), geometry.model);
+  for (std::size_t i = 0; i < tools.size(); ++i) add_tool(scene.tools[i], std::move(tools[i]), geometry.model);
+  return geometry;
+}
+
+}  // namespace forming_sim

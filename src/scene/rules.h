@@ -1,0 +1,50 @@
+#pragma once
+// What the fields of a scene say of each other. Each rule adds its faults.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "forming_sim/config/check.h"
+#include "forming_sim/scene/scene.h"
+
+namespace forming_sim {
+
+/// Names are there once, and can head a column or name a group of a file.
+void check_names(const Scene& scene, FaultList& faults);
+/// In plane strain vectors lie in the plane and rotations are about z.
+void check_plane_strain(const Scene& scene, FaultList& faults);
+/// Where a body comes from, its material, what holds and loads it.
+void check_bodies(const Scene& scene, FaultList& faults);
+/// Where a tool's surface comes from, how it moves.
+void check_tools(const Scene& scene, FaultList& faults);
+/// Stages that refer to tools, probes that refer to bodies, frames.
+void check_stages(const Scene& scene, FaultList& faults);
+void check_output(const Scene& scene, FaultList& faults);
+
+/// One mesh of a body or a tool: url or points, and cells that fit them.
+void check_mesh(const MeshConfig& mesh, const std::string& path, int dimension, bool of_a_tool, FaultList& faults);
+/// Cells of a generated blank, as simplices.
+double simplices_of(const BlankConfig& blank);
+
+/// Times strictly increasing, and values as many as times where there are any.
+void check_times(const std::vector<double>& times, const std::string& path, FaultList& faults);
+template <class T>
+void check_as_many(const std::vector<T>& values, const std::vector<double>& times, const std::string& path, FaultList& faults) {
+  if (values.size() == times.size() || values.empty() || times.empty()) return;
+  faults.add(path, std::to_string(values.size()) + " entries", "give one for each of the " + std::to_string(times.size()) + " times");
+}
+
+/// Sets that a generated blank has.
+std::vector<std::string> predefined_sets(const BlankConfig& blank);
+/// Names of all sets of a body, where they are known without opening a file.
+std::optional<std::vector<std::string>> known_sets(const BodyConfig& body);
+/// What to say where a set does not exist.
+void add_missing_set(const std::string& set, const std::string& body, const std::vector<std::string>& sets, const std::string& path, FaultList& faults);
+/// Body that a probe is on: -1 where it does not exist.
+int body_of(const ProbeConfig& probe, const Scene& scene);
+
+/// "strip", "bodies[0]" and so on: paths of the parts of a scene.
+inline std::string body_path(std::size_t i) { return join_path("bodies", i); }
+inline std::string tool_path(std::size_t i) { return join_path("tools", i); }
+
+}  // namespace forming_sim

@@ -1,0 +1,109 @@
+#include "rules.h"
+
+namespace forming_sim {
+
+std::vector<std::string> predefined_sets(const BlankConfig& blank) {
+  if (blank.shape == "strip") return {"left", "right", "bottom", "top"};
+  if (blank.shape == "plate") return {"left", "right", "front", "back", "bottom", "top"};
+  std::vector<std::string> sets{"bottom", "top", "side"};
+  if (blank.portion != "full") sets.push_back("symmetry_x");
+  if (blank.portion == "quarter") sets.push_back("symmetry_y");
+  return sets;
+}
+
+std::optional<std::vector<std::string>> known_sets(const BodyConfig& body) {
+  std::vector<std::string> sets;
+  if (body.blank) sets = predefined_sets(*body.blank);
+  else if (!body.mesh || body.mesh->points.empty()) return std::nullopt;
+  for (const SetConfig& set : body.sets) sets.push_back(set.name);
+  return sets;
+}
+
+void add_missing_set(const std::string& set, const std::string& body, const std::vector<std::string>& sets, const std::string& path, FaultList& faults) {
+  faults.add(path, given_text(set), sets.empty() ? "body " + body + " has no sets; declare one under its sets"
+                                                 : "body " + body + " has the sets " + one_of(sets, ", ") + did_you_mean(set, sets));
+}
+
+void check_times(const std::vector<double>& times, const std::string& path, FaultList& faults) {
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (times[i] > times[i - 1]) continue;
+    faults.add(path, number_text(times[i]) + " after " + number_text(times[i - 1]), "give strictly increasing times");
+    return;
+  }
+}
+
+namespace {
+
+void check_source(const BodyConfig& body, const std::string& path, int dimension, FaultList& faults) {
+  if (body.blank.has_value() == body.mesh.has_value()) {
+    faults.add(path, body.blank ? "both blank and mesh" : "neither blank nor mesh", "give exactly one of them");
+  }
+  if (body.mesh) check_mesh(*body.mesh, path + ".mesh", dimension, false, faults);
+  if (!body.blank) return;
+  const BlankConfig& blank = *body.blank;
+  const bool flat = blank.shape == "strip";
+  const bool known = flat || blank.shape == "plate" || blank.shape == "bar";
+  if (known && dimension == 2 && !flat) faults.add(path + ".blank.shape", given_text(blank.shape), "give strip, the blank of dimension 2, or set dimension to 3");
+  if (known && dimension == 3 && flat) faults.add(path + ".blank.shape", given_text(blank.shape), "give plate or bar, the blanks of dimension 3, or set dimension to 2");
+  constexpr double most = 2e7;  // about 10 GB of state
+  if (known && simplices_of(blank) > most) {
+    faults.add(path + ".blank", number_text(simplices_of(blank)) + " elements", "give fewer cells: at most " + number_text(most) + " elements to a body");
+  }
+}
+
+void check_hardening(const HardeningConfig& hardening, const std::string& path, FaultList& faults) {
+  if (hardening.curve == "voce" && hardening.saturation_stress < hardening.yield_stress) {
+    faults.add(path + ".saturation_stress", given_text(hardening.saturation_stress),
+               "give at least the yield_stress, " + number_text(hardening.yield_stress) + " Pa: the material may not soften");
+  }
+  if (hardening.curve != "table") return;
+  const auto& strains = hardening.plastic_strains;
+  const auto& stresses = hardening.stresses;
+  if (!strains.empty() && strains.front() != 0) faults.add(path + ".plastic_strains", "a first strain of " + number_text(strains.front()), "let the table start at plastic strain 0, with the yield stress");
+  for (std::size_t i = 1; i < strains.size(); ++i) {
+    if (strains[i] > strains[i - 1]) continue;
+    faults.add(path + ".plastic_strains", number_text(strains[i]) + " after " + number_text(strains[i - 1]), "give strictly increasing plastic strains");
+    break;
+  }
+  for (std::size_t i = 1; i < stresses.size(); ++i) {
+    if (stresses[i] >= stresses[i - 1]) continue;
+    faults.add(path + ".stresses", number_text(stresses[i]) + " after " + number_text(stresses[i - 1]), "give stresses that do not decrease: the material may not soften");
+    break;
+  }
+  if (strains.size() != stresses.size() && !strains.empty() && !stresses.empty()) {
+    faults.add(path + ".stresses", std::to_string(stresses.size()) + " stresses", "give one for each of the " + std::to_string(strains.size()) + " plastic_strains");
+  }
+}
+
+}  // namespace
+
+void check_bodies(const Scene& scene, FaultList& faults) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const BodyConfig& body = scene.bodies[i];
+    const std::string path = body_path(i);
+    check_source(body, path, scene.dimension, faults);
+    if (body.material.hardening) check_hardening(*body.material.hardening, path + ".material.hardening", faults);
+    const auto sets = known_sets(body);
+    const auto check_set = [&](const std::string& set, const std::string& here) {
+      if (!sets || set.empty() || std::find(sets->begin(), sets->end(), set) != sets->end()) return;
+      add_missing_set(set, body.name, *sets, here + ".set", faults);
+    };
+    for (std::size_t k = 0; k < body.boundaries.size(); ++k) {
+      const BoundaryConfig& boundary = body.boundaries[k];
+      const std::string here = join_path(path + ".boundaries", k);
+      check_set(boundary.set, here);
+      if (boundary.kind != "velocity") continue;
+      check_times(boundary.times, here + ".times", faults);
+      check_as_many(boundary.velocities, boundary.times, here + ".velocities", faults);
+    }
+    for (std::size_t k = 0; k < body.pressures.size(); ++k) {
+      const PressureConfig& pressure = body.pressures[k];
+      const std::string here = join_path(path + ".pressures", k);
+      check_set(pressure.set, here);
+      check_times(pressure.times, here + ".times", faults);
+      check_as_many(pressure.values, pressure.times, here + ".values", faults);
+    }
+  }
+}
+
+}  // namespace forming_sim

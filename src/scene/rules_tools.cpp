@@ -1,0 +1,56 @@
+#include "rules.h"
+
+namespace forming_sim {
+
+namespace {
+
+void check_source(const ToolConfig& tool, const std::string& path, int dimension, FaultList& faults) {
+  const bool plane = !tool.normal.isZero(0);
+  std::vector<std::string> given;
+  if (tool.mesh) given.push_back("mesh");
+  if (tool.profile) given.push_back("profile");
+  if (plane) given.push_back("normal");
+  if (given.size() != 1) {
+    faults.add(path, given.empty() ? "none of mesh, profile and normal" : one_of(given, " and "),
+               "give exactly one: mesh (the surface of a tool in 3D), profile (its section in plane strain), or normal (a rigid plane)");
+  }
+  if (!plane && !tool.point.isZero(0) && !given.empty()) faults.add(path + ".point", given_text(tool.point), "leave it out: it belongs to a rigid plane, which has a normal; position moves a mesh or profile");
+  if (tool.mesh) {
+    if (dimension == 2) faults.add(path + ".mesh", "a mesh in dimension 2", "give a profile or a normal, or set dimension to 3");
+    check_mesh(*tool.mesh, path + ".mesh", dimension, true, faults);
+  }
+  if (tool.profile && dimension == 3) faults.add(path + ".profile", "a profile in dimension 3", "give a mesh or a normal, or set dimension to 2");
+}
+
+void check_motion(const MotionConfig& motion, const std::string& path, FaultList& faults) {
+  check_times(motion.times, path + ".times", faults);
+  const bool trajectory = motion.kind == "trajectory";
+  if (trajectory && motion.positions.empty() && motion.rotations_deg.empty()) {
+    faults.add(path, "a trajectory without positions and rotations_deg", "give at least one of them, an entry for each time");
+  }
+  if (trajectory && motion.times.size() == 1) {
+    faults.add(path + ".times", "one time", "give at least two: a trajectory goes from one to the next");
+  }
+  if (motion.kind == "velocity" && motion.velocities.empty() && motion.spins_deg_s.empty()) {
+    faults.add(path, "a velocity without velocities and spins_deg_s", "give at least one of them, an entry for each time");
+  }
+  if (motion.kind == "velocity" && motion.profile == "spline") {
+    faults.add(path + ".profile", given_text(motion.profile), "give smooth or linear: a spline is for trajectories");
+  }
+  check_as_many(motion.positions, motion.times, path + ".positions", faults);
+  check_as_many(motion.rotations_deg, motion.times, path + ".rotations_deg", faults);
+  check_as_many(motion.velocities, motion.times, path + ".velocities", faults);
+  check_as_many(motion.spins_deg_s, motion.times, path + ".spins_deg_s", faults);
+}
+
+}  // namespace
+
+void check_tools(const Scene& scene, FaultList& faults) {
+  for (std::size_t i = 0; i < scene.tools.size(); ++i) {
+    const ToolConfig& tool = scene.tools[i];
+    check_source(tool, tool_path(i), scene.dimension, faults);
+    if (tool.motion) check_motion(*tool.motion, tool_path(i) + ".motion", faults);
+  }
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,119 @@
+#include "schema_intro.h"
+
+namespace forming_sim {
+
+std::string schema_intro() {
+  return R"(# Writing a scene
+
+This page is printed by `forming_offline --schema markdown`, from the same declarations that check a scene.
+
+A scene is one YAML file that says all there is to a run: the deformable bodies, the rigid tools and how they move,
+the stages, and what is to be seen of it. Every key is a field of the tables below; anything else is refused, and all
+faults of a scene are told at once, each with its field, its line, what was given and what would be right.
+
+```
+forming_offline --validate my_scene.yaml            # all faults; exit code 0 if there is none
+forming_offline --estimate my_scene.yaml            # elements, time step, steps, wall time, memory
+forming_offline my_scene.yaml --output my_run       # the run and its files
+```
+
+A scene is also the goal of the action `simulate_forming`: the message has the same field names. A message cannot
+leave a field out: there 0, "" and [] mean "not given", and the default holds.
+
+## Units, coordinates, dimensions
+
+- SI units throughout: m, s, kg, N, Pa, J. Angles are in degrees where a name ends in `_deg`. Only a mesh file has a
+  unit of its own, and `unit_scale` says it: 0.001 for a file in millimetres. A scale that makes a body or tool larger
+  than 100 m or smaller than 1e-6 m, or a tool 1000 times larger or smaller than the bodies, is refused.
+- Right-handed coordinates x, y, z. Vectors are written `[x, y, z]`; `[x, y]` means z = 0.
+- `dimension: 2` is plane strain: everything lies in the x-y plane and nothing strains along z. Forces, masses and
+  energies are then per metre of width (N/m, kg/m, J/m). Vectors have z = 0, and things turn about z only.
+- `dimension: 3` is a solid of tetrahedra.
+- Relative file names refer to the directory of the scene file; `package://NAME/PATH` and `file://` URLs are understood.
+
+## Bodies and their sets
+
+A body is a blank that is meshed here, or a volume mesh (`.msh` of gmsh, or points and cells inline). Boundaries,
+pressures and probes name sets of its nodes:
+
+| body | sets |
+|---|---|
+| `strip` (dimension 2) | `left`, `right` (least and greatest x), `bottom`, `top` (least and greatest y) |
+| `plate` | `left`, `right` (x), `front`, `back` (y), `bottom`, `top` (z) |
+| `bar` | `bottom`, `top` (least and greatest z), `side`; `symmetry_x` (x = 0; half and quarter), `symmetry_y` (y = 0; quarter) |
+| `.msh` file | its physical groups by their names |
+
+More sets are chosen by a plane or a box under `sets`. In a mesh file, name two sets `bottom` and `top` to have the
+thickness of the sheet in the results.
+
+## Tools
+
+A tool is rigid. It is a surface mesh (dimension 3), a profile of lines and arcs (dimension 2; the material of the tool
+lies to the left of the way along the profile), or a plane given by `point` and `normal`, the normal towards the body.
+A tool that touches a body at the start is backed off by what the contact layer needs, and the run says by how much; a
+body that starts inside a tool is refused. The motion of a tool is a trajectory (where it is at given times, from
+where it stands at the start) or a velocity. Without a motion it rests.
+
+## Stages
+
+A run is a list of stages. Times of motions, boundaries and pressures count from the start of the run, not of a stage.
+
+- `form` runs for `duration`.
+- `withdraw` moves tools away from where they stand by `displacement`, smoothly, in `duration`; then they are gone.
+- `settle` takes motion out of the bodies until their kinetic energy stays below `kinetic_fraction` of the elastic one:
+  springback. It ends at `limit` at the latest, and the result then says so.
+
+Slow processes are simulated faster than they are: give the tools speeds of some m/s, or scale the mass, and judge
+what it costs by kinetic over internal energy in `summary.json`, which should stay below a few percent.
+
+## What a run writes
+
+Into the directory of `--output`:
+
+| file | content |
+|---|---|
+| `result.h5` | the mesh once, and the fields of every frame, with units as attributes and the text of the scene; readable up to the last complete frame, whatever ends the run |
+| `result.xdmf` | opens `result.h5` in ParaView and VTK |
+| `history.csv` | a row per `history_interval`: time, energies, forces of the tools, extremes, and for every probe its position, velocity and mean stress (xx yy zz xy yz zx); the first line names the columns, with units |
+| `summary.json` | the result in figures |
+
+A checkpoint is written when a run is cancelled, and every `checkpoint_interval` if that is given;
+`forming_offline SCENE --output DIR --resume CHECKPOINT` goes on from there to the same numbers as an unbroken run.
+
+Keys of `summary.json` (in plane strain forces, masses and energies are per metre of width):
+
+| key | meaning |
+|---|---|
+| `status` | `code` and `message`: how the run ended |
+| `scene`, `dimension`, `nodes`, `elements`, `steps` | what was run; elements are triangles or tetrahedra |
+| `sim_time_s`, `wall_time_s`, `ns_per_element_step` | simulated time, time it took, speed |
+| `time_step_s` | `first`, `min`, `limited_by` |
+| `energy_J` | `kinetic`, `elastic`, `plastic`, `contact`, `friction`, `damping`, `work`, `initial`; `balance_error`: the residual of the ledger over the largest work + initial, a fraction |
+| `contact` | `crossings` (must be 0), `halvings`, `min_gap_over_h0` |
+| `plastic_strain` | the largest equivalent plastic strain and where it is |
+| `surface_strain` | the largest principal logarithmic strain on the surface, extrapolated to it |
+| `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom` |
+| `bodies` | for each body: name, mass, centre, momentum, angular momentum, `bounding_box` (`min`, `max`) |
+| `tools` | for each tool: name and the vector of its peak force |
+| `springback` | `angle_deg_formed`, `angle_deg_released`, `change_deg`, `probe`, `kinetic_over_internal` |
+)";
+}
+
+std::string small_example_words() {
+  return "A strip of metal is stretched in plane strain to beyond yield. Only what has no default is said.\n";
+}
+
+std::string flange_example_words() {
+  return "A sheet lies on a die, is held, and is folded over the die's edge by a punch; then the tools are withdrawn and the sheet\n"
+         "springs back. The angle of its leg is reported as formed and as released.\n";
+}
+
+std::string fields_words() {
+  return R"(## All fields
+
+`[]` in a heading marks a list: `bodies[].material` is the group `material` of every entry of `bodies`. A field that
+applies only under a condition is a fault elsewhere; what is required is required where it applies.
+)";
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,74 @@
+// A wrong unit_scale shows in the size of things.
+#include <cmath>
+
+#include "forming_sim/config/reflect.h"
+#include "forming_sim/config/words.h"
+#include "forming_sim/mesh/measure.h"
+#include "geometry.h"
+
+namespace forming_sim {
+
+namespace {
+
+constexpr double kLargest = 100, kSmallest = 1e-6;  // m
+constexpr double kRatio = 1000;                     // of a tool to the bodies, and back
+
+/// Largest extent along an axis, m; 0 without nodes.
+double extent(const Mesh& mesh) { return mesh.nodes.empty() ? 0 : bounds(mesh).sizes().maxCoeff(); }
+
+std::string in_metres(double size) {
+  const double digits = std::pow(10, 2 - std::floor(std::log10(size)));
+  return number_text(std::round(size * digits) / digits) + " m";
+}
+
+/// "with unit_scale 0.001 it would be 0.25 m": a size that is `wrong` times too large.
+std::string right_scale(const MeshConfig& mesh, double size, double wrong) {
+  const double step = wrong > 1 ? 1e-3 : 1e3;
+  double factor = step;
+  for (double left = wrong * step; (wrong > 1 ? left > 1 : left < 1) && std::abs(std::log10(factor)) < 12; left *= step) factor *= step;
+  return "with unit_scale " + number_text(mesh.unit_scale * factor) + " it would be " + in_metres(size * factor) + "; give the metres per unit of the mesh (0.001 for millimetres)";
+}
+
+void check_extent(const std::optional<MeshConfig>& mesh, double size, const std::string& path, std::vector<Fault>& faults) {
+  if (size == 0 || (size <= kLargest && size >= kSmallest)) return;
+  const std::string bounds_text = "sizes from 1e-6 m to 100 m are taken; ";
+  if (mesh) {
+    const double wrong = size > kLargest ? size / kLargest : size / kSmallest;
+    faults.push_back({Code::invalid_scene, path + ".mesh.unit_scale", number_text(mesh->unit_scale) + ", which makes a size of " + in_metres(size), bounds_text + right_scale(*mesh, size, wrong)});
+  } else {
+    faults.push_back({Code::invalid_scene, path, "a size of " + in_metres(size), bounds_text + "give lengths in metres"});
+  }
+}
+
+}  // namespace
+
+void check_sizes(const Scene& scene, const std::vector<Mesh>& bodies, const std::vector<Mesh>& tools, std::vector<Fault>& faults) {
+  const std::size_t before = faults.size();
+  double largest_body = 0;
+  bool all_known = true;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const double size = extent(bodies[i]);
+    largest_body = std::max(largest_body, size);
+    all_known = all_known && size > 0;
+    check_extent(scene.bodies[i].mesh, size, join_path("bodies", i) + (scene.bodies[i].blank ? ".blank" : ""), faults);
+  }
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    check_extent(scene.tools[i].mesh, extent(tools[i]), join_path("tools", i) + (scene.tools[i].profile ? ".profile" : ""), faults);
+  }
+  if (!all_known || largest_body == 0 || faults.size() > before) return;
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    const double size = extent(tools[i]);
+    const double ratio = size / largest_body;
+    if (size == 0 || (ratio <= kRatio && ratio >= 1 / kRatio)) continue;
+    const std::string given = "a tool of " + in_metres(size) + " to bodies of " + in_metres(largest_body);
+    const std::string refused = "a tool is refused that is more than 1000 times larger or smaller than the bodies; ";
+    if (const auto& mesh = scene.tools[i].mesh) {
+      const double wrong = ratio > 1 ? ratio / kRatio : ratio * kRatio;
+      faults.push_back({Code::invalid_scene, join_path("tools", i) + ".mesh.unit_scale", number_text(mesh->unit_scale) + ", which makes " + given, refused + right_scale(*mesh, size, wrong)});
+    } else {
+      faults.push_back({Code::invalid_scene, join_path("tools", i) + ".profile", given, refused + "give lengths in metres, and check the unit_scale of the bodies"});
+    }
+  }
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,43 @@
+#include "forming_sim/scene/validate.h"
+
+#include "forming_sim/scene/yaml.h"
+#include "geometry.h"
+#include "rules.h"
+
+namespace forming_sim {
+
+std::vector<Fault> check_declarations(const Scene& scene) {
+  std::vector<Fault> faults;
+  FaultList list(faults);
+  check_config(scene, "", list);
+  return faults;
+}
+
+std::vector<Fault> check_scene(const Scene& scene) {
+  std::vector<Fault> faults = check_declarations(scene), between;
+  FaultList list(between);
+  check_names(scene, list);
+  check_plane_strain(scene, list);
+  check_bodies(scene, list);
+  check_tools(scene, list);
+  check_stages(scene, list);
+  check_output(scene, list);
+  merge_faults(faults, between);
+  return faults;
+}
+
+std::vector<Fault> validate(const Scene& scene, std::vector<Fault> known) {
+  merge_faults(known, check_scene(scene));
+  merge_faults(known, make_geometry(scene, known).faults);
+  return known;
+}
+
+Scene read_valid_scene(const std::string& path) {
+  std::vector<Fault> faults;
+  Scene scene = read_scene_file(path, faults);
+  faults = validate(scene, faults);
+  if (!faults.empty()) throw SceneError(faults);
+  return scene;
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,77 @@
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "forming_sim/scene/validate.h"
+#include "forming_sim/scene/yaml.h"
+#include "yaml_reader.h"
+
+namespace forming_sim {
+
+namespace {
+
+/// `inner` is `outer` or lies in it: "a.b[1]" in "a.b" and in "a".
+bool lies_in(const std::string& inner, const std::string& outer) {
+  return inner.compare(0, outer.size(), outer) == 0 &&
+         (inner.size() == outer.size() || inner[outer.size()] == '.' || inner[outer.size()] == '[');
+}
+
+/// A fault of a whole list says nothing new where an entry of it is at fault.
+bool is_list_of(const std::string& list, const std::string& entry) {
+  return lies_in(entry, list) && entry.size() > list.size() && entry[list.size()] == '[';
+}
+
+}  // namespace
+
+void merge_faults(std::vector<Fault>& known, const std::vector<Fault>& more) {
+  const std::size_t before = known.size();
+  for (const Fault& fault : more) {
+    const auto told = [&](const Fault& other) { return lies_in(fault.field, other.field) || is_list_of(fault.field, other.field); };
+    if (std::none_of(known.begin(), known.begin() + static_cast<long>(before), told)) known.push_back(fault);
+  }
+}
+
+Scene read_scene(const std::string& yaml_text, const std::string& base_directory, std::vector<Fault>& faults) {
+  Scene scene;
+  scene.base_directory = base_directory;
+  scene.text = yaml_text;
+  std::vector<Fault> found;
+  YamlReader reader(found);
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(yaml_text);
+    if (documents.size() == 1) {
+      reader.read_config(documents.front(), scene, "");
+      if (documents.front().IsMap()) merge_faults(found, check_scene(scene));
+    } else {
+      FaultList(found).add("scene", std::to_string(documents.size()) + " YAML documents", "give one document with the fields of a scene");
+    }
+  } catch (const YAML::Exception& error) {
+    found.clear();
+    FaultList(found).add("scene", "a text that is not YAML at line " + std::to_string(error.mark.line + 1) + ", column " + std::to_string(error.mark.column + 1), error.msg);
+  }
+  for (Fault& fault : found) {
+    const int line = reader.line_of(fault.field);
+    if (line > 0) fault.given += " (line " + std::to_string(line) + ")";
+  }
+  faults.insert(faults.end(), found.begin(), found.end());
+  return scene;
+}
+
+Scene read_scene_file(const std::string& path, std::vector<Fault>& faults) {
+  namespace fs = std::filesystem;
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (!file || fs::is_directory(path) || !(text << file.rdbuf())) {
+    throw Error(Code::output_error, "The scene file '" + path + "' cannot be read; give the path of a YAML file that exists and is not empty.");
+  }
+  return read_scene(text.str(), fs::absolute(path).parent_path().string(), faults);
+}
+
+Scene read_scene_file(const std::string& path) {
+  std::vector<Fault> faults;
+  Scene scene = read_scene_file(path, faults);
+  if (!faults.empty()) throw SceneError(faults);
+  return scene;
+}
+
+}  // namespace forming_sim

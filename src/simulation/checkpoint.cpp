@@ -1,0 +1,72 @@
+// Every number that the next steps depend on, to bytes and back.
+#include <sstream>
+
+#include "simulation/archive.h"
+#include "simulation/impl.h"
+
+namespace forming_sim {
+
+template <class Archive> void Simulation::Impl::exchange(Archive& a) {
+  a.numbers(x.data()->data(), x.size() * 4);
+  a.numbers(v.data()->data(), v.size() * 4);
+  for (double* value : {&time, &dt, &previous_dt, &work, &damping, &friction, &contact_dissipated, &contact_potential,
+                        &initial, &most, &min_gap, &first_dt, &smallest.dt, &next_crossing_check, &wall})
+    a.number(*value);
+  for (long* value : {&steps, &halvings, &active_pairs, &crossings}) a.number(*value);
+  a.raw(control);
+  a.number(smallest.element);
+  a.text(smallest.reason);
+  a.raw(settle);
+  a.number(settled);
+  for (ToolStatus& tool : tools)
+    for (Vec3* value : {&tool.force, &tool.moment, &tool.impulse, &tool.peak_force}) a.numbers(value->data(), 3);
+}
+
+std::vector<char> Simulation::save() const {
+  Impl& s = *impl_;
+  Writer out;
+  out.number(s.elements.simplices().size());
+  out.number(s.x.size());
+  out.number(s.tools.size());
+  out.list(s.stages.starts());
+  s.exchange(out);
+  std::vector<double> memory;
+  s.elements.append_state(memory);
+  out.list(memory);
+  out.list(s.contact ? s.contact->save() : std::vector<char>());
+  return out.take();
+}
+
+void Simulation::restore(const std::vector<char>& data) {
+  Impl& s = *impl_;
+  Reader in(data);
+  std::size_t simplices = 0, nodes = 0, tools = 0;
+  in.number(simplices);
+  in.number(nodes);
+  in.number(tools);
+  if (simplices != s.elements.simplices().size() || nodes != s.x.size() || tools != s.tools.size()) {
+    std::ostringstream what;
+    what << "the checkpoint holds " << simplices << " elements, " << nodes << " nodes and " << tools
+         << " tools, the scene " << s.elements.simplices().size() << ", " << s.x.size() << " and " << s.tools.size()
+         << "; resume with the scene that wrote it";
+    throw Error(Code::resume_error, what.str());
+  }
+  std::vector<double> starts, memory;
+  in.list(starts);
+  s.stages = StageRunner(s.plan.stages, s.model);
+  s.stages.replay(starts);
+  s.exchange(in);
+  in.list(memory);
+  std::vector<double> expected;
+  s.elements.append_state(expected);
+  if (memory.size() != expected.size())
+    throw Error(Code::resume_error, "the checkpoint's element memory has another size than the scene's; resume with the scene that wrote it");
+  s.elements.read_state(memory.data());
+  std::vector<char> contact;
+  in.list(contact);
+  if (s.contact) s.contact->restore(contact);
+  s.energies_step = -1;
+  s.place_tools();
+}
+
+}  // namespace forming_sim

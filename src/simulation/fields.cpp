@@ -1,0 +1,108 @@
+// What a Simulation shows of itself.
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/impl.h"
+
+namespace forming_sim {
+
+const Model& Simulation::model() const { return impl_->model; }
+const RunPlan& Simulation::plan() const { return impl_->plan; }
+const std::vector<std::array<int, 4>>& Simulation::elements() const { return impl_->elements.simplices(); }
+const std::vector<Facet>& Simulation::surface() const { return impl_->surface; }
+const std::vector<double>& Simulation::nodal_mass() const { return impl_->elements.nodal_mass(); }
+double Simulation::time() const { return impl_->time; }
+long Simulation::steps() const { return impl_->steps; }
+double Simulation::dt() const { return impl_->dt; }
+int Simulation::stage() const { return impl_->stages.index(); }
+double Simulation::progress() const { return impl_->stages.progress(impl_->time); }
+double Simulation::wall_time() const { return impl_->wall; }
+const NodeField& Simulation::initial_positions() const { return impl_->X; }
+const NodeField& Simulation::positions() const { return impl_->x; }
+const NodeField& Simulation::velocities() const { return impl_->v; }
+double Simulation::first_dt() const { return impl_->first_dt; }
+const std::vector<ToolStatus>& Simulation::tools() const { return impl_->tools; }
+const std::vector<std::string>& Simulation::warnings() const { return impl_->warnings; }
+
+namespace {
+StepLimit described(StepLimit limit, const Model& model) {
+  if (limit.element >= 0)
+    for (const BodyModel& body : model.bodies)
+      if (limit.element < body.first_element + body.element_count) {
+        limit.reason = "element " + std::to_string(limit.element) + " of body " + body.name;
+        break;
+      }
+  return limit;
+}
+}  // namespace
+
+StepLimit Simulation::step_limit() const { return described(impl_->limit, impl_->model); }
+StepLimit Simulation::smallest_step() const { return described(impl_->smallest, impl_->model); }
+
+const Energies& Simulation::energies() const {
+  const Impl& s = *impl_;
+  if (s.energies_step == s.steps) return s.energies;
+  NodeField half = s.x;
+  if (s.steps > 0)
+    for (std::size_t i = 0; i < half.size(); ++i) half[i] -= 0.5 * s.dt * s.v[i];
+  Energies& e = s.energies;
+  e.kinetic = s.kinetic();
+  e.elastic = s.elements.observe(half).stored_energy;
+  e.plastic = s.elements.plastic_work();
+  e.contact = s.contact_potential + s.contact_dissipated;
+  e.friction = s.friction;
+  e.damping = s.damping + s.elements.viscous_work();
+  e.work = s.work;
+  e.initial = s.initial;
+  s.energies_step = s.steps;
+  return e;
+}
+
+double Simulation::balance_error() const {
+  const double scale = impl_->most;
+  const double residual = std::fabs(energies().residual());
+  return scale > 0 ? residual / scale : residual;
+}
+
+ContactStatus Simulation::contact_status() const {
+  const Impl& s = *impl_;
+  ContactStatus c;
+  c.halvings = s.halvings;
+  c.crossings = s.crossings;
+  c.min_gap_over_layer = s.min_gap;
+  c.active_pairs = s.active_pairs;
+  if (s.contact) {
+    c.layer = s.contact->layer();
+    c.listed_pairs = s.contact->listed_pairs();
+  }
+  return c;
+}
+
+std::vector<double> Simulation::plastic_strain() const { return impl_->elements.plastic_strain(); }
+std::vector<Sym> Simulation::stress() const { return impl_->elements.observe(impl_->x).stress; }
+std::vector<double> Simulation::volume_ratio() const { return impl_->elements.observe(impl_->x).volume_ratio; }
+
+std::vector<double> Simulation::surface_strain() const {
+  const Impl& s = *impl_;
+  std::vector<double> strain;
+  strain.reserve(s.surface.size());
+  for (const Facet& f : s.surface) {
+    const Vec3 A = vec3(s.X[f.nodes[1]] - s.X[f.nodes[0]]), a = vec3(s.x[f.nodes[1]] - s.x[f.nodes[0]]);
+    if (s.model.dimension == 2) {
+      strain.push_back(std::log(a.norm() / A.norm()));
+      continue;
+    }
+    const Vec3 B = vec3(s.X[f.nodes[2]] - s.X[f.nodes[0]]), b = vec3(s.x[f.nodes[2]] - s.x[f.nodes[0]]);
+    // C = E^-T (edges now) E^-1 in the facet's initial plane; its larger eigenvalue is the square of the stretch
+    Eigen::Matrix2d initial, now;
+    initial << A.dot(A), A.dot(B), A.dot(B), B.dot(B);
+    now << a.dot(a), a.dot(b), a.dot(b), b.dot(b);
+    const Eigen::Matrix2d C = initial.inverse() * now;
+    const double half = 0.5 * C.trace();
+    strain.push_back(0.5 * std::log(half + std::sqrt(std::max(0.0, half * half - C.determinant()))));
+  }
+  return strain;
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,86 @@
+#pragma once
+// What a Simulation holds: its state, its running sums and the parts of a step.
+#include <optional>
+#include <vector>
+
+#include "forming_sim/contact/contact.h"
+#include "forming_sim/loads/boundary.h"
+#include "forming_sim/loads/pressure.h"
+#include "forming_sim/simulation/simulation.h"
+#include "simulation/settle.h"
+#include "simulation/stages.h"
+#include "simulation/step_control.h"
+
+namespace forming_sim {
+
+/// Twice the volume over the surface: the thickness of a thin sheet, m.
+double thickness_of(const BodyModel& body);
+
+struct Simulation::Impl {
+  RunPlan plan;
+  Model model;
+  int threads;
+  NodeField X;                      ///< initial positions
+  NodeField x, v, v_before, f;      ///< v at the half step
+  Elements elements;
+  std::vector<Facet> surface;       ///< joined
+  std::vector<double> physical_mass;
+  BoundarySet boundaries;
+  PressureSet pressures;
+  StageRunner stages;
+  std::optional<Contact> contact;
+  std::vector<ToolStatus> tools;
+  std::vector<std::string> warnings;
+  std::vector<Observer*> observers;
+
+  double time = 0, dt = 0, previous_dt = 0;
+  long steps = 0;
+  StepControl control;
+  StepLimit limit, smallest;
+  double first_dt = 0;
+  Settle settle;
+  bool settled = true;              ///< false once a settle stage has run into its limit
+  double wall = 0;
+
+  // the ledger's running sums, J
+  double work = 0, damping = 0, friction = 0, contact_dissipated = 0, contact_potential = 0, initial = 0, most = 0;
+  long halvings = 0;
+  double min_gap = 1;
+  long active_pairs = 0;
+  long crossings = 0;
+  double next_crossing_check = 0;
+
+  mutable Energies energies;
+  mutable long energies_step = -1;
+
+  Impl(const RunPlan& plan, Model model, int threads);
+
+  // setup.cpp
+  void set_up_loads();
+  void set_up_contact();
+  std::vector<ToolMotion> tool_motions(double from, double to) const;
+  void place_tools();
+
+  // step.cpp
+  /// dt of the coming step: the elements' bound, the user's limit, the stage's end.
+  void choose_dt();
+  /// v* = v + (dt_previous + dt)/2 f/m with damping and prescribed motion; f is complete.
+  void predict(double step_dt, NodeField& v_star) const;
+  void take_step();
+  void book(const ContactStep& done);
+  /// Work of prescribed motion, pressure, gravity and damping over the kick.
+  void book_loads(const NodeField& external);
+  double kinetic() const;
+
+  // simulation.cpp
+  void begin_stage();
+  /// True when the running stage has come to its end.
+  bool stage_over();
+  void stop_motion();
+  void check_crossings();
+
+  // checkpoint.cpp
+  template <class Archive> void exchange(Archive& a);
+};
+
+}  // namespace forming_sim

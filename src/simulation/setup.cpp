@@ -1,0 +1,142 @@
+// From plan and model to the state at the start.
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "simulation/impl.h"
+
+namespace forming_sim {
+
+namespace {
+
+NodeField initial_positions_of(const Model& model) {
+  NodeField x;
+  for (const BodyModel& body : model.bodies)
+    for (const Vec3& X : body.mesh.nodes) x.push_back(node(X));
+  return x;
+}
+
+}  // namespace
+
+/// Twice the volume over the surface: the thickness of a thin sheet.
+double thickness_of(const BodyModel& body) {
+  double volume = 0, area = 0;
+  const auto& X = body.mesh.nodes;
+  for (const auto& s : body.mesh.simplices()) {
+    Mat3 edges = Mat3::Identity();
+    for (int m = 0; m < body.mesh.dimension; ++m) edges.col(m) = X[s[m + 1]] - X[s[0]];
+    volume += edges.determinant() / (body.mesh.dimension == 2 ? 2 : 6);
+  }
+  for (const Facet& f : body.mesh.surface) {
+    const Vec3 a = X[f.nodes[1]] - X[f.nodes[0]];
+    area += body.mesh.dimension == 2 ? a.norm() : 0.5 * a.cross(X[f.nodes[2]] - X[f.nodes[0]]).norm();
+  }
+  return 2 * volume / area;
+}
+
+Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
+    : plan(p), model(std::move(m)), threads(std::max(1, n)), X(initial_positions_of(model)), x(X),
+      v(X.size(), Node::Zero()), v_before(v), f(v),
+      elements(model.bodies, model.dimension, X,
+               {p.time_step.mass_scaling, p.time_step.linear_viscosity, p.time_step.quadratic_viscosity}, threads),
+      stages(plan.stages, model) {
+  set_up_loads();
+  set_up_contact();
+  double kinetic = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) kinetic += 0.5 * elements.nodal_mass()[i] * v[i].squaredNorm();
+  initial = most = kinetic;
+  begin_stage();
+}
+
+void Simulation::Impl::set_up_loads() {
+  std::vector<ResolvedBoundary> held;
+  std::vector<ResolvedPressure> pressed;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const BodyLoads& loads = plan.bodies[b];
+    const Vec3 spin = loads.initial_spin_deg_s * (M_PI / 180);
+    for (int i = body.first_node; i < body.first_node + body.node_count; ++i)
+      v[i] = node(loads.initial_velocity + spin.cross(vec3(X[i]) - loads.spin_centre));
+    for (const BoundaryConfig& c : loads.boundaries) held.push_back(resolve(c, body.name, body.mesh, body.first_node));
+    for (const PressureConfig& c : loads.pressures) pressed.push_back(resolve(c, body.name, body.mesh, body.first_node));
+    for (Facet facet : body.mesh.surface) {
+      for (int a = 0; a < model.dimension; ++a) facet.nodes[a] += body.first_node;
+      facet.element += body.first_element;
+      surface.push_back(facet);
+    }
+  }
+  boundaries = BoundarySet(held, model.dimension);
+  pressures = PressureSet(std::move(pressed), model.dimension);
+  boundaries.apply_velocity(0, v);
+  physical_mass = elements.nodal_mass();
+  for (double& m : physical_mass) m /= plan.time_step.mass_scaling;
+}
+
+void Simulation::Impl::set_up_contact() {
+  tools.resize(model.tools.size());
+  place_tools();
+  if (model.tools.empty()) return;
+  ContactSetup setup;
+  setup.dimension = model.dimension;
+  setup.config = plan.contact;
+  setup.softest_modulus = setup.thinnest = setup.wave_speed = std::numeric_limits<double>::infinity();
+  std::size_t first_facet = 0;
+  for (const BodyModel& body : model.bodies) {
+    ContactSurface s;
+    s.name = body.name;
+    s.dimension = model.dimension;
+    const std::size_t count = body.mesh.surface.size();
+    s.facets.assign(surface.begin() + first_facet, surface.begin() + first_facet + count);
+    first_facet += count;
+    setup.bodies.push_back(std::move(s));
+    const MaterialConfig& m = body.material;
+    setup.softest_modulus = std::min(setup.softest_modulus, m.youngs_modulus);
+    setup.thinnest = std::min(setup.thinnest, thickness_of(body));
+    setup.wave_speed = std::min(
+        setup.wave_speed, std::sqrt((m.bulk_modulus() + 4. / 3 * m.shear_modulus()) / m.density / plan.time_step.mass_scaling));
+  }
+  for (const ToolModel& tool : model.tools) {
+    ContactSurface s;
+    s.name = tool.name;
+    s.dimension = model.dimension;
+    s.rigid = true;
+    s.facets = tool.mesh.surface;
+    s.friction = tool.friction;
+    s.plane = tool.is_plane();
+    s.point = tool.point;
+    s.normal = tool.normal;
+    setup.tools.push_back(std::move(s));
+    setup.tool_meshes.push_back(&tool.mesh);
+  }
+  contact.emplace(setup, x, tool_motions(0, 0));
+  std::vector<double> inverse_mass;
+  for (double m : elements.nodal_mass()) inverse_mass.push_back(1 / m);
+  std::vector<HeldNode> held;
+  for (std::size_t k = 0; k < boundaries.nodes().size(); ++k)
+    held.push_back({boundaries.nodes()[k], boundaries.projector(static_cast<int>(k))});
+  contact->set_masses(inverse_mass, held);
+  warnings = contact->warnings();
+}
+
+std::vector<ToolMotion> Simulation::Impl::tool_motions(double from, double to) const {
+  std::vector<ToolMotion> motions;
+  for (int k = 0; k < static_cast<int>(model.tools.size()); ++k) {
+    const ToolPose a = stages.pose(k, from), b = stages.pose(k, to);
+    motions.push_back({a.position, b.position, a.rotation, b.rotation, stages.present(k)});
+  }
+  return motions;
+}
+
+void Simulation::Impl::place_tools() {
+  for (std::size_t k = 0; k < tools.size(); ++k) {
+    const ToolPose pose = stages.pose(static_cast<int>(k), time);
+    tools[k].position = pose.position;
+    tools[k].rotation = pose.rotation;
+    tools[k].velocity = pose.velocity;
+    tools[k].present = stages.present(static_cast<int>(k));
+  }
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,122 @@
+#include "forming_sim/simulation/simulation.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+#include "simulation/impl.h"
+
+namespace forming_sim {
+
+namespace {
+constexpr int kCrossingChecks = 200;  ///< independent crossing checks over a run
+}
+
+void Simulation::Impl::begin_stage() {
+  if (!stages.settling()) return;
+  double size = 0, thin = 1e300, speed = 1e300;
+  for (const BodyModel& body : model.bodies) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& X_i : body.mesh.nodes) box.extend(X_i);
+    size = std::max(size, box.diagonal().norm());
+    thin = std::min(thin, thickness_of(body));
+    speed = std::min(speed, std::sqrt(body.material.youngs_modulus / body.material.density / plan.time_step.mass_scaling));
+  }
+  const double elastic = elements.observe(x).stored_energy;
+  settle = Settle(time, size * size / (thin * speed), stages.stage().kinetic_fraction, elastic);
+}
+
+bool Simulation::Impl::stage_over() {
+  if (stages.settling()) {
+    const double energy = kinetic();
+    const Settle::Verdict verdict = settle.observe(time, energy);
+    if (verdict.stop_motion) stop_motion();
+    if (verdict.at_rest) return true;
+    if (stages.remaining(time) <= 0) {
+      settled = false;
+      return true;
+    }
+    return false;
+  }
+  return stages.remaining(time) <= 1e-12 * (time + stages.stage().duration);
+}
+
+/// Sets all velocities to zero at time n. The kick that follows is a half one, as
+/// at the start of a run: a full kick would feed the highest modes at every stop.
+void Simulation::Impl::stop_motion() {
+  NodeField half = x;
+  for (std::size_t i = 0; i < half.size(); ++i) half[i] -= 0.5 * dt * v[i];
+  damping += kinetic() + elements.observe(half).stored_energy - elements.observe(x).stored_energy;
+  std::fill(v.begin(), v.end(), Node::Zero());
+  boundaries.apply_velocity(time, v);
+  previous_dt = 0;
+}
+
+void Simulation::Impl::check_crossings() {
+  if (!contact) return;
+  crossings += contact->count_crossings(x, tool_motions(time, time));
+  next_crossing_check = stages.progress(time) + 1.0 / kCrossingChecks;
+}
+
+Simulation::Simulation(const RunPlan& plan, Model model, int threads)
+    : impl_(std::make_unique<Impl>(plan, std::move(model), threads)) {}
+Simulation::~Simulation() = default;
+
+void Simulation::add(Observer& observer) { impl_->observers.push_back(&observer); }
+
+bool Simulation::step() {
+  Impl& s = *impl_;
+  if (s.stages.finished()) return false;
+  const auto start = std::chrono::steady_clock::now();
+  s.take_step();
+  const bool over = s.stage_over();
+  s.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (over || s.stages.progress(s.time) >= s.next_crossing_check) s.check_crossings();
+  for (Observer* o : s.observers) o->on_step(*this);
+  if (over) {
+    const int ended = s.stages.index();
+    for (Observer* o : s.observers) o->on_stage_end(*this, ended);
+    s.stages.advance(s.time);
+    s.begin_stage();
+  }
+  return !s.stages.finished();
+}
+
+Outcome Simulation::run(const std::atomic<bool>& cancel) {
+  Impl& s = *impl_;
+  Outcome outcome;
+  try {
+    for (Observer* o : s.observers) o->on_start(*this);
+    while (!s.stages.finished()) {
+      if (cancel) {
+        std::ostringstream text;
+        text << "cancelled at " << s.time << " s after " << s.steps << " steps";
+        outcome = {Code::cancelled, text.str()};
+        break;
+      }
+      step();
+    }
+    if (outcome.code == Code::none) {
+      outcome = s.settled ? Outcome{Code::success, "completed"}
+                          : Outcome{Code::limit_reached, "a settle stage reached its limit before the kinetic energy fell below stages[].kinetic_fraction of the elastic energy; a longer limit lets it come to rest"};
+    }
+  } catch (const Error& error) {
+    std::ostringstream text;
+    text << error.what() << " (at time " << s.time << " s, step " << s.steps << ")";
+    outcome = {error.code(), text.str()};
+  } catch (const std::exception& error) {
+    outcome = {Code::internal_error, error.what()};
+  }
+  for (Observer* o : s.observers) {
+    try {
+      o->on_end(*this, outcome.code, outcome.message);
+    } catch (const Error& error) {
+      if (outcome.code == Code::success) outcome = {error.code(), error.what()};
+    }
+  }
+  return outcome;
+}
+
+}  // namespace forming_sim

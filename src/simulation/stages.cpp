@@ -1,0 +1,62 @@
+#include "simulation/stages.h"
+
+#include <algorithm>
+
+namespace forming_sim {
+
+namespace {
+double longest(const StageConfig& stage) { return stage.kind == "settle" ? stage.limit : stage.duration; }
+}  // namespace
+
+StageRunner::StageRunner(const std::vector<StageConfig>& stages, const Model& model) : stages_(stages), model_(&model) {
+  for (const ToolModel& tool : model.tools)
+    motions_.push_back(tool.motion ? RigidMotion(*tool.motion, model.dimension) : RigidMotion());
+  present_.assign(model.tools.size(), 1);
+  starts_.push_back(0);
+  if (!finished()) begin(0);
+}
+
+bool StageRunner::leaves(const StageConfig& stage, int tool) const {
+  return stage.kind == "withdraw" &&
+         (stage.tools.empty() ||
+          std::find(stage.tools.begin(), stage.tools.end(), model_->tools[tool].name) != stage.tools.end());
+}
+
+void StageRunner::begin(double t) {
+  for (std::size_t k = 0; k < motions_.size(); ++k) {
+    if (!leaves(stages_[index_], static_cast<int>(k))) continue;
+    if (stages_[index_].displacement.isZero()) present_[k] = 0;
+    else motions_[k] = withdraw(motions_[k].at(t), stages_[index_].displacement, t, stages_[index_].duration);
+  }
+}
+
+void StageRunner::advance(double t) {
+  for (std::size_t k = 0; k < motions_.size(); ++k)
+    if (leaves(stages_[index_], static_cast<int>(k))) present_[k] = 0;
+  ++index_;
+  starts_.push_back(t);
+  if (!finished()) begin(t);
+}
+
+double StageRunner::remaining(double t) const {
+  return finished() ? 0 : std::max(0.0, starts_.back() + longest(stages_[index_]) - t);
+}
+
+double StageRunner::progress(double t) const {
+  double done = 0, total = 0;
+  for (std::size_t k = 0; k < stages_.size(); ++k) {
+    const double length = longest(stages_[k]);
+    total += length;
+    if (static_cast<int>(k) < index_) done += length;
+    else if (static_cast<int>(k) == index_) done += std::min(length, t - starts_.back());
+  }
+  return total > 0 ? done / total : 1;
+}
+
+ToolPose StageRunner::pose(int tool, double t) const { return tool_pose(model_->tools[tool], motions_[tool], t); }
+
+void StageRunner::replay(const std::vector<double>& starts) {
+  for (std::size_t k = 1; k < starts.size(); ++k) advance(starts[k]);
+}
+
+}  // namespace forming_sim

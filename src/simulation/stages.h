@@ -1,0 +1,47 @@
+#pragma once
+// The plan of stages as it runs: which stage, since when, and where the tools
+// are told to be.
+#include <vector>
+
+#include "forming_sim/loads/motion.h"
+#include "forming_sim/simulation/model.h"
+#include "forming_sim/simulation/plan.h"
+
+namespace forming_sim {
+
+class StageRunner {
+ public:
+  StageRunner(const std::vector<StageConfig>& stages, const Model& model);
+
+  int index() const { return index_; }
+  bool finished() const { return index_ >= static_cast<int>(stages_.size()); }
+  const StageConfig& stage() const { return stages_[index_]; }
+  bool settling() const { return !finished() && stage().kind == "settle"; }
+  double start() const { return starts_.back(); }
+  /// Longest time the running stage may still take at time t, s.
+  double remaining(double t) const;
+  /// Ends the running stage and begins the next one at time t.
+  void advance(double t);
+  /// 0..1 by simulated time; a settle stage counts by its limit.
+  double progress(double t) const;
+
+  ToolPose pose(int tool, double t) const;
+  bool present(int tool) const { return present_[tool]; }
+
+  /// Start times of the stages begun so far: all that a checkpoint needs.
+  const std::vector<double>& starts() const { return starts_; }
+  void replay(const std::vector<double>& starts);
+
+ private:
+  void begin(double t);
+  bool leaves(const StageConfig& stage, int tool) const;
+
+  std::vector<StageConfig> stages_;
+  const Model* model_;
+  std::vector<RigidMotion> motions_;
+  std::vector<char> present_;
+  std::vector<double> starts_;
+  int index_ = 0;
+};
+
+}  // namespace forming_sim

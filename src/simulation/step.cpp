@@ -1,0 +1,118 @@
+// One step: the stable dt, forces, the kick, contact, and the ledger's sums.
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "forming_sim/loads/gravity.h"
+#include "simulation/impl.h"
+
+namespace forming_sim {
+
+namespace {
+constexpr double kForceMeanSteps = 50;  ///< tool forces are running means over about this many steps
+}
+
+void Simulation::Impl::choose_dt() {
+  if (control.due()) {
+    double stable = 0;
+    int element = -1;
+    elements.stable_step(x, v, stable, element);
+    control.update(stable, element);
+  }
+  --control.until_next;
+  const TimeStepConfig& config = plan.time_step;
+  dt = config.safety * control.element_dt;
+  limit = {dt, control.element, {}};
+  if (config.maximum > 0 && config.maximum < dt) dt = config.maximum, limit = {dt, -1, "time_step.maximum"};
+  if (steps == 0) first_dt = dt;
+  if (smallest.dt == 0 || limit.dt < smallest.dt) smallest = limit;
+  const double left = stages.remaining(time);
+  if (left < 2 * dt) dt = left > dt * (1 + 1e-9) ? 0.5 * left : left;
+}
+
+void Simulation::Impl::predict(double step_dt, NodeField& v_star) const {
+  const double kick = 0.5 * (previous_dt + step_dt);
+  const double a = 0.5 * plan.time_step.damping * kick;
+  const std::vector<double>& mass = elements.nodal_mass();
+  const int nodes = static_cast<int>(v.size());
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1 && nodes > 4000)
+  for (int i = 0; i < nodes; ++i) v_star[i] = ((1 - a) * v_before[i] + kick / mass[i] * f[i]) / (1 + a);
+  boundaries.apply_velocity(time + 0.5 * step_dt, v_star);
+}
+
+void Simulation::Impl::take_step() {
+  const bool loaded = !pressures.empty() || !plan.gravity.isZero();
+  v_before = v;
+  choose_dt();
+  elements.forces(x, v, dt, f);
+  NodeField external;
+  if (loaded) {
+    external.assign(x.size(), Node::Zero());
+    pressures.add(time, x, external);
+    if (!plan.gravity.isZero()) add_gravity(plan.gravity, physical_mass, external);
+    for (std::size_t i = 0; i < f.size(); ++i) f[i] += external[i];
+  }
+  if (contact) {
+    const ContactStep done = contact->advance(
+        time, dt, x, v, [&](double step_dt, NodeField& v_star) { predict(step_dt, v_star); },
+        [&](double step_dt) { return tool_motions(time, time + step_dt); });
+    dt = done.dt;
+    book(done);
+  } else {
+    predict(dt, v);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += dt * v[i];
+  }
+  book_loads(external);
+  time += dt;
+  previous_dt = dt;
+  ++steps;
+  place_tools();
+  most = std::max(most, work + initial);
+}
+
+void Simulation::Impl::book(const ContactStep& done) {
+  work += done.tool_work + done.soft_start_work - done.held_work;
+  friction += done.friction_work;
+  contact_dissipated += done.dissipated;
+  contact_potential = done.potential;
+  halvings += done.halvings;
+  active_pairs = done.active;
+  min_gap = std::min(min_gap, done.min_gap_over_layer);
+  for (std::size_t k = 0; k < tools.size(); ++k) {
+    ToolStatus& tool = tools[k];
+    if (!tool.present) {
+      tool.force = tool.moment = Vec3::Zero();
+      continue;
+    }
+    tool.impulse += done.tool_impulse[k];
+    const Vec3 about = done.tool_angular_impulse[k] - tool.position.cross(done.tool_impulse[k]);
+    tool.force += (done.tool_impulse[k] / done.dt - tool.force) / kForceMeanSteps;
+    tool.moment += (about / done.dt - tool.moment) / kForceMeanSteps;
+    if (tool.force.squaredNorm() > tool.peak_force.squaredNorm()) tool.peak_force = tool.force;
+  }
+}
+
+void Simulation::Impl::book_loads(const NodeField& external) {
+  const double kick = 0.5 * (previous_dt + dt), alpha = plan.time_step.damping;
+  const std::vector<double>& mass = elements.nodal_mass();
+  for (std::size_t i = 0; i < external.size(); ++i) work += 0.5 * kick * external[i].dot(v_before[i] + v[i]);
+  if (alpha > 0) {
+    NodeField v_star(v.size());
+    predict(dt, v_star);
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      const Node drag = alpha * kick * 0.5 * mass[i] * (v_before[i] + v_star[i]);
+      const int k = boundaries.find(static_cast<int>(i));
+      const Vec3 free = k < 0 ? vec3(drag) : Vec3(boundaries.projector(k) * vec3(drag));
+      damping += 0.5 * free.dot(vec3(v_before[i] + v[i]));
+    }
+  }
+  work += boundaries.work(f, mass, v_before, v, kick);
+}
+
+double Simulation::Impl::kinetic() const {
+  double sum = 0;
+  const std::vector<double>& mass = elements.nodal_mass();
+  for (std::size_t i = 0; i < v.size(); ++i) sum += 0.5 * mass[i] * v[i].squaredNorm();
+  return sum;
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,173 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "support/bodies.h"
+
+namespace forming_sim {
+namespace {
+
+struct Case { CellKind kind; const char* average; };
+void PrintTo(const Case& c, std::ostream* out) { *out << shape_of(c.kind).name << ", pressure per " << c.average; }
+
+class EveryKind : public ::testing::TestWithParam<Case> {
+ protected:
+  int dimension() const { return shape_of(GetParam().kind).dimension; }
+  BodyModel body(bool plastic = false) const { return body_of(block_of(GetParam().kind), aluminium(plastic), GetParam().average); }
+  static NodeField forces_at(Elements& elements, const NodeField& x) {
+    NodeField f(x.size()), v(x.size(), Node::Zero());
+    elements.forces(x, v, 0, f);
+    return f;
+  }
+};
+
+TEST_P(EveryKind, ForcesAreMinusTheGradientOfTheStoredEnergy) {
+  const BodyModel b = body();
+  NodeField x = positions_of(b.mesh);
+  Elements elements({b}, dimension(), x, {}, 1);
+  shake(x, dimension(), 0.05, 1);
+  const NodeField f = forces_at(elements, x);
+  const double h = 1e-6;
+  double scale = 0;
+  for (const Node& n : f) scale = std::max(scale, n.norm());
+  ASSERT_GT(scale, 0);
+  for (std::size_t n = 0; n < x.size(); n += 3)
+    for (int i = 0; i < dimension(); ++i) {
+      NodeField plus = x, minus = x;
+      plus[n][i] += h;
+      minus[n][i] -= h;
+      const double slope = (elements.observe(plus).stored_energy - elements.observe(minus).stored_energy) / (2 * h);
+      EXPECT_NEAR(f[n][i], -slope, 1e-6 * scale) << "node " << n << " axis " << i;
+    }
+}
+
+TEST_P(EveryKind, ForcesBalanceInSumAndMoment) {
+  const BodyModel b = body(true);
+  NodeField x = positions_of(b.mesh);
+  Elements elements({b}, dimension(), x, {}, 1);
+  shake(x, dimension(), 0.05, 2);
+  const NodeField f = forces_at(elements, x);
+  Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
+  double scale = 0;
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    sum += vec3(f[n]);
+    moment += vec3(x[n]).cross(vec3(f[n]));
+    scale += f[n].norm();
+  }
+  EXPECT_LT(sum.norm(), 1e-13 * scale);
+  EXPECT_LT(moment.norm(), 1e-13 * scale);
+  EXPECT_GT(elements.plastic_work(), 0);
+}
+
+TEST_P(EveryKind, PatchTest) {
+  const BodyModel b = body();
+  NodeField x = positions_of(b.mesh);
+  shake(x, dimension(), 0.04, 3);
+  Elements elements({b}, dimension(), x, {}, 1);
+  Mat3 F = Mat3::Identity();
+  F(0, 0) = 1.01;
+  F(0, 1) = 0.02;
+  F(1, 0) = -0.005;
+  if (dimension() == 3) F(2, 1) = 0.015;
+  for (Node& n : x) n = node(F * vec3(n));
+  const ElementFields fields = elements.observe(x);
+  for (const Sym& sigma : fields.stress) EXPECT_LT((sigma - fields.stress[0]).norm(), 1e-9 * fields.stress[0].norm());
+  const NodeField f = forces_at(elements, x);
+  std::vector<char> on_surface(x.size(), 0);
+  for (const Facet& facet : b.mesh.surface)
+    for (int a = 0; a < dimension(); ++a) on_surface[facet.nodes[a]] = 1;
+  for (std::size_t n = 0; n < x.size(); ++n)
+    if (!on_surface[n]) {
+      EXPECT_LT(f[n].norm(), 1e-9 * fields.stress[0].norm());
+    }
+}
+
+TEST_P(EveryKind, TheStableStepIsABoundAndNotATimidOne) {
+  const BodyModel b = body();
+  NodeField x = positions_of(b.mesh);
+  shake(x, dimension(), 0.03, 4);
+  Elements elements({b}, dimension(), x, {}, 1);
+  const NodeField zero(x.size(), Node::Zero());
+  double dt = 0;
+  int element = -1;
+  elements.stable_step(x, zero, dt, element);
+  EXPECT_GE(element, 0);
+  const int D = dimension(), n = static_cast<int>(x.size()) * D;
+  Eigen::MatrixXd K(n, n);  // M^-1/2 (-df/dx) M^-1/2 by central differences
+  const double h = 1e-6;
+  const std::vector<double>& mass = elements.nodal_mass();
+  for (int c = 0; c < n; ++c) {
+    NodeField plus = x, minus = x;
+    plus[c / D][c % D] += h;
+    minus[c / D][c % D] -= h;
+    const NodeField fp = forces_at(elements, plus), fm = forces_at(elements, minus);
+    for (int r = 0; r < n; ++r)
+      K(r, c) = -(fp[r / D][r % D] - fm[r / D][r % D]) / (2 * h) / std::sqrt(mass[r / D] * mass[c / D]);
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 * (K + K.transpose()), Eigen::EigenvaluesOnly);
+  const double exact = 2 / std::sqrt(modes.eigenvalues().maxCoeff());
+  EXPECT_LE(dt, exact * (1 + 1e-6));
+  EXPECT_GE(dt, 0.4 * exact);
+  RecordProperty("share_of_true_limit", std::to_string(dt / exact));
+  std::cout << "  bound / true limit = " << dt / exact << "\n";
+}
+
+TEST_P(EveryKind, ThreadsChangeNothing) {
+  BodyModel b = body_of(block_of(GetParam().kind, dimension() == 2 ? 24 : 6), aluminium(true), GetParam().average);
+  NodeField x = positions_of(b.mesh);
+  Elements one({b}, dimension(), x, {}, 1), two({b}, dimension(), x, {}, 2);
+  shake(x, dimension(), 0.004, 5);
+  const NodeField f1 = forces_at(one, x), f2 = forces_at(two, x);
+  for (std::size_t n = 0; n < x.size(); ++n) ASSERT_EQ(f1[n], f2[n]);
+  EXPECT_GT(one.plastic_work(), 0);
+  EXPECT_EQ(one.plastic_work(), two.plastic_work());
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind,
+                         ::testing::Values(Case{CellKind::triangle, "element"}, Case{CellKind::triangle, "node"},
+                                           Case{CellKind::quad2, "cell"}, Case{CellKind::crossed, "cell"},
+                                           Case{CellKind::crossed, "element"}, Case{CellKind::tetrahedron, "element"},
+                                           Case{CellKind::tetrahedron, "node"}, Case{CellKind::hex6, "cell"},
+                                           Case{CellKind::hex24, "cell"}, Case{CellKind::hex24, "node"}));
+
+TEST(Kernels, EveryVectorWidthGivesTheSame) {
+  for (CellKind kind : {CellKind::crossed, CellKind::hex24}) {
+    const int D = shape_of(kind).dimension;
+    const BodyModel b = body_of(block_of(kind, 3), aluminium(true));
+    std::vector<NodeField> results;
+    for (const char* name : {"sse2", "avx2", "avx512"}) {
+      NodeField x = positions_of(b.mesh);
+      try {
+        Elements elements({b}, D, x, {}, 1, name);
+        shake(x, D, 0.01, 7);
+        NodeField f(x.size()), v(x.size(), Node::Zero());
+        elements.forces(x, v, 0, f);
+        results.push_back(f);
+      } catch (const Error& error) {
+        std::cout << "  " << error.what() << "\n";
+      }
+    }
+    double scale = 0;
+    for (const Node& n : results[0]) scale = std::max(scale, n.norm());
+    for (const NodeField& f : results)
+      for (std::size_t n = 0; n < f.size(); ++n) EXPECT_LT((f[n] - results[0][n]).norm(), 1e-10 * scale);
+  }
+}
+
+TEST(Elements, AnInvertedElementIsNamed) {
+  const BodyModel b = body_of(block_of(CellKind::crossed), aluminium());
+  NodeField x = positions_of(b.mesh);
+  Elements elements({b}, 2, x, {}, 1);
+  x[4][1] += 3;
+  NodeField f(x.size()), v(x.size(), Node::Zero());
+  try {
+    elements.forces(x, v, 0, f);
+    FAIL() << "an inverted element went unnoticed";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Code::mesh_error);
+    EXPECT_NE(std::string(error.what()).find("body block"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace forming_sim

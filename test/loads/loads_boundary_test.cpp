@@ -1,0 +1,197 @@
+// Boundary sets: merging on a node, conflicts, reaction work against the change
+// of kinetic energy.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "forming_sim/config/fault.h"
+#include "forming_sim/loads/boundary.h"
+
+namespace forming_sim {
+namespace {
+
+ResolvedBoundary fixed(std::vector<std::string> axes, std::vector<int> nodes) {
+  BoundaryConfig config;
+  config.set = "held";
+  config.kind = "fixed";
+  config.axes = std::move(axes);
+  return {config, "sheet", std::move(nodes)};
+}
+
+ResolvedBoundary symmetric(const Vec3& normal, std::vector<int> nodes) {
+  BoundaryConfig config;
+  config.set = "mirror";
+  config.kind = "symmetric";
+  config.normal = normal;
+  return {config, "sheet", std::move(nodes)};
+}
+
+ResolvedBoundary driven(const Vec3& from, const Vec3& to, std::vector<std::string> axes,
+                        std::vector<int> nodes) {
+  BoundaryConfig config;
+  config.set = "driven";
+  config.kind = "velocity";
+  config.axes = std::move(axes);
+  config.times = {0, 2};
+  config.velocities = {from, to};
+  return {config, "sheet", std::move(nodes)};
+}
+
+std::string refusal(const std::vector<ResolvedBoundary>& boundaries, int dimension = 3) {
+  try {
+    BoundarySet set(boundaries, dimension);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Code::invalid_scene);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(BoundarySet, fixes_axes_and_leaves_the_others) {
+  const BoundarySet set({fixed({"y"}, {3, 1}), fixed({}, {5})}, 3);
+  EXPECT_EQ(set.nodes(), (std::vector<int>{1, 3, 5}));
+  EXPECT_EQ(set.find(3), 1);
+  EXPECT_EQ(set.find(2), -1);
+  EXPECT_EQ(set.find(9), -1);
+  NodeField f(7, Node(1, 2, 3, 0));
+  set.project_force(f);
+  EXPECT_EQ(f[0], Node(1, 2, 3, 0));
+  EXPECT_EQ(f[1], Node(1, 0, 3, 0));
+  EXPECT_EQ(f[5], Node(0, 0, 0, 0));
+}
+
+TEST(BoundarySet, all_axes_in_plane_strain_are_x_and_y) {
+  const BoundarySet set({fixed({}, {0})}, 2);
+  EXPECT_EQ(set.projector(0), Mat3(Vec3(0, 0, 1).asDiagonal()));
+}
+
+TEST(BoundarySet, merges_skew_planes_of_symmetry) {
+  const Vec3 first(1, 2, 2), second(1, 0, 1);
+  const BoundarySet set({symmetric(first, {4}), symmetric(second, {4})}, 3);
+  const Mat3 p = set.projector(0);
+  EXPECT_LT((p * p - p).norm(), 1e-14);
+  EXPECT_LT((p - p.transpose()).norm(), 1e-15);
+  EXPECT_LT((p * first).norm(), 1e-14);
+  EXPECT_LT((p * second).norm(), 1e-14);
+  EXPECT_NEAR(p.trace(), 1, 1e-14);
+  const Vec3 line = first.cross(second);
+  EXPECT_LT((p * line - line).norm(), 1e-14);
+  // A third independent plane leaves nothing; one said twice changes nothing.
+  EXPECT_EQ(
+      BoundarySet({symmetric(first, {4}), symmetric(second, {4}), symmetric(line, {4})}, 3).projector(0),
+      Mat3(Mat3::Zero()));
+  EXPECT_EQ(BoundarySet({symmetric(first, {4}), symmetric(-3 * first, {4})}, 3).projector(0),
+            BoundarySet({symmetric(first, {4})}, 3).projector(0));
+}
+
+TEST(BoundarySet, prescribes_velocity_along_its_axes_only) {
+  const BoundarySet set({driven({2, 7, 0}, {4, 7, 0}, {"x"}, {0, 2})}, 3);
+  NodeField v(3, Node(1, 1, 1, 0));
+  EXPECT_DOUBLE_EQ(set.apply_velocity(1, v), 3);
+  EXPECT_EQ(v[0], Node(3, 1, 1, 0));
+  EXPECT_EQ(v[1], Node(1, 1, 1, 0));
+  EXPECT_EQ(set.prescribed(1, 5), Vec3(4, 0, 0));
+}
+
+TEST(BoundarySet, a_drive_and_a_skew_plane_hold_both) {
+  // Driven along x with speed u and kept on the plane with normal (1,1,0)/sqrt2:
+  // the node must slide with v = u (1,-1,0) and stay free along z.
+  const Vec3 normal(1, 1, 0);
+  for (bool plane_first : {true, false}) {
+    std::vector<ResolvedBoundary> boundaries{driven({3, 0, 0}, {3, 0, 0}, {"x"}, {0}),
+                                             symmetric(normal, {0})};
+    if (plane_first) std::swap(boundaries[0], boundaries[1]);
+    const BoundarySet set(boundaries, 3);
+    NodeField v{Node(9, 9, 9, 0)};
+    set.apply_velocity(0.5, v);
+    EXPECT_LT((v[0] - Node(3, -3, 9, 0)).norm(), 1e-13);
+  }
+}
+
+TEST(BoundarySet, conflicts_name_node_body_and_sets) {
+  const std::string message = refusal({fixed({"x"}, {8}), driven({1, 0, 0}, {1, 0, 0}, {"x"}, {7, 8})});
+  for (const char* part : {"node 8", "\"sheet\"", "\"held\"", "\"driven\""})
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  // Equal at the knots but not between: linear against smooth.
+  ResolvedBoundary smooth = driven({0, 0, 0}, {1, 0, 0}, {"x"}, {8});
+  smooth.config.profile = "smooth";
+  EXPECT_NE(refusal({driven({0, 0, 0}, {1, 0, 0}, {"x"}, {8}), smooth}), "");
+  // Three driven axes against a plane that is not along their velocity.
+  EXPECT_NE(refusal({driven({1, 0, 0}, {1, 0, 0}, {}, {8}), symmetric({1, 1, 0}, {8})}), "");
+}
+
+TEST(BoundarySet, equal_prescriptions_agree) {
+  EXPECT_EQ(refusal({driven({1, 0, 0}, {2, 0, 0}, {}, {8}), driven({1, 5, 0}, {2, 5, 0}, {"x"}, {8})}), "");
+  EXPECT_EQ(refusal({fixed({}, {8}), symmetric({1, 1, 1}, {8}), driven({0, 0, 0}, {0, 0, 0}, {}, {8})}), "");
+  EXPECT_EQ(refusal({driven({1, -1, 0}, {2, -2, 0}, {}, {8}), symmetric({1, 1, 0}, {8})}), "");
+}
+
+TEST(BoundarySet, refuses_what_means_nothing) {
+  EXPECT_NE(refusal({fixed({"w"}, {0})}).find("axis \"w\""), std::string::npos);
+  EXPECT_NE(refusal({fixed({"z"}, {0})}, 2).find("plane strain"), std::string::npos);
+  EXPECT_NE(refusal({symmetric({0, 0, 0}, {0})}).find("normal"), std::string::npos);
+  EXPECT_NE(refusal({symmetric({1, 0, 1}, {0})}, 2).find("x-y plane"), std::string::npos);
+  ResolvedBoundary other = fixed({}, {0});
+  other.config.kind = "glued";
+  EXPECT_NE(refusal({other}).find("glued"), std::string::npos);
+  ResolvedBoundary backwards = driven({1, 0, 0}, {1, 0, 0}, {}, {0});
+  backwards.config.times = {1, 0};
+  EXPECT_NE(refusal({backwards}).find("\"driven\""), std::string::npos);
+}
+
+TEST(BoundarySet, resolves_sets_in_joined_numbering) {
+  Mesh mesh;
+  mesh.sets["left"] = {0, 2};
+  mesh.sets["none"] = {};
+  BoundaryConfig config;
+  config.kind = "fixed";
+  config.set = "left";
+  EXPECT_EQ(resolve(config, "sheet", mesh, 10).nodes, (std::vector<int>{10, 12}));
+  for (const char* name : {"right", "none"}) {
+    config.set = name;
+    EXPECT_THROW(resolve(config, "sheet", mesh, 10), Error);
+  }
+}
+
+TEST(BoundarySet, work_closes_the_balance_of_kinetic_energy) {
+  // Nodes under arbitrary forces, one driven on a skew plane, one held, one free.
+  const BoundarySet set(
+      {driven({3, 0, 1}, {-5, 0, 2}, {"x", "z"}, {0}), symmetric({1, 2, 0.5}, {1}), fixed({}, {2})}, 3);
+  const std::vector<double> mass{0.5, 2, 3, 1};
+  const double dt = 1e-2;
+  const auto kinetic = [&](const NodeField& v) {
+    double sum = 0;
+    for (int i = 0; i < 4; ++i) sum += 0.5 * mass[i] * v[i].squaredNorm();
+    return sum;
+  };
+  NodeField v{Node(1, 2, 3, 0), Node(-1, 0, 2, 0), Node(4, 0, 0, 0), Node(0, 1, 0, 0)};
+  double applied = 0, prescribed = 0;
+  const double start = kinetic(v);
+  for (int step = 0; step < 100; ++step) {
+    NodeField f(4);
+    for (int i = 0; i < 4; ++i)
+      f[i] = 20 * Node(std::sin(step + i), std::cos(2 * step - i), std::sin(3. * i), 0);
+    const NodeField before = v;
+    for (int i = 0; i < 4; ++i) v[i] += dt / mass[i] * f[i];
+    set.apply_velocity((step + 0.5) * dt, v);
+    for (int i = 0; i < 4; ++i) applied += 0.5 * dt * f[i].dot(before[i] + v[i]);
+    prescribed += set.work(f, mass, before, v, dt);
+  }
+  EXPECT_GT(std::abs(prescribed), 1);
+  EXPECT_NEAR(kinetic(v) - start, applied + prescribed, 1e-12 * (std::abs(applied) + std::abs(prescribed)));
+}
+
+TEST(BoundarySet, a_plane_of_symmetry_does_no_work) {
+  const BoundarySet set({symmetric({1, 2, -1}, {0})}, 3);
+  const std::vector<double> mass{2};
+  NodeField v{Node(1, 0, 1, 0)};  // on the plane
+  const NodeField f{Node(5, -3, 8, 0)}, before = v;
+  v[0] += 0.1 / mass[0] * f[0];
+  set.apply_velocity(0, v);
+  EXPECT_NEAR(set.work(f, mass, before, v, 0.1), 0, 1e-14);
+  EXPECT_GT(set.reaction_impulse(0, vec3(f[0]), 2, vec3(before[0]), vec3(v[0]), 0.1).norm(), 0.1);
+}
+
+}  // namespace
+}  // namespace forming_sim

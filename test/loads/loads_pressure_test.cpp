@@ -1,0 +1,160 @@
+// Pressure and gravity: gradient of p V, no net force on a closed surface, work.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "forming_sim/config/fault.h"
+#include "forming_sim/loads/gravity.h"
+#include "forming_sim/loads/pressure.h"
+
+namespace forming_sim {
+namespace {
+
+/// A closed surface: counter-clockwise polygon (2D) or outward octahedron (3D), distorted.
+struct Closed {
+  int dimension;
+  NodeField x;
+  std::vector<Facet> facets;
+
+  double volume(const NodeField& at) const {
+    double sum = 0;
+    for (const Facet& facet : facets) {
+      const Vec3 a = vec3(at[facet.nodes[0]]), b = vec3(at[facet.nodes[1]]);
+      sum += dimension == 2 ? 0.5 * (a.x() * b.y() - b.x() * a.y())
+                            : a.cross(b).dot(vec3(at[facet.nodes[2]])) / 6;
+    }
+    return sum;
+  }
+};
+
+Closed polygon() {
+  Closed shape{2, {}, {}};
+  for (int k = 0; k < 7; ++k) {
+    const double angle = 2 * 3.14159265358979 * k / 7, radius = 1 + 0.3 * std::sin(5. * k);
+    shape.x.push_back(Node(2 + radius * std::cos(angle), radius * std::sin(angle), 0, 0));
+    Facet facet;
+    facet.nodes = {k, (k + 1) % 7, -1};
+    shape.facets.push_back(facet);
+  }
+  return shape;
+}
+
+Closed octahedron() {
+  Closed shape{3, {}, {}};
+  shape.x = {Node(1.2, .1, 0, 0), Node(-.9, 0, .2, 0), Node(0, 1.4, .1, 0),
+             Node(.2, -1, 0, 0),  Node(0, .3, .8, 0),  Node(.1, 0, -1.1, 0)};
+  const int corners[8][3] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                             {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  for (const auto& c : corners) {
+    Facet facet;
+    facet.nodes = {c[0], c[1], c[2]};
+    shape.facets.push_back(facet);
+  }
+  return shape;
+}
+
+PressureSet constant(const Closed& shape, double p) {
+  return PressureSet({{ScalarProfile({0}, {p}), shape.facets}}, shape.dimension);
+}
+
+class ClosedSurface : public ::testing::TestWithParam<Closed> {};
+
+TEST_P(ClosedSurface, force_is_minus_the_gradient_of_p_times_volume) {
+  const Closed& shape = GetParam();
+  ASSERT_GT(shape.volume(shape.x), 0);
+  const double p = 3, h = 1e-4;
+  NodeField f(shape.x.size(), Node::Zero());
+  constant(shape, p).add(0, shape.x, f);
+  for (size_t i = 0; i < shape.x.size(); ++i)
+    for (int k = 0; k < shape.dimension; ++k) {
+      NodeField more = shape.x, less = shape.x;
+      more[i][k] += h;
+      less[i][k] -= h;
+      // The volume is linear in each single coordinate: the difference is exact up to rounding.
+      const double gradient = p * (shape.volume(more) - shape.volume(less)) / (2 * h);
+      // Inside pushes out: a pressure from outside pushes against the growth of the volume.
+      EXPECT_NEAR(f[i][k], -gradient, 1e-10) << "node " << i << " axis " << k;
+    }
+}
+
+TEST_P(ClosedSurface, has_no_net_force_and_no_net_moment) {
+  const Closed& shape = GetParam();
+  NodeField f(shape.x.size(), Node::Zero());
+  EXPECT_GT(constant(shape, 3).add(0, shape.x, f), 3);
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  for (size_t i = 0; i < f.size(); ++i) {
+    EXPECT_GT(f[i].norm(), 0.1);
+    force += vec3(f[i]);
+    moment += vec3(shape.x[i]).cross(vec3(f[i]));
+  }
+  EXPECT_LT(force.norm(), 1e-14);
+  EXPECT_LT(moment.norm(), 1e-14);
+}
+
+TEST_P(ClosedSurface, work_is_p_times_the_volume_swept) {
+  const Closed& shape = GetParam();
+  const double dt = 1e-6, p = 3;
+  NodeField v(shape.x.size()), x = shape.x;
+  for (size_t i = 0; i < v.size(); ++i) {
+    v[i] = Node(std::sin(1. + i), std::cos(3. * i), shape.dimension == 3 ? std::sin(7. * i) : 0, 0);
+    x[i] += dt * v[i];
+  }
+  const double work = constant(shape, p).work(0, shape.x, v, v, dt);
+  EXPECT_NEAR(work, -p * (shape.volume(x) - shape.volume(shape.x)), 1e-4 * std::abs(work));
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, ClosedSurface, ::testing::Values(polygon(), octahedron()),
+                         [](const auto& info) {
+                           return info.param.dimension == 2 ? "polygon" : "octahedron";
+                         });
+
+TEST(PressureSet, follows_its_pulse) {
+  const PressureSet pulse({{ScalarProfile({0, 1, 2}, {0, 10, 0}), polygon().facets}}, 2);
+  const NodeField x = polygon().x;
+  NodeField none(7, Node::Zero()), half(7, Node::Zero()), full(7, Node::Zero());
+  EXPECT_EQ(pulse.add(2, x, none), 0);
+  EXPECT_NEAR(pulse.add(0.5, x, half) * 2, pulse.add(1, x, full), 1e-12);
+  for (int i = 0; i < 7; ++i) {
+    EXPECT_EQ(none[i], Node(Node::Zero()));
+    EXPECT_LT((2 * half[i] - full[i]).norm(), 1e-12);
+  }
+}
+
+TEST(PressureSet, takes_the_facets_whose_nodes_are_all_in_the_set) {
+  Mesh mesh;
+  mesh.dimension = 2;
+  mesh.surface = polygon().facets;
+  mesh.sets["arc"] = {2, 3, 4};
+  mesh.sets["dots"] = {0, 2};
+  PressureConfig config;
+  config.set = "arc";
+  config.times = {0};
+  config.values = {1};
+  const ResolvedPressure resolved = resolve(config, "sheet", mesh, 100);
+  ASSERT_EQ(resolved.facets.size(), 2u);
+  EXPECT_EQ(resolved.facets[0].nodes[0], 102);
+  EXPECT_EQ(resolved.facets[1].nodes[1], 104);
+  EXPECT_EQ(resolved.facets[0].nodes[2], -1);
+  for (const char* name : {"dots", "absent"}) {
+    config.set = name;
+    EXPECT_THROW(resolve(config, "sheet", mesh, 0), Error) << name;
+  }
+  config.set = "arc";
+  config.values = {1, 2};
+  EXPECT_THROW(resolve(config, "sheet", mesh, 0), Error);
+}
+
+TEST(Gravity, weighs_every_node_and_its_work_is_the_height_lost) {
+  const Vec3 g(0, 0, -9.81);
+  const std::vector<double> mass{1, 4};
+  NodeField f(2, Node(1, 0, 0, 0));
+  add_gravity(g, mass, f);
+  EXPECT_EQ(f[0], Node(1, 0, -9.81, 0));
+  EXPECT_EQ(f[1], Node(1, 0, 4 * -9.81, 0));
+  const NodeField before(2, Node(0, 5, -1, 0)), after(2, Node(0, 5, -3, 0));
+  EXPECT_NEAR(gravity_work(g, mass, before, after, 0.5), 5 * 9.81 * 2 * 0.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace forming_sim

@@ -1,0 +1,183 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "support/point.h"
+
+namespace forming_sim {
+namespace {
+
+Mat3 sample_gradient(double size) {
+  Mat3 F;
+  F << 1.02, 0.3, -0.1, 0.05, 0.97, 0.2, -0.15, 0.1, 1.05;
+  return Mat3::Identity() + size * (F - Mat3::Identity());
+}
+
+TEST(VonMises, StressIsTheGradientOfTheEnergy) {
+  MaterialPoint point{solid_of(70e9, 0.34)};
+  const Mat3 F = sample_gradient(1);
+  const double J = F.determinant(), h = 1e-6;
+  Mat3 P;  // first Piola-Kirchhoff stress dW/dF
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      Mat3 plus = F, minus = F;
+      plus(i, j) += h;
+      minus(i, j) -= h;
+      P(i, j) = (point.at(plus, false).energy - point.at(minus, false).energy) / (2 * h);
+    }
+  const Mat3 sigma = P * F.transpose() / J;
+  const Mat3 found = point.at(F, false).stress;
+  EXPECT_LT((sigma - found).norm(), 1e-7 * found.norm());
+}
+
+TEST(VonMises, RotationCarriesNoStressAndTurnsIt) {
+  MaterialPoint point{solid_of(70e9, 0.34, perfect(200e6))};
+  const Mat3 R = Eigen::AngleAxisd(2.3, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+  EXPECT_LT(point.at(R).stress.norm(), 70e9 * 1e-14);
+  const Mat3 F = sample_gradient(0.3);
+  MaterialPoint other = point;
+  const Mat3 sigma = point.at(F).stress, turned = other.at(R * F).stress;
+  EXPECT_GT(point.p, 0);
+  EXPECT_LT((R * sigma * R.transpose() - turned).norm(), 1e-12 * sigma.norm());
+}
+
+TEST(VonMises, UniaxialCycleOfPerfectPlasticity) {  // the paper's Fig. 3
+  const double E = 100e9, Y = 1e9;
+  MaterialPoint point{solid_of(E, 0.45, perfect(Y))};
+  double lateral = 1, first = 0;
+  const int n = 400;
+  for (int i = 1; i <= n; ++i) {
+    const double strain = 0.02 * i / n;
+    const double sigma = point.uniaxial(1 + strain, lateral);
+    if (i == 40) first = sigma / strain;  // strain .002, before yield
+    if (strain > 0.0105) {
+      EXPECT_NEAR(sigma, Y, 1e-9 * Y) << strain;
+    }
+  }
+  EXPECT_NEAR(first, E, 0.01 * E);
+  for (int i = 1; i <= 2 * n; ++i) {
+    const double strain = 0.02 - 0.04 * i / (2 * n);
+    const double sigma = point.uniaxial(1 + strain, lateral);
+    if (strain < -0.002) {
+      EXPECT_NEAR(sigma, -Y, 1e-9 * Y) << strain;
+    }
+  }
+}
+
+TEST(VonMises, SimpleShearDoesNotOscillate) {
+  const double G = 26306e6, Y = 192.1e6, nu = 0.34;
+  MaterialPoint point{solid_of(2 * G * (1 + nu), nu, perfect(Y))};
+  const int n = 20000;
+  Mat3 sigma;
+  double lowest = 1e300, highest = 0;
+  for (int i = 1; i <= n; ++i) {
+    Mat3 F = Mat3::Identity();
+    F(0, 1) = 5.0 * i / n;
+    sigma = point.at(F).stress;
+    if (i > n / 5) lowest = std::min(lowest, sigma(0, 1)), highest = std::max(highest, sigma(0, 1));
+  }
+  EXPECT_NEAR(sigma(0, 1), 110.9077e6, 1e-4 * 110.9e6);
+  EXPECT_NEAR(sigma(0, 0) - sigma(1, 1), 0.93519e6, 0.03 * 0.935e6);  // first order in the step
+  EXPECT_LT(highest - lowest, 1e-5 * highest);
+}
+
+TEST(VonMises, ElasticShearIsLinear) {
+  const double G = 26306e6, nu = 0.34;
+  MaterialPoint point{solid_of(2 * G * (1 + nu), nu)};
+  for (double gamma : {0.01, 0.5, 3.0}) {
+    Mat3 F = Mat3::Identity();
+    F(0, 1) = gamma;
+    EXPECT_NEAR(point.at(F, false).stress(0, 1), G * gamma, 1e-12 * G * gamma);
+  }
+}
+
+class Hardening : public ::testing::TestWithParam<int> {
+ public:
+  HardeningCurve curve() {
+    HardeningCurve h;
+    switch (GetParam()) {
+      case 0: return perfect(192.1e6);
+      case 1: h.kind = HardeningCurve::linear; h.a = 192.1e6; h.b = 500e6; return h;
+      case 2: return voce(192.1e6, 429.8e6, 8.504);
+      case 3: h.kind = HardeningCurve::swift; h.a = 500e6; h.b = 0.01; h.c = 0.22; return h;
+      default:
+        h.kind = HardeningCurve::table;
+        h.strain = strain_;
+        h.stress = stress_;
+        h.points = 4;
+        return h;
+    }
+  }
+  const double strain_[4] = {0, 0.01, 0.05, 0.2}, stress_[4] = {190e6, 200e6, 260e6, 300e6};
+};
+
+TEST_P(Hardening, TheYieldConditionHoldsAfterEveryStep) {
+  const HardeningCurve h = curve();
+  for (double step : {1e-5, 1e-3, 0.05}) {
+    MaterialPoint point{solid_of(70.5e9, 0.34, h)};
+    double lateral = 1;
+    for (int i = 1; i <= 6; ++i) {
+      const double before = point.p;
+      const double sigma = point.uniaxial(1 + 0.004 + step * i, lateral);
+      ASSERT_GT(point.p, before);
+      EXPECT_NEAR(sigma, yield_stress(h, point.p).value, 1e-9 * sigma) << "step " << step;
+    }
+  }
+}
+
+TEST_P(Hardening, PlasticStrainAndWorkAreThoseOfATensileTest) {
+  const HardeningCurve h = curve();
+  const double E = 70.5e9;
+  MaterialPoint point{solid_of(E, 0.34, h)};
+  double lateral = 1, sigma = 0, plastic_work = 0, before = 0;
+  const int n = 4000;
+  for (int i = 1; i <= n; ++i) {
+    sigma = point.uniaxial(std::exp(0.15 * i / n), lateral);
+    plastic_work += 0.5 * (yield_stress(h, point.p).value + yield_stress(h, before).value) * (point.p - before);
+    before = point.p;
+  }
+  // J differs from 1 by the elastic volume change only; Hencky and this law differ by O(q_B)
+  EXPECT_NEAR(point.p, 0.15 - sigma / E, 2e-5);
+  EXPECT_NEAR(point.dissipated, plastic_work, 2e-3 * plastic_work);
+}
+
+INSTANTIATE_TEST_SUITE_P(Curves, Hardening, ::testing::Range(0, 5));
+
+TEST(VonMises, EightPointsAtOnceAreEightPoints) {
+  using portable::Pack;
+  const SolidConstants solid = solid_of(70.5e9, 0.34, voce(192.1e6, 429.8e6, 8.504));
+  Symmetric<Pack, 3> B;
+  Pack J, p;
+  double single_p[kLanes];
+  PointResult<double, 3> single[kLanes];
+  for (int l = 0; l < kLanes; ++l) {
+    const double s = 1e-3 * l;  // lane 0 stays elastic
+    const Symmetric<double, 3> b{{1 + 2 * s, 1 - s, 1 - 0.9 * s, 0.5 * s, -s, 0.2 * s}};
+    for (int i = 0; i < 6; ++i) B[i].v[l] = b[i];
+    J.v[l] = 1 + 1e-3 * (l - 4);
+    p.v[l] = single_p[l] = 0.01 * l;
+    single[l] = update_point(solid, b, 1 + 1e-3 * (l - 4), single_p[l]);
+  }
+  const PointResult<Pack, 3> packed = update_point(solid, B, J, p);
+  int yielding = 0;
+  for (int l = 0; l < kLanes; ++l) {
+    yielding += single[l].a < 1;
+    EXPECT_NEAR(packed.a[l], single[l].a, 1e-12);
+    EXPECT_NEAR(p[l], single_p[l], 1e-13);
+    for (int i = 0; i < 6; ++i) EXPECT_NEAR(packed.S[i][l], single[l].S[i], 1e-3);
+  }
+  EXPECT_GT(yielding, 3);
+  EXPECT_LT(yielding, kLanes);
+}
+
+TEST(Pack, ExponentialAndCubeRoot) {
+  using portable::Pack;
+  for (double x : {-30.0, -1.0, -1e-9, 0.0, 0.3, 1.0, 20.0}) EXPECT_NEAR(exp(Pack(x))[3] / std::exp(x), 1, 4e-16);
+  for (double J : {0.05, 0.7, 0.999, 1.0, 1.3, 3.9, 20.0}) {
+    EXPECT_NEAR(inverse_cube_root(J) * std::cbrt(J), 1, 1e-14);
+    EXPECT_NEAR(inverse_cube_root(Pack(J))[1] * std::cbrt(J), 1, 1e-14);
+  }
+}
+
+}  // namespace
+}  // namespace forming_sim

@@ -1,0 +1,218 @@
+// Bodies from .msh files and inline.
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "forming_sim/mesh/import.h"
+#include "mesh/mesh_test_tools.h"
+#include "mesh/msh_texts.h"
+
+namespace forming_sim {
+namespace {
+
+MeshConfig file(const std::string& url, double unit_scale = 1) {
+  MeshConfig c;
+  c.url = url, c.unit_scale = unit_scale;
+  return c;
+}
+
+MeshConfig given(const std::string& cell_type, std::vector<Vec3> points, std::vector<int> cells) {
+  MeshConfig c;
+  c.unit_scale = 1, c.cell_type = cell_type, c.points = std::move(points), c.cells = std::move(cells);
+  return c;
+}
+
+std::string error_of_file(const std::string& name, const std::string& text, const std::string& group = "") {
+  const TempDir dir;
+  dir.write(name, text);
+  MeshConfig config = file(name);
+  config.group = group;
+  return error_of([&] { load_body_mesh(config, dir.str()); });
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const auto at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), by);
+}
+
+std::vector<int> nodes_where(const Mesh& mesh, const std::function<bool(const Vec3&)>& inside) {
+  std::vector<int> chosen;
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    if (inside(mesh.nodes[n])) chosen.push_back(int(n));
+  return chosen;
+}
+
+// Two unit cubes side by side along x, in millimetres.
+void expect_two_cubes(const Mesh& mesh) {
+  EXPECT_EQ(mesh.dimension, 3);
+  ASSERT_EQ(mesh.cells.size(), 1u);
+  EXPECT_EQ(mesh.cells[0].kind, CellKind::hex24);
+  EXPECT_EQ(mesh.cells[0].count(), 2);
+  EXPECT_EQ(mesh.nodes.size(), 12u + 11u + 2u);
+  EXPECT_NEAR(volume(mesh), 2e-9, 1e-20);
+  EXPECT_NEAR(area(mesh), 10e-6, 1e-16);
+  EXPECT_LT(sum_of_areas(mesh).norm(), 1e-17);
+  EXPECT_EQ(euler_characteristic(mesh), 2);
+  ASSERT_EQ(mesh.sets.size(), 4u);
+  EXPECT_EQ(mesh.sets.at("body").size(), 25u);
+  EXPECT_EQ(mesh.sets.at("bottom face"), nodes_where(mesh, [](const Vec3& x) { return x.z() == 0; }));
+  EXPECT_EQ(mesh.sets.at("bottom face").size(), 8u);  // six corners, two face centres
+  EXPECT_EQ(mesh.sets.at("group_7"), nodes_where(mesh, [](const Vec3& x) { return x.x() == 0; }));
+  EXPECT_EQ(mesh.sets.at("edge").size(), 3u);
+}
+
+TEST(MeshImportBody, BothFormatsKeepPhysicalGroups) {
+  const TempDir dir;
+  dir.write("two22.msh", msh::kTwoCubes22);
+  dir.write("two41.msh", msh::kTwoCubes41);
+  const Mesh old_format = load_body_mesh(file("two22.msh", 1e-3), dir.str());
+  const Mesh new_format = load_body_mesh(file("two41.msh", 1e-3), dir.str());
+  expect_two_cubes(old_format);
+  expect_two_cubes(new_format);
+  EXPECT_EQ(old_format.nodes, new_format.nodes);
+  EXPECT_EQ(old_format.sets, new_format.sets);
+}
+
+TEST(MeshImportBody, AGroupIsTakenAsTheBody) {
+  const TempDir dir;
+  dir.write("two.msh", msh::kTwoCubes22);
+  MeshConfig config = file("two.msh");
+  config.group = "bottom face";
+  const Mesh mesh = load_body_mesh(config, dir.str());
+  EXPECT_EQ(mesh.dimension, 2);
+  EXPECT_EQ(mesh.cells[0].kind, CellKind::crossed);
+  EXPECT_EQ(mesh.nodes.size(), 8u);
+  EXPECT_NEAR(volume(mesh), 2, 1e-14);  // the file turns them clockwise seen from above
+  EXPECT_EQ(mesh.sets.at("bottom face").size(), 8u);
+  EXPECT_EQ(mesh.sets.at("edge").size(), 3u);
+  EXPECT_FALSE(mesh.sets.count("body"));
+  config.group = "lid";
+  const std::string text = error_of([&] { load_body_mesh(config, dir.str()); });
+  EXPECT_TRUE(has(text, "no physical group \"lid\"; it has edge, group_7, bottom face, body")) << text;
+  config.group = "edge";
+  EXPECT_TRUE(has(error_of([&] { load_body_mesh(config, dir.str()); }), "so it is no body"));
+  config.group = "group_7";
+  EXPECT_TRUE(has(error_of([&] { load_body_mesh(config, dir.str()); }), "a plane-strain body lies in z = 0"));
+}
+
+TEST(MeshImportBody, ASectionOfTrianglesAndQuadrilaterals) {
+  const TempDir dir;
+  dir.write("section.msh", msh::section("0"));
+  const Mesh mesh = load_body_mesh(file("section.msh", .5), dir.str());
+  EXPECT_EQ(mesh.dimension, 2);
+  ASSERT_EQ(mesh.cells.size(), 2u);
+  EXPECT_EQ(mesh.cells[0].kind, CellKind::triangle);
+  EXPECT_EQ(mesh.cells[1].kind, CellKind::crossed);
+  EXPECT_EQ(mesh.nodes.size(), 6u);  // node 6 of the file belongs to no cell
+  EXPECT_NEAR(volume(mesh), .25 * 1.5, 1e-15);
+  EXPECT_NEAR(enclosed(mesh), .25 * 1.5, 1e-15);
+  EXPECT_EQ(mesh.sets.at("group_3").size(), 2u);
+  EXPECT_TRUE(has(error_of_file("s.msh", msh::section("1e-3")), "node 5 of a mesh of triangles"));
+}
+
+TEST(MeshImportBody, Tetrahedra) {
+  const TempDir dir;
+  dir.write("tet.msh", msh::cells("1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n", 5,
+                                  "41 4 2 1 1 1 2 3 4\n42 4 2 1 1 2 3 4 5\n", 2));
+  const Mesh mesh = load_body_mesh(file("tet.msh"), dir.str());
+  EXPECT_EQ(mesh.cells[0].kind, CellKind::tetrahedron);
+  EXPECT_EQ(mesh.surface.size(), 6u);
+  EXPECT_NEAR(volume(mesh), 1. / 6 + 1. / 3, 1e-15);
+  EXPECT_EQ(mesh.sets.at("group_1").size(), 5u);
+}
+
+TEST(MeshImportBody, InvertedCellsAreNamedByTheirNumbers) {
+  const std::string text =
+      error_of_file("t.msh", msh::cells("1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n", 5,
+                                        "41 4 2 1 1 1 2 3 4\n42 4 2 1 1 2 4 3 5\n", 2));
+  EXPECT_TRUE(has(text, "1 of 2 cells are inverted, flat or not convex: 42;")) << text;
+}
+
+TEST(MeshImportBody, WhatCannotBeUsedSaysWhatToDo) {
+  const std::string nodes = "1 0 0 0\n2 1 0 0\n3 0 1 0\n4 .5 0 0\n5 .5 .5 0\n6 0 .5 0\n7 0 0 1\n8 1 0 1\n";
+  std::string text = error_of_file("t.msh", msh::cells(nodes, 8, "1 9 2 1 1 1 2 3 4 5 6\n", 1));
+  EXPECT_TRUE(has(text, "holds cells of order 2") && has(text, "-order 1")) << text;
+  text = error_of_file("t.msh", msh::cells(nodes, 8, "1 6 2 1 1 1 2 3 7 8 6\n", 1));
+  EXPECT_TRUE(has(text, "Prism") && has(text, "tetrahedra and hexahedra can be used")) << text;
+  text = error_of_file("t.msh", msh::cells(nodes, 8, "1 1 2 1 1 1 2\n", 1));
+  EXPECT_TRUE(has(text, "mesh it first")) << text;
+  text = error_of_file("t.msh", msh::cells("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 .5 .5 2\n", 9,
+                                           "1 5 2 1 1 1 2 3 4 5 6 7 8\n2 4 2 1 1 5 6 7 9\n", 2));
+  EXPECT_TRUE(has(text, "tetrahedron 2 lies on a face of a hexahedron")) << text;
+}
+
+TEST(MeshImportBody, BrokenFilesAreRefused) {
+  const std::string whole = msh::kTwoCubes22, whole41 = msh::kTwoCubes41;
+  for (const std::string& text : {whole, whole41})
+    for (const char* section : {"$Nodes", "$Elements"}) {
+      SCOPED_TRACE(text.substr(11, 5) + section);
+      const auto at = text.find(section);
+      const std::string sentence = error_of_file("cut.msh", text.substr(0, at + text.substr(at).size() / 2));
+      EXPECT_TRUE(has(sentence, "cut.msh\": gmsh cannot read it")) << sentence;
+    }
+  EXPECT_TRUE(has(error_of_file("empty.msh", ""), "the file or its first line is empty"));
+  // not run as a script of gmsh, either
+  EXPECT_TRUE(has(error_of_file("noise.msh", "Exit;\n"), "a .msh begins with $MeshFormat"));
+  EXPECT_TRUE(has(error_of_file("nan.msh", replaced(whole, "7 2 1 1", "7 2 nan 1")), "finite number"));
+  EXPECT_TRUE(has(error_of_file("far.msh", replaced(whole, "10 11 6 7 12", "10 11 6 7 99")), "Wrong node index 99"));
+  EXPECT_TRUE(has(error_of_file("body.step", "x"), "the ending \".step\" is not known; a body needs a .msh"));
+  EXPECT_TRUE(has(error_of_file("body.stl", "x"), "mesh its volume with gmsh"));
+  EXPECT_TRUE(has(error_of([] { load_body_mesh(file("none.msh"), "/nowhere"); }), "there is no file /nowhere/none.msh"));
+  const TempDir dir;  // a good file is read after all the bad ones
+  dir.write("two.msh", whole);
+  expect_two_cubes(load_body_mesh(file("two.msh", 1e-3), dir.str()));
+}
+
+TEST(MeshImportBody, ThreadsReadOneAfterTheOther) {
+  const TempDir dir;
+  dir.write("two.msh", msh::kTwoCubes22);
+  dir.write("section.msh", msh::section("0"));
+  std::vector<Mesh> meshes(6);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 6; ++t)
+    threads.emplace_back([&, t] { meshes[t] = load_body_mesh(file(t % 2 ? "two.msh" : "section.msh", 1e-3), dir.str()); });
+  for (std::thread& thread : threads) thread.join();
+  for (int t = 0; t < 6; ++t) {
+    if (t % 2) expect_two_cubes(meshes[t]);
+    else EXPECT_EQ(meshes[t].nodes.size(), 6u);
+  }
+}
+
+const std::vector<Vec3> kCube = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+
+TEST(MeshImportBody, InlineCells) {
+  MeshConfig config = given("hexahedron", kCube, {0, 1, 2, 3, 4, 5, 6, 7});
+  config.unit_scale = .1;
+  Mesh mesh = load_body_mesh(config, "");
+  EXPECT_EQ(mesh.cells[0].kind, CellKind::hex24);
+  EXPECT_NEAR(volume(mesh), 1e-3, 1e-17);
+  mesh = load_body_mesh(given("quadrilateral", {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}, {0, 1, 2, 3}), "");
+  EXPECT_EQ(mesh.cells[0].nodes, (std::vector<int>{0, 3, 2, 1, 4}));  // turned counter-clockwise
+  EXPECT_NEAR(volume(mesh), 1, 1e-15);
+  mesh = load_body_mesh(given("tetrahedron", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 1, 2, 3}), "");
+  EXPECT_EQ(mesh.surface.size(), 4u);
+  mesh = load_body_mesh(given("triangle", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2}), "");
+  EXPECT_EQ(mesh.dimension, 2);
+}
+
+TEST(MeshImportBody, InlineNonsenseIsRefusedByItsField) {
+  const auto refused = [](const MeshConfig& c) { return error_of([&] { load_body_mesh(c, ""); }); };
+  EXPECT_TRUE(has(refused(given("", kCube, {0, 1, 2, 3})), "mesh.cell_type: given \"\""));
+  EXPECT_TRUE(has(refused(given("hexahedron", kCube, {0, 1, 2})), "mesh.cells: given 3 indices; 8 per hexahedron"));
+  EXPECT_TRUE(has(refused(given("triangle", kCube, {0, 1, 8})), "mesh.cells[2]: given 8; the points are numbered from 0 to 7"));
+  EXPECT_TRUE(has(refused(given("hexahedron", kCube, {4, 5, 6, 7, 0, 1, 2, 3})), "1 of 1 cells are inverted"));
+  EXPECT_TRUE(has(refused(given("tetrahedron", kCube, {0, 1, 3, 4})), "inline mesh: node 2 at (1, 1, 0) m belongs to no cell"));
+  MeshConfig config = given("hexahedron", kCube, {0, 1, 2, 3, 4, 5, 6, 7});
+  config.points[6].z() = std::nan("");
+  EXPECT_TRUE(has(refused(config), "node 6"));
+  config = given("hexahedron", kCube, {0, 1, 2, 3, 4, 5, 6, 7});
+  config.unit_scale = 0;
+  EXPECT_TRUE(has(refused(config), "mesh.unit_scale: given 0"));
+  config.unit_scale = 1, config.url = "a.msh";
+  EXPECT_TRUE(has(refused(config), "given both url and points"));
+  EXPECT_TRUE(has(refused(file("")), "neither url nor points"));
+}
+
+}  // namespace
+}  // namespace forming_sim

@@ -1,0 +1,113 @@
+// The tables of cells, the surface and the check of volumes.
+#include <algorithm>
+#include <cmath>
+
+#include "forming_sim/mesh/cell_tables.h"
+#include "mesh/mesh_test_tools.h"
+
+namespace forming_sim {
+namespace {
+
+// One cell of each kind, of volume 1 (triangle 1/2, tetrahedron 1/6).
+Mesh one_cell(CellKind kind) {
+  Mesh mesh;
+  const CellShape& shape = shape_of(kind);
+  mesh.dimension = shape.dimension;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  if (kind == CellKind::triangle) mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  if (kind == CellKind::tetrahedron) mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  if (shape.dimension == 2 && kind != CellKind::triangle) mesh.nodes.resize(4);
+  if (kind == CellKind::crossed) mesh.nodes.push_back({.5, .5, 0});
+  if (kind == CellKind::hex24) {
+    for (const auto& face : kHexFaces)
+      mesh.nodes.push_back((mesh.nodes[face[0]] + mesh.nodes[face[1]] + mesh.nodes[face[2]] + mesh.nodes[face[3]]) / 4);
+    mesh.nodes.push_back({.5, .5, .5});
+  }
+  Cells block{kind, {}};
+  for (int n = 0; n < shape.nodes; ++n) block.nodes.push_back(n);
+  mesh.cells = {block};
+  return mesh;
+}
+
+const CellKind kAll[] = {CellKind::triangle,    CellKind::quad2, CellKind::crossed,
+                         CellKind::tetrahedron, CellKind::hex6,  CellKind::hex24};
+
+TEST(MeshShapes, EverySimplexIsPositiveAndTheyFillTheCell) {
+  const double expected[] = {.5, 1, 1, 1. / 6, 1, 1};
+  for (CellKind kind : kAll) {
+    const Mesh mesh = one_cell(kind);
+    SCOPED_TRACE(shape_of(kind).name);
+    ASSERT_EQ(int(mesh.nodes.size()), shape_of(kind).nodes);
+    ASSERT_EQ(mesh.simplex_count(), shape_of(kind).simplices);
+    for (const auto& s : mesh.simplices()) EXPECT_GT(signed_volume(mesh.nodes, s, mesh.dimension), 0);
+    EXPECT_NEAR(volume(mesh), expected[int(kind)], 1e-15);
+    EXPECT_NO_THROW(check_volumes(mesh));
+  }
+}
+
+TEST(MeshShapes, FaceCentresOfHex24LieOnTheFacesTheTableNames) {
+  const Vec3 centres[] = {{.5, .5, 0}, {.5, .5, 1}, {.5, 0, .5}, {1, .5, .5}, {.5, 1, .5}, {0, .5, .5}};
+  const Mesh mesh = one_cell(CellKind::hex24);
+  for (int f = 0; f < 6; ++f) EXPECT_EQ(mesh.nodes[8 + f], centres[f]);
+  for (int s = 0; s < 24; ++s) EXPECT_EQ(kHex24[s][3], 8 + s / 4);
+}
+
+TEST(MeshShapes, SurfacesAreClosedAndPointOutwards) {
+  const int facets[] = {3, 4, 4, 4, 12, 24};
+  for (CellKind kind : kAll) {
+    Mesh mesh = one_cell(kind);
+    SCOPED_TRACE(shape_of(kind).name);
+    find_surface(mesh);
+    EXPECT_EQ(int(mesh.surface.size()), facets[int(kind)]);
+    EXPECT_LT(sum_of_areas(mesh).norm(), 1e-15);
+    EXPECT_NEAR(enclosed(mesh), volume(mesh), 1e-15);
+    if (mesh.dimension == 3) { EXPECT_EQ(euler_characteristic(mesh), 2); }
+    const auto simplices = mesh.simplices();
+    for (const Facet& f : mesh.surface) {
+      ASSERT_GE(f.element, 0);
+      for (int k = 0; k < mesh.dimension; ++k) {
+        const auto& s = simplices[f.element];
+        EXPECT_TRUE(std::count(s.begin(), s.begin() + mesh.dimension + 1, f.nodes[k]));
+      }
+    }
+  }
+}
+
+TEST(MeshShapes, AFacetOfThreeElementsIsNamed) {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {0, 0, 2}};
+  mesh.cells = {{CellKind::tetrahedron, {0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 2, 5}}};
+  const std::string text = error_of([&] { find_surface(mesh); });
+  EXPECT_TRUE(has(text, "nodes 0 2 1")) << text;
+  EXPECT_TRUE(has(text, "belongs to 3 elements")) << text;
+}
+
+TEST(MeshShapes, AnInvertedCellIsNamedWithItsNodesAndVolume) {
+  Mesh mesh = one_cell(CellKind::tetrahedron);
+  mesh.nodes.push_back({-1, 0, 0});
+  mesh.cells[0].nodes.insert(mesh.cells[0].nodes.end(), {0, 4, 2, 3});
+  const std::string text = error_of([&] { check_volumes(mesh); });
+  EXPECT_TRUE(has(text, "tetrahedron 1 of nodes 0 4 2 3")) << text;
+  EXPECT_TRUE(has(text, "-0.166667 m3")) << text;
+}
+
+TEST(MeshShapes, AFlatCellIsRefused) {
+  Mesh mesh = one_cell(CellKind::triangle);
+  mesh.nodes[2] = {.1 + .2, 0, 0};
+  EXPECT_TRUE(has(error_of([&] { check_volumes(mesh); }), "triangle 0 of nodes 0 1 2"));
+}
+
+TEST(MeshShapes, BadNodesAreNamed) {
+  Mesh mesh = one_cell(CellKind::hex6);
+  mesh.nodes[5].y() = std::nan("");
+  EXPECT_TRUE(has(error_of([&] { check_volumes(mesh); }), "node 5"));
+  mesh = one_cell(CellKind::hex6);
+  mesh.nodes.push_back({3, 3, 3});
+  EXPECT_TRUE(has(error_of([&] { check_volumes(mesh); }), "node 8 at (3, 3, 3) m belongs to no cell"));
+  mesh = one_cell(CellKind::hex6);
+  mesh.cells[0].nodes[3] = 8;
+  EXPECT_TRUE(has(error_of([&] { check_volumes(mesh); }), "names node 8; the nodes run from 0 to 7"));
+}
+
+}  // namespace
+}  // namespace forming_sim

@@ -1,0 +1,73 @@
+// The files in meshes/ are what scripts/make_meshes.py says of them.
+#include <algorithm>
+#include <cmath>
+
+#include "forming_sim/mesh/import.h"
+#include "mesh/mesh_test_tools.h"
+
+namespace forming_sim {
+namespace {
+
+const std::string kMeshes = FORMING_SIM_SOURCE_DIR "/meshes";
+constexpr double mm = 1e-3;
+
+MeshConfig file(const std::string& name) {
+  MeshConfig c;
+  c.url = name, c.unit_scale = mm;
+  return c;
+}
+
+// x and z are such that the point lies on one of the plane faces or on the arc.
+double distance_from_die(const Vec3& x) {
+  const double arc = x.x() > 9 * mm && x.z() > -mm ? std::abs(std::hypot(x.x() - 9 * mm, x.z() + mm) - mm) : 1;
+  return std::min({std::abs(x.x() + 2 * mm), std::abs(x.x() - 10 * mm), std::abs(x.z()), std::abs(x.z() + 12 * mm), arc});
+}
+
+TEST(MeshShipped, TheSheetIsAStripOfHexahedraWithItsSets) {
+  MeshConfig config = file("sheet_strip.msh");
+  config.group = "sheet";
+  const Mesh mesh = load_body_mesh(config, kMeshes);
+  ASSERT_EQ(mesh.cells.size(), 1u);
+  EXPECT_EQ(mesh.cells[0].kind, CellKind::hex24);
+  EXPECT_EQ(mesh.cells[0].count(), 42 * 5 * 3);
+  EXPECT_NEAR(volume(mesh), 20 * 10 * .93 * 1e-9, 1e-16);
+  EXPECT_NEAR(area(mesh), 2 * (200 + 18.6 + 9.3) * 1e-6, 1e-14);
+  EXPECT_EQ(euler_characteristic(mesh), 2);
+  const std::map<std::string, std::pair<int, double>> faces = {{"clamped", {0, 0}},   {"free_end", {0, 20 * mm}},
+                                                               {"front", {1, 0}},     {"back", {1, 10 * mm}},
+                                                               {"bottom", {2, 0}},    {"top", {2, .93 * mm}}};
+  for (const auto& [name, plane] : faces) {
+    std::vector<int> expected;
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+      if (std::abs(mesh.nodes[n][plane.first] - plane.second) < 1e-9) expected.push_back(int(n));
+    EXPECT_EQ(mesh.sets.at(name), expected) << name;
+  }
+  EXPECT_EQ(mesh.sets.at("sheet").size(), mesh.nodes.size());
+}
+
+TEST(MeshShipped, ToolsAreClosedAndPointOutwards) {
+  for (const char* name : {"die.stl", "punch.stl"}) {
+    SCOPED_TRACE(name);
+    std::vector<std::string> notes;
+    const Mesh mesh = load_tool_surface(file(name), kMeshes, notes);
+    EXPECT_TRUE(notes.empty());
+    EXPECT_EQ(euler_characteristic(mesh), 2);
+    EXPECT_LT(sum_of_areas(mesh).norm(), 1e-9 * area(mesh));
+    const Vec3 extent = bounds(mesh).sizes();
+    // a box with one edge of radius 1 mm rounded by 16 segments
+    const double corner = (1 - 8 * std::sin(M_PI / 32)) * mm * mm;
+    EXPECT_NEAR(enclosed(mesh), (extent.x() * extent.z() - corner) * extent.y(), 1e-12);
+    EXPECT_NEAR(bounds(mesh).min().y(), -2 * mm, 1e-9);
+    EXPECT_NEAR(bounds(mesh).max().y(), 12 * mm, 1e-9);
+  }
+  const Mesh die = load_tool_surface(file("die.stl"), kMeshes);
+  for (const Vec3& x : die.nodes) EXPECT_LT(distance_from_die(x), 1e-9);
+  EXPECT_NEAR(bounds(die).max().x(), 10 * mm, 1e-9);
+  EXPECT_NEAR(bounds(die).max().z(), 0, 1e-9);
+  const Mesh punch = load_tool_surface(file("punch.stl"), kMeshes);
+  EXPECT_NEAR(bounds(punch).min().x(), (10 + .93 + .1) * mm, 1e-9);
+  EXPECT_NEAR(bounds(punch).min().z(), .93 * mm, 1e-9);
+}
+
+}  // namespace
+}  // namespace forming_sim

@@ -1,0 +1,95 @@
+"""Reads result.xdmf and compares what it shows with result.h5.
+
+First every reference of the file is followed with h5py, then VTK's two readers
+are asked. They are in ParaView's VTK (package python3-paraview), not in Debian's
+python3-vtk9: exit code 77 where they are missing.
+"""
+import sys
+import xml.etree.ElementTree
+
+import h5py
+import numpy as np
+
+
+def leaves(data):
+    """(name, data set) of every block."""
+    if not data.IsA("vtkCompositeDataSet"):
+        return [("", data)]
+    found = []
+    iterator = data.NewIterator()
+    iterator.InitTraversal()
+    while not iterator.IsDoneWithTraversal():
+        block = iterator.GetCurrentDataObject()
+        if block is not None and block.GetNumberOfPoints():
+            name = ""
+            if iterator.HasCurrentMetaData():
+                name = iterator.GetCurrentMetaData().Get(vtkCompositeDataSet.NAME()) or ""
+            found.append((name, block))
+        iterator.GoToNextItem()
+    return found
+
+
+def compare(reader_class, path, result):
+    reader = reader_class()
+    reader.SetFileName(path)
+    reader.UpdateInformation()
+    information = reader.GetOutputInformation(0)
+    key = vtkStreamingDemandDrivenPipeline.TIME_STEPS()
+    times = [information.Get(key, i) for i in range(information.Length(key))]
+    names = sorted(result["frames"])
+    expected_times = [result["frames"][name].attrs["time"] for name in names]
+    assert np.allclose(times, expected_times, rtol=1e-12, atol=0), (times, expected_times)
+    for name, time in zip(names, times):
+        frame = result["frames"][name]
+        reader.UpdateTimeStep(time)
+        blocks = leaves(reader.GetOutputDataObject(0))
+        present = [i for i in sorted(frame["tools"]) if frame["tools"][i].attrs["present"] and "points" in frame["tools"][i]]
+        assert len(blocks) == 1 + len(present), (name, [n for n, _ in blocks])
+        blank = blocks[0][1]
+        assert blank.GetNumberOfCells() == len(result["topology/elements"])
+        corners = [blank.GetCell(1).GetPointId(k) for k in range(result["topology/elements"].shape[1])]
+        assert corners == list(result["topology/elements"][1]), corners
+        assert np.array_equal(vtk_to_numpy(blank.GetPoints().GetData()), frame["positions"][:].astype(
+            vtk_to_numpy(blank.GetPoints().GetData()).dtype))
+        for field in ("plastic_strain", "stress", "mises", "volume_ratio"):
+            shown = vtk_to_numpy(blank.GetCellData().GetArray(field))
+            assert np.array_equal(shown, frame[field][:]), (reader_class.__name__, name, field)
+        assert np.array_equal(vtk_to_numpy(blank.GetPointData().GetArray("velocities")), frame["velocities"][:])
+        for index, (_, tool) in zip(present, blocks[1:]):
+            assert tool.GetNumberOfCells() == len(result["tools"][index]["facets"])
+            assert np.allclose(vtk_to_numpy(tool.GetPoints().GetData()), frame["tools"][index]["points"][:], rtol=1e-6)
+    print(reader_class.__name__, "shows", len(names), "frames as in the file")
+
+
+def check_references(path, result):
+    """Every data item names a data set of the size and the type that it states."""
+    items = xml.etree.ElementTree.parse(path).getroot().findall(".//DataItem")
+    assert items
+    for item in items:
+        file_name, name = item.text.split(":")
+        assert file_name == "result.h5", file_name
+        data = result[name]
+        assert tuple(int(n) for n in item.get("Dimensions").split()) == data.shape, name
+        assert {"Int": "i", "Float": "f"}[item.get("NumberType")] == data.dtype.kind, name
+        assert int(item.get("Precision")) == data.dtype.itemsize, name
+
+
+def main():
+    directory = sys.argv[1]
+    with h5py.File(directory + "/result.h5", "r") as result:
+        check_references(directory + "/result.xdmf", result)
+        for reader in (vtkXdmfReader, vtkXdmf3Reader):
+            compare(reader, directory + "/result.xdmf", result)
+
+
+try:
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
+    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+    from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
+    from vtkmodules.vtkIOXdmf3 import vtkXdmf3Reader
+except ImportError:
+    with h5py.File(sys.argv[1] + "/result.h5", "r") as opened:
+        check_references(sys.argv[1] + "/result.xdmf", opened)
+    sys.exit(77)
+main()

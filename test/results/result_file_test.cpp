@@ -1,0 +1,160 @@
+// result.h5: what is written is read, up to the last complete frame, and what
+// cannot be written is said.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+
+#include "forming_sim/config/fault.h"
+#include "forming_sim/results/result_file.h"
+#include "forming_sim/results/result_reader.h"
+#include "results/example_run.h"
+
+namespace forming_sim {
+namespace {
+
+void expect_frame(const Frame& frame, const ResultHeader& header, int index) {
+  const Frame expected = example_frame(header, index);
+  EXPECT_EQ(frame.time, expected.time);
+  EXPECT_EQ(frame.step, expected.step);
+  EXPECT_EQ(frame.stage, expected.stage);
+  EXPECT_EQ(frame.positions, expected.positions);
+  EXPECT_EQ(frame.velocities, expected.velocities);
+  EXPECT_EQ(frame.plastic_strain, expected.plastic_strain);
+  EXPECT_EQ(frame.stress, expected.stress);
+  EXPECT_EQ(frame.volume_ratio, expected.volume_ratio);
+  EXPECT_EQ(frame.surface_strain, expected.surface_strain);
+  ASSERT_EQ(frame.tools.size(), 2u);
+  EXPECT_EQ(frame.tools[0].position, expected.tools[0].position);
+  EXPECT_EQ(frame.tools[0].force, expected.tools[0].force);
+  EXPECT_EQ(frame.tools[0].present, expected.tools[0].present);
+}
+
+TEST(ResultFile, IsReadBackAsWritten) {
+  const TemporaryDirectory directory;
+  const ResultHeader header = example_header(3);
+  {
+    ResultFile file(directory.file("result.h5"), header);
+    for (int i = 0; i < 6; ++i) file.write(example_frame(header, i));
+  }
+  const ResultReader reader(directory.file("result.h5"));
+  EXPECT_EQ(reader.header().elements, header.elements);
+  EXPECT_EQ(reader.header().sets, header.sets);
+  EXPECT_EQ(reader.header().scene_text, header.scene_text);
+  EXPECT_EQ(reader.header().scene_name, header.scene_name);
+  EXPECT_EQ(reader.header().initial_positions, header.initial_positions);
+  ASSERT_EQ(reader.header().surface.size(), header.surface.size());
+  EXPECT_EQ(reader.header().surface[2].element, 4);
+  EXPECT_EQ(reader.header().tools[0].points, header.tools[0].points);
+  EXPECT_EQ(reader.header().tools[0].facets, header.tools[0].facets);
+  EXPECT_EQ(reader.header().tools[1].plane_normal, header.tools[1].plane_normal);
+  ASSERT_EQ(reader.frames().size(), 6u);
+  for (int i = 0; i < 6; ++i) expect_frame(reader.frame(i), header, i);
+}
+
+TEST(ResultFile, ResumesAfterAStepAndDropsWhatCameLater) {
+  const TemporaryDirectory directory;
+  const ResultHeader header = example_header(3);
+  const std::string path = directory.file("result.h5");
+  {
+    ResultFile file(path, header);
+    for (int i = 0; i < 6; ++i) file.write(example_frame(header, i));
+  }
+  {
+    auto file = ResultFile::resume(path, header, 35);
+    ASSERT_TRUE(file);
+    ASSERT_EQ(file->frames().size(), 4u);
+    for (int i = 4; i < 7; ++i) file->write(example_frame(header, i));
+  }
+  const ResultReader reader(path);
+  ASSERT_EQ(reader.frames().size(), 7u);
+  for (int i = 0; i < 7; ++i) expect_frame(reader.frame(i), header, i);
+
+  ResultHeader other = header;
+  other.scene_text += "# changed";
+  EXPECT_FALSE(ResultFile::resume(path, other, 35));
+  EXPECT_FALSE(ResultFile::resume(directory.file("absent.h5"), header, 35));
+}
+
+TEST(ResultFile, IsReadableUpToTheLastCompleteFrameAfterAKill) {
+  const ResultHeader header = example_header(40);
+  for (int complete = 1; complete <= 16; ++complete) {
+    const TemporaryDirectory directory;
+    int channel[2];
+    ASSERT_EQ(pipe(channel), 0);
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      ResultFile file(directory.file("result.h5"), header);
+      for (int i = 0;; ++i) {
+        file.write(example_frame(header, i));
+        if (write(channel[1], "f", 1) != 1) _exit(1);
+      }
+    }
+    char byte;
+    for (int i = 0; i < complete; ++i) ASSERT_EQ(read(channel[0], &byte, 1), 1);
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    close(channel[0]);
+    close(channel[1]);
+
+    const ResultReader reader(directory.file("result.h5"));
+    const int frames = static_cast<int>(reader.frames().size());
+    ASSERT_GE(frames, complete);
+    for (int i = 0; i < frames; ++i) expect_frame(reader.frame(i), header, i);
+  }
+}
+
+/// Writes frames until it fails, in a process of its own: files may grow to
+/// `bytes`, as on a disk that fills up. Exits with 0 where the failure is the
+/// sentence that it should be.
+void write_on_a_small_disk(const std::string& path, rlim_t bytes) {
+  signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{bytes, bytes};
+  setrlimit(RLIMIT_FSIZE, &limit);
+  const ResultHeader header = example_header(40);
+  try {
+    ResultFile file(path, header);
+    for (int i = 0; i < 1000; ++i) file.write(example_frame(header, i));
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    std::exit(error.code() == Code::output_error ? 0 : 1);
+  }
+  std::exit(2);
+}
+
+TEST(ResultFileDeathTest, AFullDiskIsAnErrorThatNamesFileAndReason) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("result.h5");
+  EXPECT_EXIT(write_on_a_small_disk(path, 1000000), testing::ExitedWithCode(0), "^cannot .*result.h5.*: File too large\n$");
+  const ResultReader reader(path);  // what was complete is still there
+  ASSERT_GE(reader.frames().size(), 2u);
+  for (std::size_t i = 0; i < reader.frames().size(); ++i)
+    expect_frame(reader.frame(i), reader.header(), static_cast<int>(i));
+}
+
+TEST(ResultFile, CannotBeCreatedInADirectoryThatIsNotThere) {
+  try {
+    ResultFile file("/nonexistent/directory/result.h5", example_header(2));
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Code::output_error);
+    EXPECT_STREQ(error.what(), "cannot create /nonexistent/directory/result.h5: No such file or directory");
+  }
+}
+
+TEST(ResultFile, RefusesWhatIsNotHdf5) {
+  const TemporaryDirectory directory;
+  std::ofstream(directory.file("result.h5")) << "this is text";
+  EXPECT_THROW(ResultReader{directory.file("result.h5")}, Error);
+  EXPECT_FALSE(ResultFile::resume(directory.file("result.h5"), example_header(2), 0));
+}
+
+}  // namespace
+}  // namespace forming_sim

@@ -1,0 +1,163 @@
+// What the fields of a scene say of each other.
+#include "forming_sim/scene/validate.h"
+
+#include <limits>
+
+#include "scene/scene_texts.h"
+
+namespace forming_sim {
+namespace {
+
+/// The flange with one change, and the one fault that it makes.
+void expect_flange_fault(const std::string& from, const std::string& to, const std::string& field, const std::string& word) {
+  expect_fault(replaced(flange_example(), from, to), field, word);
+}
+
+TEST(SceneRules, NamesAreThereOnce) {
+  expect_flange_fault("name: holder", "name: die", "tools[1].name", "tools[0] has this one");
+  expect_flange_fault("name: release", "name: flanging", "stages[1].name", "stages[0]");
+  expect_flange_fault("{name: leg, body", "{name: leg_far, body", "output.probes[2].name", "output.probes[1]");
+  expect_fault(replaced(replaced(flange_example(), "{name: leg, choose", "{name: top, choose"), "set: leg}", "set: top}"),
+               "bodies[0].sets[0].name", "the blank has the sets left, right, bottom, top");
+  expect_flange_fault("name: punch", "name: upper/punch", "tools[2].name", "letters");
+}
+
+TEST(SceneRules, BodiesHaveOneSource) {
+  const std::string text = minimal_example();
+  expect_fault(replaced(text, "    material:", "    mesh: {url: a.msh, unit_scale: 1}\n    material:"), "bodies[0]", "both blank and mesh");
+  Scene scene = scene_of(text);
+  scene.bodies[0].blank.reset();
+  const auto faults = check_scene(scene);
+  EXPECT_TRUE(fault_at(faults, "bodies[0]")) << sentences(faults);
+}
+
+TEST(SceneRules, ToolsHaveOneSource) {
+  expect_flange_fault("  - name: die\n", "  - name: die\n    normal: [0, 1]\n", "tools[0]", "profile and normal");
+  expect_flange_fault("tools:\n", "tools:\n  - name: nothing\n", "tools[0]", "none of mesh");
+  expect_flange_fault("tools:\n", "tools:\n  - {name: table, normal: [0, 1, 0.1]}\n", "tools[0].normal", "z = 0");
+  expect_flange_fault("  - name: die\n", "  - name: die\n    point: [0, 1]\n", "tools[0].point", "rigid plane");
+}
+
+TEST(SceneRules, DimensionDecidesTheKinds) {
+  expect_flange_fault("tools:\n", "tools:\n  - {name: t, mesh: {url: t.stl, unit_scale: 0.001}}\n", "tools[0].mesh", "dimension");
+  const auto faults = faults_of(replaced(flange_example(), "dimension: 2", "dimension: 3"));
+  EXPECT_TRUE(fault_at(faults, "bodies[0].blank.shape")) << sentences(faults);
+  for (const char* field : {"tools[0].profile", "tools[1].profile", "tools[2].profile"}) EXPECT_TRUE(fault_at(faults, field)) << field;
+  EXPECT_EQ(faults.size(), 4u) << sentences(faults);
+  expect_fault(replaced(minimal_example(), "dimension: 2", "dimension: 4"), "dimension", "at least 2 and at most 3");
+}
+
+TEST(SceneRules, PlaneStrainStaysInThePlane) {
+  expect_flange_fault("dimension: 2", "dimension: 2\ngravity: [0, 0, -9.81]", "gravity", "z = 0");
+  expect_flange_fault("[0, -0.020]", "[0, -0.020, 0.001]", "tools[2].motion.positions[1]", "z = 0");
+  expect_flange_fault("positions:", "rotations_deg: [[0, 0, 0], [3, 0, 0]]\n      positions:", "tools[2].motion.rotations_deg[1]", "about z");
+  EXPECT_TRUE(faults_of(replaced(flange_example(), "positions:", "rotations_deg: [[0, 0, 0], [0, 0, 3]]\n      positions:")).empty());
+  expect_flange_fault("kind: fixed", "kind: fixed, axes: [x, z]", "bodies[0].boundaries[0].axes", "leave z out");
+  EXPECT_TRUE(faults_of(replaced(flange_example(), "max: [1, 1]", "max: [1, 1, 1]")).empty()) << "z of a box is ignored";
+}
+
+TEST(SceneRules, Meshes) {
+  const std::string text = replaced(minimal_example(), "    boundaries:", "    # boundaries:");
+  const std::size_t from = text.find("    blank:"), to = text.find("    material:");
+  const auto with = [&](const std::string& mesh) {
+    std::string scene = text.substr(0, from) + "    mesh: {" + mesh + "}\n" + text.substr(to);
+    return scene.substr(0, scene.find("    # boundaries")) + scene.substr(scene.find("stages:"));
+  };
+  const std::string points = "unit_scale: 1, points: [[0, 0], [1, 0], [0, 1], [1, 1]], ";
+  EXPECT_TRUE(faults_of(with(points + "cells: [0, 1, 2, 1, 3, 2], cell_type: triangle")).empty());
+  expect_fault(with("unit_scale: 1"), "bodies[0].mesh", "neither url nor points");
+  expect_fault(with(points + "url: a.msh"), "bodies[0].mesh", "both url and points");
+  expect_fault(with("url: a.stl, unit_scale: 1"), "bodies[0].mesh.url", ".msh");
+  expect_fault(with("url: a.msh"), "bodies[0].mesh.unit_scale", "metres per unit");
+  expect_fault(with("url: a.msh, unit_scale: 1, cell_type: triangle"), "bodies[0].mesh.cell_type", "inline points");
+  expect_fault(with(points + "cells: [0, 1, 2, 1], cell_type: triangle"), "bodies[0].mesh.cells", "3 for each triangle");
+  expect_fault(with(points + "cells: [0, 1, 4], cell_type: triangle"), "bodies[0].mesh.cells[2]", "from 0 to 3");
+  expect_fault(with(points + "cells: [0, 1, -1], cell_type: triangle"), "bodies[0].mesh.cells[2]", "at least 0");
+  expect_fault(with(points + "cells: [0, 1, 2, 3], cell_type: tetrahedron"), "bodies[0].mesh.cell_type", "triangle or quadrilateral");
+  expect_fault(with(points + "cell_type: triangle"), "bodies[0].mesh.cells", "corner indices");
+}
+
+TEST(SceneRules, HardeningDoesNotSoften) {
+  expect_flange_fault("saturation_stress: 429.8e6", "saturation_stress: 100e6", "bodies[0].material.hardening.saturation_stress", "soften");
+  const auto table = [](const std::string& rows) { return replaced(minimal_example(), "{curve: linear, yield_stress: 150e6, modulus: 500e6}", "{curve: table, " + rows + "}"); };
+  EXPECT_TRUE(faults_of(table("plastic_strains: [0, 0.1], stresses: [1e8, 1e8]")).empty());
+  const std::string path = "bodies[0].material.hardening.";
+  expect_fault(table("plastic_strains: [0.01, 0.1], stresses: [1e8, 2e8]"), path + "plastic_strains", "start at plastic strain 0");
+  expect_fault(table("plastic_strains: [0, 0.1, 0.1], stresses: [1e8, 2e8, 3e8]"), path + "plastic_strains", "strictly increasing");
+  expect_fault(table("plastic_strains: [0, 0.1], stresses: [2e8, 1e8]"), path + "stresses", "1e+08 after 2e+08");
+  expect_fault(table("plastic_strains: [0, 0.1], stresses: [1e8, 2e8, 3e8]"), path + "stresses", "one for each of the 2");
+  expect_fault(table("plastic_strains: [0, 0.1]"), path + "stresses", "required where curve is table");
+}
+
+TEST(SceneRules, PoissonsRatioUpToAHalf) {
+  EXPECT_TRUE(faults_of(replaced(minimal_example(), "0.34", "0.499999")).empty());
+  EXPECT_TRUE(faults_of(replaced(minimal_example(), "0.34", "0")).empty());
+  expect_fault(replaced(minimal_example(), "0.34", "0.5"), "bodies[0].material.poissons_ratio", "below 0.5");
+}
+
+TEST(SceneRules, Histories) {
+  const std::string motion = "tools[2].motion";
+  expect_flange_fault("times: [0, 0.006]", "times: [0.006, 0.006]", motion + ".times", "strictly increasing");
+  expect_flange_fault("times: [0, 0.006]", "times: [0, 0.006, 0.007]", motion + ".positions", "one for each of the 3 times");
+  expect_flange_fault("positions: [[0, 0], [0, -0.020]] ", "profile: linear ", motion, "without positions");
+  expect_flange_fault("positions: [[", "velocities: [[0, 0], [0, -1]]\n      positions: [[", motion + ".velocities", "where kind is velocity");
+  const std::string text = replaced(flange_example(), "kind: trajectory", "kind: velocity");
+  expect_fault(replaced(text, "positions:", "profile: spline\n      velocities:"), motion + ".profile", "trajectories");
+  expect_fault(replaced(minimal_example(), "velocities: [[0, 0], [2, 0]]", "velocities: [[0, 0]]"), "bodies[0].boundaries[1].velocities", "2 times");
+  expect_fault(replaced(minimal_example(), "stages:", "    pressures: [{set: top, times: [0, 1], values: [1e6]}]\nstages:"), "bodies[0].pressures[0].values", "2 times");
+}
+
+TEST(SceneRules, SetsExist) {
+  expect_flange_fault("set: left", "set: lefft", "bodies[0].boundaries[0].set", "left, right, bottom, top, leg; did you mean left?");
+  expect_flange_fault("set: leg}", "set: lag}", "output.probes[2].set", "did you mean leg?");
+}
+
+TEST(SceneRules, Stages) {
+  expect_flange_fault("kind: withdraw, duration", "kind: withdraw, tools: [punsh], duration", "stages[1].tools[0]", "did you mean punch?");
+  expect_flange_fault("  - {name: springback", "  - {kind: withdraw, duration: 1}\n  - {name: springback", "stages[2]", "all tools are gone");
+  const std::string some = replaced(flange_example(), "kind: withdraw, duration", "kind: withdraw, tools: [punch], duration");
+  EXPECT_TRUE(faults_of(replaced(some, "  - {name: springback", "  - {kind: withdraw, duration: 1}\n  - {name: springback")).empty());
+  expect_fault(replaced(some, "  - {name: springback", "  - {kind: withdraw, tools: [punch], duration: 1}\n  - {name: springback"), "stages[2].tools[0]", "withdrawn already");
+  expect_fault(replaced(minimal_example(), "kind: form", "kind: withdraw"), "stages[0]", "the scene has no tools");
+  expect_fault(replaced(minimal_example(), "  - {kind: form, duration: 5e-4}  # s\n", "  []\n"), "stages", "required");
+  expect_fault(replaced(minimal_example(), "kind: form, duration: 5e-4", "kind: form"), "stages[0].duration", "required where kind is form or withdraw");
+}
+
+TEST(SceneRules, Output) {
+  expect_flange_fault("to: leg_far", "to: leg_near", "output.springback.to", "another probe");
+  expect_flange_fault("to: leg_far", "to: leg_fur", "output.springback.to", "did you mean leg_far?");
+  expect_flange_fault("frames: 100", "interval: 1e-15", "output.interval", "at most 100000 outputs");
+}
+
+TEST(SceneRules, BlanksThatCannotBeHeldAreRefused) {
+  expect_fault(replaced(replaced(minimal_example(), "cells_along: 40", "cells_along: 1000000"), "cells_through: 2", "cells_through: 1000000"),
+               "bodies[0].blank", "fewer cells");
+}
+
+TEST(SceneRules, MessagesAreHeldToTheDeclarations) {
+  Scene scene;  // as an empty message
+  const auto faults = check_declarations(scene);
+  for (const char* field : {"name", "dimension", "bodies", "stages"}) EXPECT_TRUE(fault_at(faults, field)) << field;
+  EXPECT_EQ(faults.size(), 4u) << sentences(faults);
+
+  scene = scene_of(minimal_example());
+  EXPECT_TRUE(check_declarations(scene).empty());
+  scene.bodies[0].material = MaterialConfig{};
+  scene.bodies[0].blank->radius = 1;
+  scene.bodies[0].blank->pattern = "finest";
+  scene.time_step.safety = std::numeric_limits<double>::quiet_NaN();
+  scene.gravity.y() = -std::numeric_limits<double>::infinity();
+  const auto more = check_declarations(scene);
+  for (const char* field : {"bodies[0].material.density", "bodies[0].material.youngs_modulus", "bodies[0].blank.radius",
+                            "bodies[0].blank.pattern", "time_step.safety", "gravity"}) {
+    EXPECT_TRUE(fault_at(more, field)) << field;
+  }
+  EXPECT_EQ(more.size(), 6u) << sentences(more);
+}
+
+TEST(SceneRules, AProfileMayReturnToTheOrigin) {
+  EXPECT_TRUE(faults_of(replaced(flange_example(), "{to: [-0.03, 0]}", "{to: [0, 0]}")).empty());
+}
+
+}  // namespace
+}  // namespace forming_sim

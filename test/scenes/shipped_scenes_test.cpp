@@ -1,0 +1,97 @@
+// The scenes that come with the package: valid, nothing misspelt, and the blank
+// where its tools expect it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "forming_sim/loads/motion.h"
+#include "forming_sim/scene/build.h"
+#include "forming_sim/scene/validate.h"
+#include "forming_sim/scene/yaml.h"
+
+namespace forming_sim {
+namespace {
+
+const std::string kFolder = std::string(FORMING_SIM_SOURCE_DIR) + "/scenes/";
+
+std::vector<std::string> shipped() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder))
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class ShippedScene : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedScene, is_valid) {
+  std::vector<Fault> faults;
+  const Scene scene = read_scene_file(kFolder + GetParam() + ".yaml", faults);
+  for (const Fault& fault : validate(scene, faults)) ADD_FAILURE() << fault.sentence();
+  EXPECT_EQ(scene.name, GetParam());
+}
+
+TEST_P(ShippedScene, starts_with_its_tools_at_rest_in_their_places) {
+  const Scene scene = read_valid_scene(kFolder + GetParam() + ".yaml");
+  const Model model = build_model(scene);
+  ASSERT_GT(model.element_count(), 0);
+  for (const ToolModel& tool : model.tools) {
+    const RigidMotion motion = tool.motion ? RigidMotion(*tool.motion, model.dimension) : RigidMotion();
+    const ToolPose pose = tool_pose(tool, motion, 0);
+    EXPECT_LT(pose.position.norm() + pose.velocity.norm(), 1e-12)
+        << tool.name << " should start at rest in its place";
+    if (!tool.is_plane()) continue;
+    for (const BodyModel& body : model.bodies)
+      for (const Vec3& node : body.mesh.nodes)
+        ASSERT_GE((node - tool.point).dot(tool.normal), -1e-12)
+            << body.name << " starts behind " << tool.name;
+  }
+  // Motions are at rest when the tools are withdrawn.
+  double formed = 0;
+  for (const StageConfig& stage : scene.stages)
+    if (stage.kind == "form") formed += stage.duration;
+  for (const ToolModel& tool : model.tools)
+    if (tool.motion)
+      EXPECT_LT(RigidMotion(*tool.motion, model.dimension).at(formed).velocity.norm(), 1e-9) << tool.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedScene, ::testing::ValuesIn(shipped()),
+                         [](const auto& info) { return info.param; });
+
+TEST(ShippedScenes, none_is_missing) {
+  EXPECT_EQ(shipped(), (std::vector<std::string>{"flange", "flange_3d", "impact", "taylor_bar", "tension"}));
+}
+
+TEST(ShippedScenes, flange_section_fits_the_sheet) {
+  const Model model = build_model(read_valid_scene(kFolder + "flange.yaml"));
+  std::map<std::string, const ToolModel*> tools;
+  for (const ToolModel& tool : model.tools) tools[tool.name] = &tool;
+  // The sheet lies between die (top at y = 0) and pad (bottom at y = 0.93 mm), punch above it.
+  double die_top = -1, pad_bottom = 1, punch_bottom = 1, punch_face = 1, die_wall = -1;
+  for (const Vec3& p : tools.at("die")->mesh.nodes)
+    die_top = std::max(die_top, p.y()), die_wall = std::max(die_wall, p.x());
+  for (const Vec3& p : tools.at("pad")->mesh.nodes) pad_bottom = std::min(pad_bottom, p.y());
+  for (const Vec3& p : tools.at("punch")->mesh.nodes)
+    punch_bottom = std::min(punch_bottom, p.y()), punch_face = std::min(punch_face, p.x());
+  EXPECT_NEAR(die_top, 0, 1e-15);
+  EXPECT_NEAR(pad_bottom, 0.93e-3, 1e-15);
+  EXPECT_NEAR(punch_bottom, 0.93e-3, 1e-15);
+  EXPECT_NEAR(punch_face - die_wall, 1.03e-3, 1e-12);
+  // Every corner of an edge lies on its arc of 1 mm, none inside the material's wrap.
+  for (const Vec3& p : tools.at("die")->mesh.nodes)
+    if (p.x() > 9e-3 && p.y() > -1e-3) EXPECT_NEAR((p - Vec3(9e-3, -1e-3, 0)).norm(), 1e-3, 2e-6);
+  for (const Vec3& p : tools.at("punch")->mesh.nodes)
+    if (p.x() < 12.03e-3 && p.y() < 1.93e-3) EXPECT_NEAR((p - Vec3(12.03e-3, 1.93e-3, 0)).norm(), 1e-3, 2e-6);
+}
+
+TEST(ShippedScenes, impact_has_the_moduli_it_states) {
+  const Scene scene = read_valid_scene(kFolder + "impact.yaml");
+  EXPECT_NEAR(scene.bodies[0].material.shear_modulus(), 26.5e9, 1e3);
+  EXPECT_NEAR(scene.bodies[0].material.bulk_modulus(), 65.1e9, 1e4);
+}
+
+}  // namespace
+}  // namespace forming_sim

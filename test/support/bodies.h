@@ -1,0 +1,75 @@
+#pragma once
+// Small bodies for tests.
+#include <random>
+#include <string>
+
+#include "forming_sim/element/elements.h"
+#include "forming_sim/mesh/generate.h"
+#include "forming_sim/simulation/model.h"
+
+namespace forming_sim {
+
+inline MaterialConfig aluminium(bool plastic = false) {
+  MaterialConfig m;
+  m.density = 2710;
+  m.youngs_modulus = 70.5e9;
+  m.poissons_ratio = 0.34;
+  if (plastic) {
+    HardeningConfig h;
+    h.curve = "voce";
+    h.yield_stress = 192.1e6;
+    h.saturation_stress = 429.8e6;
+    h.rate = 8.504;
+    m.hardening = h;
+  }
+  return m;
+}
+
+/// A small block of cells of a kind.
+inline Mesh block_of(CellKind kind, int n = 2) {
+  const CellShape& shape = shape_of(kind);
+  BlankConfig blank;
+  const bool flat = shape.dimension == 2;
+  blank.shape = flat ? "strip" : "plate";
+  blank.length = 1.0;
+  blank.width = blank.thickness = 0.8;
+  blank.cells_along = n;
+  blank.cells_across = blank.cells_through = n;
+  blank.pattern = kind == CellKind::crossed || kind == CellKind::hex24 ? "fine" : "coarse";
+  Mesh mesh = generate_blank(blank);
+  if (kind == CellKind::triangle || kind == CellKind::tetrahedron) {  // the simplices of the coarse cells, one by one
+    Cells cells{kind, {}};
+    for (const auto& s : mesh.simplices())
+      for (int a = 0; a <= shape.dimension; ++a) cells.nodes.push_back(s[a]);
+    mesh.cells = {cells};
+    find_surface(mesh);
+  }
+  return mesh;
+}
+
+inline BodyModel body_of(Mesh mesh, const MaterialConfig& material, const std::string& average = "cell") {
+  BodyModel body;
+  body.name = "block";
+  body.node_count = static_cast<int>(mesh.nodes.size());
+  body.element_count = mesh.simplex_count();
+  body.material = material;
+  body.pressure_average = average;
+  body.mesh = std::move(mesh);
+  return body;
+}
+
+inline NodeField positions_of(const Mesh& mesh) {
+  NodeField x;
+  for (const Vec3& X : mesh.nodes) x.push_back(node(X));
+  return x;
+}
+
+/// Moves every node by up to `size` in every direction of the dimension.
+inline void shake(NodeField& x, int dimension, double size, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> along(-size, size);
+  for (Node& n : x)
+    for (int i = 0; i < dimension; ++i) n[i] += along(random);
+}
+
+}  // namespace forming_sim
