@@ -39,7 +39,7 @@ int perform(const OfflineOptions& options) {
   else {
     const Scene scene = read_valid_scene(options.scene);
     if (options.task == Task::run) return run(options, scene);
-    text = options.task == Task::estimate ? estimate_text(estimate_cost(scene, options.thread_count())) : "The scene has no faults.\n";
+    text = options.task == Task::estimate ? estimate_text(estimate_run(scene, options.thread_count())) : "The scene has no faults.\n";
   }
   std::fputs(text.c_str(), stdout);
   return std::fflush(stdout) == 0 ? 0 : 1;

@@ -1,6 +1,7 @@
 #include "forming_sim/results/estimate.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include "forming_sim/results/schedule.h"
 #include "forming_sim/scene/build.h"
@@ -51,6 +52,16 @@ Estimate estimate_run(Simulation& simulation) {
   estimate.steps = static_cast<long>(std::ceil(longest_time(simulation.plan().stages) / estimate.time_step_s));
   estimate.wall_time_s = (simulation.wall_time() - wall) / static_cast<double>(measured) * static_cast<double>(estimate.steps);
   return estimate;
+}
+
+std::string estimate_text(const Estimate& estimate) {
+  char text[512];
+  std::snprintf(text, sizeof text,
+                "nodes        %ld\nelements     %ld\ntime step    %.3g s\nsteps        about %ld (settling by its limit)\n"
+                "wall time    about %.3g s on this machine (without contact that comes later)\nmemory       about %.3g MB\n",
+                estimate.nodes, estimate.elements, estimate.time_step_s, estimate.steps, estimate.wall_time_s,
+                estimate.memory_bytes / 1e6);
+  return text;
 }
 
 }  // namespace forming_sim

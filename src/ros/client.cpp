@@ -13,7 +13,7 @@
 #include "forming_sim/SimulateFormingAction.h"
 #include "forming_sim/config/fault.h"
 #include "forming_sim/ros/convert.h"
-#include "forming_sim/ros/progress_line.h"
+#include "forming_sim/ros/client_progress.h"
 #include "forming_sim/ros/signals.h"
 #include "forming_sim/scene/yaml.h"
 
@@ -72,7 +72,7 @@ bool wait_for_server(Client& client, double wait_s) {
 }
 
 /// Follows the goal to its end. False where the server has gone.
-bool follow(Client& client, ProgressLine& line, std::mutex& mutex) {
+bool follow(Client& client, ClientProgress& line, std::mutex& mutex) {
   bool cancelled = false;
   int missed = 0;
   while (!client.waitForResult(ros::Duration(0.1))) {
@@ -109,7 +109,7 @@ int run_client(const ClientRequest& request) {
     return 1;
   }
   std::mutex mutex;
-  ProgressLine line(stdout);
+  ClientProgress line(stdout);
   client.sendGoal(goal, Client::SimpleDoneCallback(), Client::SimpleActiveCallback(),
                   [&](const SimulateFormingFeedbackConstPtr& feedback) {
                     const std::lock_guard<std::mutex> lock(mutex);

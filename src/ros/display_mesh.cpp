@@ -1,5 +1,6 @@
 #include "forming_sim/ros/display_mesh.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -12,6 +12,7 @@
 #include "forming_sim/scene/build.h"
 #include "forming_sim/scene/validate.h"
 #include "forming_sim/scene/yaml.h"
+#include "forming_sim/simulation/simulation.h"
 
 namespace forming_sim {
 
@@ -25,8 +26,8 @@ Prepared prepare(const SceneSpec& message, const std::string& scene_text, int th
     prepared.faults = validate(prepared.scene, known);
     if (!prepared.faults.empty()) return prepared;
     prepared.scene.text = scene_text.empty() ? write_scene(prepared.scene) : scene_text;
-    prepared.simulation =
-        std::make_unique<Simulation>(build_plan(prepared.scene), build_model(prepared.scene), threads);
+    // A body that starts inside a tool is found where the simulation is built.
+    Simulation(build_plan(prepared.scene), build_model(prepared.scene), threads);
   } catch (const SceneError& error) {
     prepared.faults.insert(prepared.faults.end(), error.faults().begin(), error.faults().end());
   } catch (const Error& error) {
@@ -35,28 +36,6 @@ Prepared prepare(const SceneSpec& message, const std::string& scene_text, int th
     prepared.faults.push_back({Code::internal_error, "scene", error.what(), "please report this as a defect"});
   }
   return prepared;
-}
-
-RunEstimate estimate(Simulation& simulation) {
-  RunEstimate result;
-  result.nodes = simulation.model().node_count();
-  result.elements = simulation.model().element_count();
-  result.time_step_s = simulation.first_dt();
-  double duration = 0;
-  for (const StageConfig& stage : simulation.plan().stages) duration += stage.kind == "settle" ? stage.limit : stage.duration;
-  result.steps = static_cast<long>(duration / result.time_step_s + 1);
-  // The state twice (it and its checkpoint) and what is kept per element besides:
-  // connectivity, blocks of the kernels, fields of a frame.
-  result.memory_bytes = 2.0 * static_cast<double>(simulation.save().size()) + 400.0 * static_cast<double>(result.elements);
-
-  constexpr double measured_s = 0.2;
-  constexpr long measured_steps = 2000;
-  while (simulation.wall_time() < measured_s && simulation.steps() < measured_steps && simulation.step()) {
-  }
-  if (simulation.steps() > 0) {
-    result.wall_time_s = simulation.wall_time() / static_cast<double>(simulation.steps()) * static_cast<double>(result.steps);
-  }
-  return result;
 }
 
 std::string make_output_directory(const std::string& given, const std::string& output_root, const std::string& scene) {

@@ -41,7 +41,7 @@ RunFrame run_frame(const Frame& stored) {
   frame.stage = stored.stage;
   frame.positions = stored.positions;
   frame.plastic_strain.assign(stored.plastic_strain.begin(), stored.plastic_strain.end());
-  for (const ToolPose& pose : stored.tools) {
+  for (const FrameTool& pose : stored.tools) {
     ToolStatus status;
     status.position = pose.position;
     status.rotation = pose.rotation;

@@ -7,6 +7,7 @@
 #include "forming_sim/ros/observer.h"
 #include "forming_sim/ros/prepare.h"
 #include "forming_sim/ros/summary.h"
+#include "forming_sim/results/estimate.h"
 #include "forming_sim/results/run_scene.h"
 
 namespace forming_sim {
@@ -32,6 +33,17 @@ SimulateFormingResult rejection(const std::vector<Fault>& faults) {
   SimulateFormingResult result = result_of(code, text);
   result.faults = fault_messages(faults);
   return result;
+}
+
+CostEstimate estimate_message(const Estimate& estimate) {
+  CostEstimate message;
+  message.nodes = estimate.nodes;
+  message.elements = estimate.elements;
+  message.time_step_s = estimate.time_step_s;
+  message.steps = estimate.steps;
+  message.wall_time_s = estimate.wall_time_s;
+  message.memory_bytes = estimate.memory_bytes;
+  return message;
 }
 
 }  // namespace
@@ -194,12 +206,15 @@ bool FormingServer::on_validate(ValidateScene::Request& request, ValidateScene::
 }
 
 bool FormingServer::on_estimate(EstimateRun::Request& request, EstimateRun::Response& response) {
-  Prepared prepared = prepare(request.scene, "", choose_threads(request.threads, threads_));
+  const int threads = choose_threads(request.threads, threads_);
+  Prepared prepared = prepare(request.scene, "", threads);
   if (prepared.faults.empty()) {
     try {
-      response.estimate = estimate(*prepared.simulation);
+      response.estimate = estimate_message(estimate_run(prepared.scene, threads));
+    } catch (const Error& error) {
+      prepared.faults.push_back({error.code(), "scene", error.what(), "change the scene so that it can start"});
     } catch (const std::exception& error) {
-      prepared.faults.push_back({Code::internal_error, "scene", error.what(), "change the scene so that it can start"});
+      prepared.faults.push_back({Code::internal_error, "scene", error.what(), "please report this as a defect"});
     }
   }
   response.valid = prepared.faults.empty();

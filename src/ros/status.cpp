@@ -33,7 +33,8 @@ ToolState tool_message(const std::string& name, const ToolStatus& status) {
   return message;
 }
 
-RunStatus status_of(const Simulation& simulation, const RunFrame& frame, const std::string& scene, double eta_s) {
+RunStatus status_of(const Simulation& simulation, const RunFrame& frame, const std::string& scene, double eta_s,
+                    double min_thickness) {
   RunStatus status;
   status.scene = scene;
   status.running = true;
@@ -48,7 +49,7 @@ RunStatus status_of(const Simulation& simulation, const RunFrame& frame, const s
   const auto& tools = simulation.model().tools;
   for (std::size_t k = 0; k < tools.size(); ++k) status.tools.push_back(tool_message(tools[k].name, frame.tools[k]));
   for (const double p : frame.plastic_strain) status.max_plastic_strain = std::max(status.max_plastic_strain, p);
-  status.min_thickness_m = -1;
+  status.min_thickness_m = min_thickness;
   const ContactStatus contact = simulation.contact_status();
   status.min_gap_over_layer = contact.min_gap_over_layer;
   status.contact_layer_m = contact.layer;

@@ -86,7 +86,7 @@ RunSummary read_summary(const std::string& directory) {
 
 std::vector<std::string> run_files(const std::string& directory) {
   std::vector<std::string> files;
-  for (const char* name : {"result.h5", "result.xdmf", "history.csv", "summary.json", "checkpoint.bin"}) {
+  for (const char* name : {"result.h5", "result.xdmf", "history.csv", "summary.json", "checkpoint.h5"}) {
     if (std::filesystem::exists(std::filesystem::path(directory) / name)) files.emplace_back(name);
   }
   return files;

@@ -1,5 +1,7 @@
 #pragma once
 // What a run will cost, told before it starts.
+#include <string>
+
 #include "forming_sim/scene/scene.h"
 #include "forming_sim/simulation/simulation.h"
 
@@ -19,5 +21,8 @@ Estimate estimate_run(const Scene& scene, int threads);
 
 /// The same for a simulation at its start; it has made steps afterwards.
 Estimate estimate_run(Simulation& simulation);
+
+/// A few lines for a terminal.
+std::string estimate_text(const Estimate& estimate);
 
 }  // namespace forming_sim

@@ -3,7 +3,9 @@
 #include <chrono>
 #include <functional>
 #include <string>
+#include <vector>
 
+#include "forming_sim/results/thickness.h"
 #include "forming_sim/ros/publisher.h"
 #include "forming_sim/ros/status.h"
 #include "forming_sim/simulation/observer.h"
@@ -24,10 +26,13 @@ class RosObserver : public Observer {
  private:
   void tell(const Simulation& simulation, bool always, Code code, const std::string& message);
 
+  double min_thickness(const Simulation& simulation) const;
+
   RunPublisher& publisher_;
   std::string scene_;
   Feedback feedback_;
   EtaClock clock_;
+  std::vector<Thickness> thickness_;  ///< of the bodies with sets top and bottom
 };
 
 }  // namespace forming_sim

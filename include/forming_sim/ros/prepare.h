@@ -1,31 +1,23 @@
 #pragma once
 // From a goal to a scene that can run, or to all that is wrong with it.
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "forming_sim/RunEstimate.h"
 #include "forming_sim/SceneSpec.h"
 #include "forming_sim/config/fault.h"
 #include "forming_sim/scene/scene.h"
-#include "forming_sim/simulation/simulation.h"
 
 namespace forming_sim {
 
 struct Prepared {
   Scene scene;
-  std::vector<Fault> faults;               ///< empty: the scene can run
-  std::unique_ptr<Simulation> simulation;  ///< at its start; null where there are faults
+  std::vector<Fault> faults;  ///< empty: the scene can run
 };
 
 /// Reads, validates and builds the scene of a message, so that a body that starts
 /// inside a tool is found too. Never throws: what goes wrong is among the faults.
 /// scene_text: as its author wrote it; empty: written from the message.
 Prepared prepare(const SceneSpec& message, const std::string& scene_text, int threads);
-
-/// Nodes, elements, step and what a run will take. Takes some steps of the
-/// simulation to measure their speed (a few tenths of a second).
-RunEstimate estimate(Simulation& simulation);
 
 /// The directory of a run, made and found writable: `given`, or where that is
 /// empty a new one under `output_root`, named by the scene and the local time.

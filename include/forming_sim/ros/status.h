@@ -13,8 +13,9 @@ EnergyLedger energy_message(const Energies& energies, double balance_error);
 ToolState tool_message(const std::string& name, const ToolStatus& status);
 
 /// Status of a running simulation. `frame` is of the same instant.
-/// eta_s: wall time left, s, negative where it is not known.
-RunStatus status_of(const Simulation& simulation, const RunFrame& frame, const std::string& scene, double eta_s);
+/// eta_s: wall time left, s, negative where it is not known; min_thickness the same, m.
+RunStatus status_of(const Simulation& simulation, const RunFrame& frame, const std::string& scene, double eta_s,
+                    double min_thickness);
 
 /// Wall time that is left, from the progress made since a start.
 class EtaClock {

@@ -1,0 +1,118 @@
+#!/usr/bin/python3
+"""The topics of a run, recorded in a bag and kept in a result file, can be seen again."""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+import actionlib
+import rosbag
+import rosgraph
+import rospy
+from forming_sim.msg import ResultCode, RunStatus, SimulateFormingAction, SimulateFormingGoal
+from visualization_msgs.msg import MarkerArray
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import scenes  # noqa: E402
+
+TOPICS = ['deformed_mesh', 'plastic_strain', 'plastic_strain_topology', 'status', 'tool_forces/press']
+
+
+def executable(name):
+    return subprocess.check_output(['catkin_find', '--first-only', '--libexec', 'forming_sim', name], text=True).strip()
+
+
+def subscribed(topics):
+    """Waits until somebody else listens to all the topics."""
+    master = rosgraph.Master(rospy.get_name())
+    rate = rospy.Rate(50)
+    while not rospy.is_shutdown():
+        listening = {topic for topic, nodes in master.getSystemState()[1] if nodes}
+        if listening.issuperset(topics):
+            return
+        rate.sleep()
+
+
+class ReplayTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.directory = tempfile.mkdtemp(prefix='forming_sim_')
+        cls.bag = os.path.join(cls.directory, 'run.bag')
+        names = ['/forming_server/' + topic for topic in TOPICS]
+        recorder = subprocess.Popen(['rosrun', 'rosbag', 'record', '--lz4', '-O', cls.bag] + names)
+        subscribed(names)
+        client = actionlib.SimpleActionClient('/forming_server/simulate_forming', SimulateFormingAction)
+        assert client.wait_for_server(rospy.Duration(20))
+        client.send_goal(SimulateFormingGoal(scene=scenes.message(scenes.pressed_strip(4e-5)), output_directory=cls.directory))
+        assert client.wait_for_result(rospy.Duration(30))
+        assert client.get_result().code == ResultCode.SUCCESS, client.get_result().message
+        recorder.send_signal(signal.SIGINT)
+        recorder.wait(20)
+
+    def test_bag_holds_the_run(self):
+        last_strain, meshes, counts = 0, 0, set()
+        with rosbag.Bag(self.bag) as bag:
+            found = set(bag.get_type_and_topic_info().topics)
+            for topic, message, _ in bag.read_messages():
+                if topic.endswith('deformed_mesh'):
+                    meshes += 1
+                    counts.add(tuple(len(m.points) for m in message.markers if m.ns in ('sheet', 'tools')))
+                    for marker in message.markers:
+                        for p in marker.points:
+                            self.assertTrue(p.x == p.x and p.y == p.y and p.z == p.z)
+                if topic.endswith('/plastic_strain'):
+                    last_strain = max(message.values)
+        for topic in TOPICS:
+            self.assertIn('/forming_server/' + topic, found)
+        self.assertGreaterEqual(meshes, 2)
+        self.assertEqual(len(counts), 1, 'the number of triangles stays constant')
+        self.assertGreater(last_strain, 0)
+
+    def wait_for_last(self, topic, reached):
+        """The first message for which reached(message) holds."""
+        found, event = [], threading.Event()
+
+        def on_message(message):
+            if reached(message) and not event.is_set():
+                found.append(message)
+                event.set()
+        subscriber = rospy.Subscriber(topic, MarkerArray if 'mesh' in topic else RunStatus, on_message, queue_size=100)
+        self.addCleanup(subscriber.unregister)
+        return found, event
+
+    def test_bag_plays(self):
+        found, event = self.wait_for_last('/again/forming_server/deformed_mesh', lambda m: any(k.ns == 'sheet' for k in m.markers))
+        player = subprocess.Popen(['rosrun', 'rosbag', 'play', '-q', '--delay', '1', '--prefix', 'again', self.bag])
+        self.addCleanup(player.kill)
+        self.assertTrue(event.wait(20))
+        self.assertEqual(player.wait(20), 0)
+        self.assertGreater(len([m for m in found[0].markers if m.ns == 'sheet'][0].points), 0)
+
+    def test_result_file_plays_to_its_end(self):
+        meshes, mesh_event = self.wait_for_last('/replayer/deformed_mesh', lambda m: any(k.ns == 'sheet' for k in m.markers))
+        states, state_event = self.wait_for_last('/replayer/status', lambda s: s.progress == 1)
+        player = subprocess.Popen([executable('forming_replay'), os.path.join(self.directory, 'result.h5'),
+                                   '__name:=replayer', '_duration:=1'])
+        self.addCleanup(player.kill)
+        self.assertTrue(mesh_event.wait(20))
+        self.assertTrue(state_event.wait(20))
+        self.assertAlmostEqual(states[0].time_s, 4e-5, delta=1e-9)
+        self.assertEqual([t.name for t in states[0].tools], ['press'])
+        self.assertGreater(states[0].max_plastic_strain, 0)
+        player.send_signal(signal.SIGINT)
+        self.assertEqual(player.wait(10), 0)
+
+    def test_a_file_that_is_none_is_told(self):
+        path = os.path.join(self.directory, 'summary.json')
+        player = subprocess.run([executable('forming_replay'), path, '__name:=none'], stderr=subprocess.PIPE, text=True, timeout=20)
+        self.assertEqual(player.returncode, 1)
+        self.assertIn(path, player.stderr)
+
+
+if __name__ == '__main__':
+    import rostest
+    rospy.init_node('replay_test')
+    rostest.rosrun('forming_sim', 'replay', ReplayTest)

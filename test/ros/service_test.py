@@ -1,0 +1,308 @@
+#!/usr/bin/python3
+"""The service as a client sees it: success, rejections, busy, cancels, services."""
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+import actionlib
+import h5py
+import numpy
+import rospy
+import yaml
+from actionlib_msgs.msg import GoalStatus
+from forming_sim.msg import (PlasticStrainTopology, ResultCode, RunStatus, SimulateFormingAction, SimulateFormingGoal)
+from forming_sim.srv import EstimateRun, ValidateScene
+from visualization_msgs.msg import Marker, MarkerArray
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import scenes  # noqa: E402
+
+ACTION = '/forming_server/simulate_forming'
+LIMIT = rospy.Duration(60)
+
+
+class Followed:
+    """A goal with the feedback it got; waits on state, never on time."""
+
+    def __init__(self, goal):
+        self.client = actionlib.SimpleActionClient(ACTION, SimulateFormingAction)
+        assert self.client.wait_for_server(LIMIT), 'no server'
+        self.feedback = []
+        self.first = threading.Event()
+        self.client.send_goal(goal, feedback_cb=self._on_feedback)
+
+    def _on_feedback(self, feedback):
+        self.feedback.append(feedback.status)
+        self.first.set()
+
+    def wait_running(self):
+        assert self.first.wait(30), 'no feedback: ' + str(self.client.get_goal_status_text())
+
+    def result(self):
+        assert self.client.wait_for_result(LIMIT), 'no result'
+        return self.client.get_state(), self.client.get_result()
+
+
+def goal_of(scene, **fields):
+    return SimulateFormingGoal(scene=scenes.message(scene), **fields)
+
+
+def run(scene, **fields):
+    return Followed(goal_of(scene, **fields)).result()
+
+
+def executable(name):
+    return subprocess.check_output(['catkin_find', '--first-only', '--libexec', 'forming_sim', name], text=True).strip()
+
+
+class ServiceTest(unittest.TestCase):
+    def setUp(self):
+        self.directory = tempfile.mkdtemp(prefix='forming_sim_')
+
+    def path(self, name):
+        return os.path.join(self.directory, name)
+
+    # ---- success
+
+    def test_success_with_feedback_files_and_topics(self):
+        followed = Followed(goal_of(scenes.pressed_strip(), output_directory=self.path('run')))
+        state, result = followed.result()
+        self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
+        self.assertEqual(result.code, ResultCode.SUCCESS)
+        self.assertNotEqual(ResultCode.SUCCESS, 0)
+        self.assertEqual(result.faults, [])
+        self.assertGreaterEqual(len(followed.feedback), 1)
+        status = followed.feedback[-1]
+        self.assertEqual(status.scene, 'pressed strip')
+        self.assertGreater(status.dt_s, 0)
+        self.assertEqual([t.name for t in status.tools], ['press'])
+        self.assertEqual(status.crossings, 0)
+        self.assertGreater(status.min_thickness_m, 0)
+        for name in ('result.h5', 'result.xdmf', 'history.csv', 'summary.json'):
+            self.assertIn(name, result.files)
+            self.assertGreater(os.path.getsize(os.path.join(result.directory, name)), 0)
+        summary = json.loads(result.summary.json)
+        self.assertEqual(summary['steps'], result.summary.steps)
+        self.assertEqual(summary['elements'], 80)
+        self.assertGreater(result.summary.steps, 100)
+        self.assertGreater(result.summary.tools[0].peak_force.y, 0)  # the strip pushes the press up
+        self.assertTrue(math.isfinite(result.summary.energies.balance_error))
+        # What a viewer that comes late still sees.
+        markers = rospy.wait_for_message('/forming_server/deformed_mesh', MarkerArray, 10)
+        sheet = [m for m in markers.markers if m.ns == 'sheet'][0]
+        self.assertEqual(len(sheet.points), 3 * 80)
+        self.assertEqual(len(sheet.points), len(sheet.colors))
+        self.assertEqual(sheet.action, Marker.ADD)
+        self.assertEqual(sheet.header.frame_id, 'forming_world')
+        topology = rospy.wait_for_message('/forming_server/plastic_strain_topology', PlasticStrainTopology, 10)
+        self.assertEqual(len(topology.elements), 3 * 80)
+        status = rospy.wait_for_message('/forming_server/status', RunStatus, 10)
+        self.assertFalse(status.running)
+        self.assertEqual(status.code, ResultCode.SUCCESS)
+
+    def test_server_chooses_a_directory_of_its_own_for_each_run(self):
+        first = run(scenes.pulled_strip())[1]
+        second = run(scenes.pulled_strip())[1]
+        self.assertNotEqual(first.directory, second.directory)
+        self.assertTrue(os.path.exists(os.path.join(first.directory, 'result.h5')))
+
+    def test_action_client_and_offline_give_the_same_files_with_any_threads(self):
+        scene = scenes.pressed_strip()
+        with open(self.path('scene.yaml'), 'w') as file:
+            yaml.safe_dump(scene, file)
+        code, _ = run(scene, output_directory=self.path('action'), threads=2)
+        self.assertEqual(code, GoalStatus.SUCCEEDED)
+        subprocess.check_call([executable('forming_offline'), self.path('scene.yaml'), '--output', self.path('offline'), '--threads', '1'])
+        client = subprocess.run([executable('forming_client'), self.path('scene.yaml'), '--output', self.path('client')],
+                                stdout=subprocess.PIPE, text=True)
+        self.assertEqual(client.returncode, 0)
+        self.assertIn('result.h5', client.stdout)
+        for other in ('offline', 'client'):
+            self.assert_same_results(self.path('action'), self.path(other))
+        with h5py.File(self.path('offline/result.h5')) as a, h5py.File(self.path('client/result.h5')) as b:
+            self.assertEqual(a['scene_text'][()], b['scene_text'][()])
+
+    def assert_same_results(self, one, other):
+        compared = []
+        with h5py.File(os.path.join(one, 'result.h5')) as a, h5py.File(os.path.join(other, 'result.h5')) as b:
+            def compare(name, item):
+                if isinstance(item, h5py.Dataset) and name != 'scene_text':
+                    numpy.testing.assert_array_equal(item[()], b[name][()], err_msg=name)
+                    compared.append(name)
+            a.visititems(compare)
+        self.assertGreater(len([n for n in compared if n.startswith('frames/')]), 10)
+        with open(os.path.join(one, 'history.csv')) as a, open(os.path.join(other, 'history.csv')) as b:
+            self.assertEqual(a.read(), b.read())
+
+    # ---- rejections
+
+    def assert_rejected(self, scene, *fields, code=ResultCode.INVALID_SCENE, **goal):
+        state, result = run(scene, **goal)
+        self.assertEqual(state, GoalStatus.REJECTED, result.message)
+        self.assertEqual(result.code, code, result.message)
+        found = [fault.field for fault in result.faults]
+        for field in fields:
+            self.assertIn(field, found, result.message)
+        for fault in result.faults:
+            self.assertTrue(fault.given and fault.remedy, fault)
+        return result
+
+    def test_all_faults_come_back_together(self):
+        scene = scenes.pressed_strip()
+        scene['bodies'][0]['material']['density'] = float('nan')
+        scene['bodies'][0]['material']['poissons_ratio'] = 0.5
+        scene['bodies'][0]['boundaries'][0]['kind'] = 'glued'
+        scene['tools'][0]['friction'] = -1.0
+        scene['stages'][0]['duration'] = 0.0
+        result = self.assert_rejected(
+            scene, 'bodies[0].material.density', 'bodies[0].material.poissons_ratio', 'bodies[0].boundaries[0].kind',
+            'tools[0].friction', 'stages[0].duration')
+        self.assertEqual(len(result.faults), 5, result.message)
+
+    def test_an_empty_goal_is_rejected(self):
+        self.assert_rejected({}, 'name', 'dimension', 'bodies', 'stages')
+
+    def test_a_missing_set_is_rejected(self):
+        scene = scenes.pulled_strip()
+        scene['bodies'][0]['boundaries'][0]['set'] = 'nowhere'
+        self.assert_rejected(scene, 'bodies[0].boundaries[0].set')
+
+    def solid(self, tool_mesh):
+        scene = scenes.pulled_strip()
+        scene['dimension'] = 3
+        scene['bodies'][0]['blank'] = {
+            'shape': 'plate', 'length': 0.01, 'width': 0.01, 'thickness': 0.001,
+            'cells_along': 2, 'cells_across': 2, 'cells_through': 1, 'pattern': 'coarse'}
+        scene['tools'] = [{'name': 'die', 'mesh': dict({'unit_scale': 1.0}, **tool_mesh)}]
+        return scene
+
+    def test_meshes_that_cannot_be_used_are_rejected(self):
+        empty = self.path('empty.stl')
+        with open(empty, 'w') as file:
+            file.write('solid nothing\nendsolid nothing\n')
+        for url in ('file:///nowhere/die.stl', 'file://' + empty, 'die.stl'):
+            state, result = run(self.solid({'url': url}))
+            self.assertEqual(state, GoalStatus.REJECTED, url)
+            self.assertTrue(any(f.field.startswith('tools[0].mesh') for f in result.faults), result.message)
+
+    def test_a_body_that_starts_inside_a_tool_is_rejected(self):
+        scene = scenes.pressed_strip()
+        scene['tools'][0]['point'] = [0.0, 0.0005, 0.0]
+        state, result = run(scene)
+        self.assertEqual(state, GoalStatus.REJECTED, result.message)
+        self.assertEqual(result.code, ResultCode.INITIAL_PENETRATION, result.message)
+
+    def test_faults_of_the_goal_beside_its_scene(self):
+        scene = scenes.pulled_strip()
+        self.assert_rejected(scene, 'threads', threads=-1)
+        self.assert_rejected(scene, 'resume', code=ResultCode.RESUME_ERROR, resume='/nowhere/checkpoint.h5')
+        self.assert_rejected(scene, 'output_directory', code=ResultCode.OUTPUT_ERROR, output_directory='/proc/nowhere')
+
+    def test_client_tells_all_faults_and_fails(self):
+        scene = scenes.pulled_strip()
+        scene['bodies'][0]['boundaries'][0]['set'] = 'nowhere'
+        scene['bodies'][0]['boundaries'][1]['set'] = 'neither'
+        with open(self.path('bad.yaml'), 'w') as file:
+            yaml.safe_dump(scene, file)
+        client = subprocess.run([executable('forming_client'), self.path('bad.yaml')], stderr=subprocess.PIPE, text=True)
+        self.assertEqual(client.returncode, 2)
+        self.assertIn('nowhere', client.stderr)
+        self.assertIn('neither', client.stderr)
+
+    # ---- one run at a time, cancels
+
+    def test_busy(self):
+        running = Followed(goal_of(scenes.long_run(), output_directory=self.path('long')))
+        running.wait_running()
+        state, result = run(scenes.pulled_strip())
+        self.assertEqual(state, GoalStatus.REJECTED)
+        self.assertEqual(result.code, ResultCode.BUSY)
+        self.assertEqual(running.client.get_state(), GoalStatus.ACTIVE)
+        running.client.cancel_goal()
+        state, result = running.result()
+        self.assertEqual((state, result.code), (GoalStatus.PREEMPTED, ResultCode.CANCELLED))
+
+    def test_cancel_at_once(self):
+        for _ in range(5):
+            followed = Followed(goal_of(scenes.long_run()))
+            followed.client.cancel_goal()
+            state, result = followed.result()
+            self.assertIn(state, (GoalStatus.PREEMPTED, GoalStatus.RECALLED), result.message)
+            # A goal whose cancel overtook it never reached the server's own code.
+            self.assertIn(result.code, (ResultCode.CANCELLED, ResultCode.NONE))
+
+    def test_cancel_in_mid_run_then_resume_then_a_new_goal(self):
+        followed = Followed(goal_of(scenes.long_run(), output_directory=self.path('long')))
+        followed.wait_running()
+        before = rospy.get_time()
+        followed.client.cancel_goal()
+        state, result = followed.result()
+        self.assertLess(rospy.get_time() - before, 2)
+        self.assertEqual((state, result.code), (GoalStatus.PREEMPTED, ResultCode.CANCELLED))
+        self.assertIn('checkpoint.h5', result.files)
+        with h5py.File(os.path.join(result.directory, 'result.h5')) as file:
+            self.assertGreaterEqual(len(file['frames']), 1)
+        with open(os.path.join(result.directory, 'summary.json')) as file:
+            steps = json.load(file)['steps']
+
+        resumed = Followed(goal_of(scenes.long_run(), output_directory=self.path('long'),
+                                   resume=os.path.join(result.directory, 'checkpoint.h5')))
+        resumed.wait_running()
+        resumed.client.cancel_goal()
+        state, _ = resumed.result()
+        self.assertEqual(state, GoalStatus.PREEMPTED)
+        self.assertGreaterEqual(resumed.feedback[0].step, steps)
+
+        state, result = run(scenes.pulled_strip())
+        self.assertEqual((state, result.code), (GoalStatus.SUCCEEDED, ResultCode.SUCCESS))
+
+    def test_client_is_cancelled_by_ctrl_c(self):
+        with open(self.path('long.yaml'), 'w') as file:
+            yaml.safe_dump(scenes.long_run(), file)
+        client = subprocess.Popen([executable('forming_client'), self.path('long.yaml')], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, text=True)
+        client.stdout.readline()  # its first line of progress
+        client.send_signal(2)
+        _, errors = client.communicate(timeout=20)
+        self.assertEqual(client.returncode, 130, errors)
+
+    # ---- services
+
+    def test_validate_scene(self):
+        validate = rospy.ServiceProxy('/forming_server/validate_scene', ValidateScene)
+        validate.wait_for_service(10)
+        good = validate(scenes.message(scenes.pressed_strip()))
+        self.assertTrue(good.valid)
+        self.assertEqual(good.faults, [])
+        scene = scenes.pressed_strip()
+        scene['dimension'] = 7
+        scene['tools'][0]['friction'] = 11.0
+        bad = validate(scenes.message(scene))
+        self.assertFalse(bad.valid)
+        for field in ('dimension', 'tools[0].friction'):
+            self.assertIn(field, [fault.field for fault in bad.faults])
+
+    def test_estimate_run(self):
+        estimate = rospy.ServiceProxy('/forming_server/estimate_run', EstimateRun)
+        estimate.wait_for_service(10)
+        answer = estimate(scenes.message(scenes.pressed_strip()), 1)
+        self.assertTrue(answer.valid)
+        self.assertEqual(answer.estimate.elements, 80)
+        _, result = run(scenes.pressed_strip())
+        self.assertAlmostEqual(answer.estimate.steps / result.summary.steps, 1, delta=0.3)
+        self.assertGreater(answer.estimate.wall_time_s, 0)
+        self.assertGreater(answer.estimate.memory_bytes, 0)
+        scene = scenes.pressed_strip()
+        scene['dimension'] = 7
+        self.assertFalse(estimate(scenes.message(scene), 1).valid)
+
+
+if __name__ == '__main__':
+    import rostest
+    rospy.init_node('service_test')
+    rostest.rosrun('forming_sim', 'service', ServiceTest)
