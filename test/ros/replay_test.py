@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The topics of a run, recorded in a bag and kept in a result file, can be seen again."""
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -51,6 +52,10 @@ class ReplayTest(unittest.TestCase):
         assert client.get_result().code == ResultCode.SUCCESS, client.get_result().message
         recorder.send_signal(signal.SIGINT)
         recorder.wait(20)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.directory)
 
     def test_bag_holds_the_run(self):
         last_strain, meshes, counts = 0, 0, set()
