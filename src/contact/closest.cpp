@@ -15,6 +15,7 @@ Closest closest_on_triangle_border(const Node& p, const Node& a, const Node& b, 
     const double squared = dot3(r, r);
     if (best.squared >= 0 && squared >= best.squared) continue;
     best = Closest();
+    best.apart = r;
     best.squared = squared;
     best.weight[0] = best.weight[1] = best.weight[2] = 0;
     best.weight[i] = 1 - s;
@@ -27,14 +28,14 @@ Closest closest_on_triangle_border(const Node& p, const Node& a, const Node& b, 
 
 ClosestEdges closest_on_edges(const Node& a0, const Node& a1, const Node& b0, const Node& b1) {
   const Node u = a1 - a0, v = b1 - b0, r = a0 - b0;
-  const double uu = dot3(u, u), uv = dot3(u, v), vv = dot3(v, v), ru = dot3(r, u), rv = dot3(r, v);
-  const double sine2 = uu * vv - uv * uv;
+  const Node n = cross3(u, v);
+  const double n2 = dot3(n, n);
   ClosestEdges e;
-  if (sine2 > 1e-8 * uu * vv) {
-    const double s = (uv * rv - vv * ru) / sine2, t = (uu * rv - uv * ru) / sine2;
+  if (n2 > 1e-8 * dot3(u, u) * dot3(v, v)) {
+    const double s = -dot3(cross3(r, v), n) / n2, t = -dot3(cross3(r, u), n) / n2;
     if (s > kBorder && s < 1 - kBorder && t > kBorder && t < 1 - kBorder) {
-      const Node d = r + s * u - t * v;
-      return {s, t, dot3(d, d), true};
+      const Node apart = dot3(r, n) / n2 * n;
+      return {s, t, apart, dot3(apart, apart), true};
     }
   }
   // Otherwise an end of one of them is closest.
@@ -42,7 +43,7 @@ ClosestEdges closest_on_edges(const Node& a0, const Node& a1, const Node& b0, co
   const auto offer = [&](double s, double t) {
     const Node d = r + s * u - t * v;
     const double squared = dot3(d, d);
-    if (e.squared < 0 || squared < e.squared) e = {s, t, squared, false};
+    if (e.squared < 0 || squared < e.squared) e = {s, t, d, squared, false};
   };
   offer(0, closest_on_segment(a0, b0, b1));
   offer(1, closest_on_segment(a1, b0, b1));

@@ -1,6 +1,7 @@
 #include "forming_sim/contact/continuous.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "forming_sim/contact/closest.h"
 
@@ -23,7 +24,10 @@ bool meet(int split, int count, const Node* x, const Node* d, double least, Clos
     for (int i = 0; i < split; ++i)
       for (int j = split; j < count; ++j) {
         const double closing = dot3(n, d[j] - d[i]), gap = dot3(n, at[i] - at[j]);
-        if (closing * safe > gap) safe = std::max(0.0, gap / closing);
+        if (!(gap > 0))
+          safe = 0;  // to rounding, the plane does not part them
+        else if (closing * safe > gap)
+          safe = gap / closing;
       }
     if (safe >= 1 - t) {
       // Parted to the end; but by how much?
@@ -50,16 +54,13 @@ bool meet(int split, int count, const Node* x, const Node* d, double least, Clos
 bool point_meets_facet(int corners, const Node* x, const Node* d, double least) {
   return meet(1, 1 + corners, x, d, least, [corners](const Node* at) -> Node {
     const Closest c = corners == 2 ? closest_on_segment_facet(at[0], at[1], at[2]) : closest_on_triangle(at[0], at[1], at[2], at[3]);
-    Node apart = at[0];
-    for (int k = 0; k < corners; ++k) apart -= c.weight[k] * at[1 + k];
-    return apart;
+    return c.apart;
   });
 }
 
 bool edges_meet(const Node* x, const Node* d, double least) {
   return meet(2, 4, x, d, least, [](const Node* at) -> Node {
-    const ClosestEdges c = closest_on_edges(at[0], at[1], at[2], at[3]);
-    return at[0] + c.s * (at[1] - at[0]) - at[2] - c.t * (at[3] - at[2]);
+    return closest_on_edges(at[0], at[1], at[2], at[3]).apart;
   });
 }
 

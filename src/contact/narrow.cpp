@@ -55,9 +55,8 @@ class Phase {
       pair.node[k] = e.node[k];
       pair.weight[k] = weight[k];
     }
-    const Node d = a0 + c.s * (a1 - a0) - b0 - c.t * (b1 - b0);
     pair.gap = distance;
-    pair.normal = d / distance;
+    pair.normal = c.apart / distance;
     const bool nearest = outside(a0, a1, e.opposite, -pair.normal) && outside(b0, b1, e.opposite + 2, pair.normal);
     pair.base = nearest ? layer_ : layer_ / 2;
     offer(pair);
@@ -134,8 +133,9 @@ class Phase {
       pair.surface = f_.vertex_surface[second];
     }
     pair.key = PairKey::make(PairKey::vertex_facet, first, c.feature, second);
-    Node d = Node::Zero();
-    for (int k = 0; k < pair.nodes; ++k) d += pair.weight[k] * (work_.x[pair.node[k]] - work_.x[pair.node[0]]);
+    Node d = c.apart;
+    if (pair.node[0] != g.node) d = -d;
+    if (c.feature == Closest::corner) d = work_.x[pair.node[0]] - work_.x[pair.node[1]];  // the same bits from both sides
     pair.gap = std::sqrt(dot3(d, d));
     if (!(pair.gap > 0)) return;  // no direction; the start check and the continuous check exclude it
     pair.normal = d / pair.gap;

@@ -48,8 +48,8 @@ template <class Cell> double* memory_of(const CellGroup& g, long block, int s) {
   return g.memory + (block * Cell::simplices + s) * kMemory<kD<Cell>> * kLanes;
 }
 
-/// p of every simplex of the block: K (V/V0 - 1) of the cell, of the element, or
-/// the mean of its nodes' pressures.
+/// p of every simplex of the block: K (V/V0 - 1) of the cell (with a share of the
+/// element's own, see elements.cpp), of the element, or the mean of its nodes' pressures.
 template <class Cell>
 void pressures(const CellGroup& g, const NodalView& view, long block, const Pack* V, Pack* p) {
   constexpr int D = kD<Cell>;
@@ -65,17 +65,19 @@ void pressures(const CellGroup& g, const NodalView& view, long block, const Pack
     }
     return;
   }
-  Pack sum_V(0.0), sum_V0(0.0);
+  Pack sum_V(0.0), sum_V0(0.0), V0[Cell::simplices];
   for (int s = 0; s < Cell::simplices; ++s) {
-    const Pack V0 = Pack::load(memory_of<Cell>(g, block, s) + (kMemory<D> - 1) * kLanes);
-    if (g.pressure == PressureMode::element) p[s] = K * (V[s] / V0 - Pack(1.0));
+    V0[s] = Pack::load(memory_of<Cell>(g, block, s) + (kMemory<D> - 1) * kLanes);
     sum_V += V[s];
-    sum_V0 += V0;
+    sum_V0 += V0[s];
   }
-  if (g.pressure == PressureMode::cell) {
-    const Pack mean = K * (sum_V / sum_V0 - Pack(1.0));
-    for (int s = 0; s < Cell::simplices; ++s) p[s] = mean;
+  if (g.pressure == PressureMode::element || Cell::simplices == 1) {
+    for (int s = 0; s < Cell::simplices; ++s) p[s] = K * (V[s] / V0[s] - Pack(1.0));
+    return;
   }
+  const Pack theta(g.element_share);
+  const Pack mean = (Pack(1.0) - theta) * K * (sum_V / sum_V0 - Pack(1.0));
+  for (int s = 0; s < Cell::simplices; ++s) p[s] = mean + theta * K * (V[s] / V0[s] - Pack(1.0));
 }
 
 /// Bulk viscosity of the cell: q = rho l (b1 c D + b2^2 l D |D| where D < 0),
@@ -242,6 +244,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   }
   pressures<Cell>(g, view, block, V, p);
   Pack stored(0.0), cell_V(0.0), cell_V0(0.0);
+  const double own = g.pressure == PressureMode::element ? 1 : g.element_share;
   for (int s = 0; s < Cell::simplices; ++s) {
     Edges<Pack, D> e;
     edges_of<Cell>(x, s, e.x);
@@ -250,9 +253,8 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
     const Symmetric<Pack, D> B = push(memory.G, e);
     const Pack J = e.volume / memory.V0;
     stored += memory.V0 * deviatoric_energy(g.solid, B, J);
-    if (g.pressure == PressureMode::element) {
-      stored += Pack(0.5 * g.solid.K) * memory.V0 * (J - Pack(1.0)) * (J - Pack(1.0));
-    }
+    if (g.pressure != PressureMode::node)
+      stored += Pack(0.5 * g.solid.K * own) * memory.V0 * (J - Pack(1.0)) * (J - Pack(1.0));
     cell_V += e.volume;
     cell_V0 += memory.V0;
     const PointResult<Pack, D> point = update_point(g.solid, B, J, memory.p);
@@ -266,7 +268,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   }
   if (g.pressure == PressureMode::cell) {
     const Pack strain = cell_V / cell_V0 - Pack(1.0);
-    stored += Pack(0.5 * g.solid.K) * cell_V0 * strain * strain;
+    stored += Pack(0.5 * g.solid.K * (1 - own)) * cell_V0 * strain * strain;
   }
   const int in_use = block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes;
   energy[block] = 0;

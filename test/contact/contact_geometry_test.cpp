@@ -102,6 +102,21 @@ TEST(ContactContinuous, SlidingPastAtASmallGapIsNoTouch) {
   EXPECT_FALSE(point_meets_facet(3, x, d, 1e-10));
 }
 
+// Long edges that are nearly parallel and already close: the direction between
+// them is known from their cross product only.
+TEST(ContactContinuous, NearlyParallelEdgesThatCross) {
+  std::uniform_real_distribution<double> u(-1, 1);
+  for (int i = 0; i < 2000; ++i) {
+    const double angle = std::pow(10, -3.5 * std::abs(u(engine))), gap = std::pow(10, -3 - 4 * std::abs(u(engine)));
+    const Node x[4] = {Node(-1, -angle, gap, 0), Node(1, angle, gap, 0), Node(-2, 0, 0, 0), Node(2, 0, 0, 0)};
+    const double turn = 5 * gap * u(engine);
+    const Node d[4] = {Node(0, 0, -2 * gap + turn, 0), Node(0, 0, -2 * gap - turn, 0), Node::Zero(), Node::Zero()};
+    EXPECT_TRUE(edges_meet(x, d, 1e-3 * gap)) << i;  // in the middle the way is -2 gap
+    const Node half[4] = {Node(.1, 0, -.9 * gap, 0), Node(.1, 0, -.9 * gap, 0), Node::Zero(), Node::Zero()};
+    EXPECT_FALSE(edges_meet(x, half, 1e-3 * gap)) << i;
+  }
+}
+
 // Every vertex-facet and edge-edge pair within the radius is listed, no other.
 TEST(ContactSearch, ListAgainstAllPairs) {
   for (int dimension : {2, 3}) {

@@ -18,6 +18,7 @@ struct Closest {
   enum Feature { corner, edge, face } feature = corner;
   int which = 0;
   double weight[3] = {1, 0, 0};  ///< of the facet's corners, sum 1
+  Node apart = Node::Zero();     ///< from the closest point to the point, m
   double squared = 0;            ///< distance squared, m^2
 };
 
@@ -35,6 +36,7 @@ inline double closest_on_segment(const Node& p, const Node& a, const Node& b) {
   return s <= kBorder ? 0 : s >= 1 - kBorder ? 1 : s;
 }
 
+/// In the plane.
 inline Closest closest_on_segment_facet(const Node& p, const Node& a, const Node& b) {
   const double s = closest_on_segment(p, a, b);
   Closest c;
@@ -42,8 +44,12 @@ inline Closest closest_on_segment_facet(const Node& p, const Node& a, const Node
   c.weight[1] = s;
   c.feature = s == 0 || s == 1 ? Closest::corner : Closest::face;
   c.which = s == 1 ? 1 : 0;
-  const Node r = p - a - s * (b - a);
-  c.squared = dot3(r, r);
+  c.apart = p - a - s * (b - a);
+  if (c.feature == Closest::face) {
+    const Node u = b - a, n(-u[1], u[0], 0, 0);
+    c.apart = dot3(c.apart, n) / dot3(n, n) * n;
+  }
+  c.squared = dot3(c.apart, c.apart);
   return c;
 }
 
@@ -53,18 +59,19 @@ Closest closest_on_triangle_border(const Node& p, const Node& a, const Node& b, 
 
 inline Closest closest_on_triangle(const Node& p, const Node& a, const Node& b, const Node& c) {
   const Node u = b - a, v = c - a, r = p - a;
-  const double uu = dot3(u, u), uv = dot3(u, v), vv = dot3(v, v), ru = dot3(r, u), rv = dot3(r, v);
-  const double area2 = uu * vv - uv * uv;
-  const double beta = vv * ru - uv * rv, gamma = uu * rv - uv * ru;  // times area2
+  // By cross products, which stay accurate for needles.
+  const Node n = cross3(u, v);
+  const double area2 = dot3(n, n);
+  const double beta = dot3(cross3(r, v), n), gamma = dot3(cross3(u, r), n);  // times area2
   const double border = kBorder * area2;
-  if (area2 > 1e-12 * uu * vv && beta > border && gamma > border && area2 - beta - gamma > border) {
+  if (area2 > 1e-12 * dot3(u, u) * dot3(v, v) && beta > border && gamma > border && area2 - beta - gamma > border) {
     Closest f;
     f.feature = Closest::face;
     f.weight[1] = beta / area2;
     f.weight[2] = gamma / area2;
     f.weight[0] = 1 - f.weight[1] - f.weight[2];
-    const Node n = r - f.weight[1] * u - f.weight[2] * v;
-    f.squared = dot3(n, n);
+    f.apart = dot3(r, n) / area2 * n;
+    f.squared = dot3(f.apart, f.apart);
     return f;
   }
   return closest_on_triangle_border(p, a, b, c);
@@ -73,6 +80,7 @@ inline Closest closest_on_triangle(const Node& p, const Node& a, const Node& b, 
 /// Closest points a0 + s (a1 - a0) and b0 + t (b1 - b0) of two segments.
 struct ClosestEdges {
   double s = 0, t = 0;
+  Node apart = Node::Zero();  ///< from the point on b to that on a, m
   double squared = 0;
   bool crossing = false;  ///< both inside their segments, and not parallel (sin^2 > 1e-8)
 };

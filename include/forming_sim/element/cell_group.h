@@ -29,6 +29,7 @@ struct CellGroup {
   int cell_nodes = 0, cell_simplices = 0;
   int cells = 0, blocks = 0;
   PressureMode pressure = PressureMode::cell;
+  double element_share = 0;        ///< theta: share of the element's own volume in a cell's pressure
   SolidConstants solid;
   double density = 0;              ///< kg/m3, scaled
   double linear_viscosity = 0, quadratic_viscosity = 0;

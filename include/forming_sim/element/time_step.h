@@ -12,7 +12,7 @@
 //   tangent: mu -> mu J^(-2/3) lambda_max(B), lambda_max <= tr B/3 + 2/3 q_B.
 // * Pressure: one mode per cell, K/V0 grad V grad V^T, whose eigenvalue with the
 //   cell's nodal masses is  omega_vol^2 = K/V0 sum_a |dV/dx_a|^2 / m_a.
-//   With p per element it is the element's own; with p per node the element's
+//   With a share theta of the element's own pressure the two add up. With p per element it is the element's own; with p per node the element's
 //   own bounds it (the squares of means do not exceed the means of squares).
 // Bulk viscosity eta = rho l (b1 c + b2^2 l |D|) adds the damping
 //   xi = omega_eta^2 / (2 omega), omega_eta^2 = eta/V sum_a |dV/dx_a|^2 / m_a
@@ -72,6 +72,7 @@ template <class T, int D, int Nodes> class StepBound {
     const T volumetric = T((D + 1) * g_.solid.K / g_.density) * J * J * trace_in_plane(S);
     deviatoric_ = larger(deviatoric_, omega2);
     element_ = larger(element_, omega2 + volumetric);
+    own_ = larger(own_, volumetric);
     V_ += e.volume;
     V0_ += V0;
     const T share = V0 * T(g_.density / (D + 1));
@@ -87,7 +88,8 @@ template <class T, int D, int Nodes> class StepBound {
     for (int a = 0; a < Nodes; ++a) sum += dot(gradient_[a], gradient_[a]) / mass_[a];
     const T cell_volumetric = T(g_.solid.K) / V0_ * sum;
     const bool per_cell = g_.pressure == PressureMode::cell;
-    const T omega2 = per_cell ? deviatoric_ + cell_volumetric : element_;
+    const double theta = per_cell ? g_.element_share : 0;
+    const T omega2 = per_cell ? deviatoric_ + T(1 - theta) * cell_volumetric + T(theta) * own_ : element_;
     const T omega = sqrt(omega2);
     T dt = T(2.0) / omega;
     if (g_.linear_viscosity > 0 || g_.quadratic_viscosity > 0) {
@@ -107,7 +109,7 @@ template <class T, int D, int Nodes> class StepBound {
     else return trace(S);
   }
   const CellGroup& g_;
-  T deviatoric_, element_, V_, V0_;
+  T deviatoric_, element_, own_{0.0}, V_, V0_;
   Vector<T, D> gradient_[Nodes];
   T mass_[Nodes];
 };

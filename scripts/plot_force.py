@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""Draws the force on a tool over its stroke, from the history.csv of a run."""
+import argparse
+import csv
+import os
+import re
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+AXES = "xyz"
+
+
+def read_columns(path):
+    """Column name -> values; text stays text, an empty number is NaN."""
+    with open(path, newline="") as file:
+        rows = list(csv.reader(file))
+    if len(rows) < 2:
+        sys.exit(f"{path}: holds no rows yet")
+    columns = {}
+    for name, *values in zip(*rows):
+        try:
+            columns[name] = np.array([float(value) if value else np.nan for value in values])
+        except ValueError:
+            columns[name] = np.array(values)
+    return columns
+
+
+def tools(columns):
+    """Tool name -> (positions, forces), n x 3 each."""
+    found = {}
+    for column in columns:
+        match = re.fullmatch(r"tool_(.*)_force_x_(N|N_per_m)", column)
+        if match:
+            name, unit = match.groups()
+            found[name] = (np.stack([columns[f"tool_{name}_position_{a}_m"] for a in AXES], axis=1),
+                           np.stack([columns[f"tool_{name}_force_{a}_{unit}"] for a in AXES], axis=1))
+    return found
+
+
+def travel(positions):
+    """Displacement from the start, where it is greatest along any one axis: (axis, displacement)."""
+    displacement = positions - positions[0]
+    axis = int(np.argmax(np.abs(displacement).max(axis=0)))
+    return axis, displacement[:, axis]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("history", help="history.csv of a run")
+    parser.add_argument("--tool", help="name of the tool; default: the one that moves most")
+    parser.add_argument("--axis", choices=list(AXES), help="direction of stroke and force; default: along which the tool moves most")
+    parser.add_argument("--output", help="PNG to write; default: force.png beside the history")
+    options = parser.parse_args()
+
+    columns = read_columns(options.history)
+    all_tools = tools(columns)
+    if not all_tools:
+        sys.exit(f"{options.history}: has no tools, so there is no force to draw")
+    name = options.tool or max(all_tools, key=lambda t: np.abs(travel(all_tools[t][0])[1]).max())
+    if name not in all_tools:
+        sys.exit(f"--tool: given {name}; the tools are {', '.join(all_tools)}")
+    positions, forces = all_tools[name]
+    axis = AXES.index(options.axis) if options.axis else travel(positions)[0]
+    displacement = positions[:, axis] - positions[0, axis]
+    direction = np.sign(displacement[np.argmax(np.abs(displacement))]) or 1.0
+    stroke = 1e3 * direction * displacement
+    force = -direction * forces[:, axis] * 1e-3  # what the tool has to push with
+
+    plane_strain = any(column.endswith("_N_per_m") for column in columns)
+    figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
+    stages = columns["stage"]
+    names = list(dict.fromkeys(stages))
+    colours = plt.get_cmap("viridis")(np.linspace(0, 0.85, len(names)))
+    for colour, stage in zip(colours, names):
+        rows = np.flatnonzero(stages == stage)
+        rows = np.arange(max(rows[0] - 1, 0), rows[-1] + 1)  # join the line to the stage before
+        if np.ptp(stroke[rows]) > 0 or np.any(force[rows] != 0):
+            axes.plot(stroke[rows], force[rows], color=colour, linewidth=1.6, label=stage)
+    peak = int(np.argmax(force))
+    unit = "N/mm" if plane_strain else "kN"
+    axes.plot(stroke[peak], force[peak], "o", color="tab:red", markersize=5,
+              label=f"peak {force[peak]:.4g} {unit} at {stroke[peak]:.3g} mm")
+    axes.axhline(0, color="0.6", linewidth=0.8)
+    axes.set_xlabel(f"stroke of {name} along {AXES[axis]} [mm]")
+    axes.set_ylabel(f"force on {name} [{unit}]" + (" of width" if plane_strain else ""))
+    axes.grid(alpha=0.3)
+    axes.legend(frameon=False)
+    output = options.output or os.path.join(os.path.dirname(options.history), "force.png")
+    figure.savefig(output, dpi=150)
+    print(output)
+
+
+main()

@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""Draws a field over the deformed section of a run, with the tools, from its result.h5.
+
+In plane strain the section is the model; in 3D it is a cut normal to y, half way
+along the blank's width.
+"""
+import argparse
+import os
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import h5py
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+
+LABELS = {"plastic_strain": ("equivalent plastic strain", 1.0), "mises": ("von Mises stress [MPa]", 1e-6),
+          "volume_ratio": ("volume ratio V/V0", 1.0)}
+
+
+def pick_frame(result, wanted):
+    names = sorted(result["frames"])
+    if not names:
+        sys.exit("the result holds no frames yet")
+    if not -len(names) <= wanted < len(names):
+        sys.exit(f"--frame: given {wanted}; the result holds the frames 0 to {len(names) - 1}")
+    return result["frames"][names[wanted]]
+
+
+def cut(points, simplices, axis, at):
+    """Cuts triangles or tetrahedra at coordinate `at`: (polygons in the other two axes, index of each one's simplex)."""
+    kept = [i for i in range(3) if i != axis]
+    height = points[simplices][:, :, axis] - at
+    crossed = np.flatnonzero((height.min(axis=1) < 0) & (height.max(axis=1) >= 0))
+    polygons = []
+    for corners, h in zip(simplices[crossed], height[crossed]):
+        below, above = corners[h < 0], corners[h >= 0]
+        low, high = h[h < 0], h[h >= 0]
+        cuts = [[points[a] + (points[b] - points[a]) * (ha / (ha - hb)) for b, hb in zip(above, high)]
+                for a, ha in zip(below, low)]
+        if len(cuts) == 2 and len(cuts[0]) == 2:  # a quadrilateral, in order around it
+            ring = [cuts[0][0], cuts[0][1], cuts[1][1], cuts[1][0]]
+        else:
+            ring = [point for row in cuts for point in row]
+        polygons.append(np.array(ring)[:, kept])
+    return polygons, crossed
+
+
+def tool_lines(result, frame, axis, at):
+    """(segments of the tools with a surface, (point, normal) of the rigid planes)."""
+    segments, planes = [], []
+    for index in sorted(result["tools"], key=int):
+        shape, pose = result["tools"][index], frame["tools"][index]
+        if not pose.attrs["present"]:
+            continue
+        if "facets" in shape:
+            points, facets = pose["points"][:], shape["facets"][:]
+            segments += list(points[facets][:, :, :2]) if axis is None else cut(points, facets, axis, at)[0]
+        else:
+            point = pose["position"][:] + pose["rotation"][:] @ shape["plane_point"][:]
+            normal = pose["rotation"][:] @ shape["plane_normal"][:]
+            kept = [0, 1] if axis is None else [i for i in range(3) if i != axis]
+            if np.linalg.norm(normal[kept]) > 0.5:
+                planes.append((point[kept], normal[kept]))
+    return segments, planes
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("result", help="result.h5 of a run")
+    parser.add_argument("--frame", type=int, default=-1, help="number of the frame, negative: from the end; default: the last")
+    parser.add_argument("--field", choices=list(LABELS), default="plastic_strain")
+    parser.add_argument("--axis", choices=list("xyz"), default="y", help="3D: the cut is normal to this axis")
+    parser.add_argument("--at", type=float, help="3D: where to cut, in metres; default: half way through the blank")
+    parser.add_argument("--output", help="PNG to write; default: section.png beside the result")
+    options = parser.parse_args()
+
+    with h5py.File(options.result, "r") as result:
+        frame = pick_frame(result, options.frame)
+        points, elements = frame["positions"][:], result["topology/elements"][:]
+        label, scale = LABELS[options.field]
+        values = scale * frame[options.field][:].astype(float)
+        axis, at, names = None, 0.0, "xy"
+        if result.attrs["dimension"] == 2:
+            polygons = list(points[elements][:, :, :2])
+        else:
+            axis = "xyz".index(options.axis)
+            names = "xyz".replace(options.axis, "")
+            low, high = points[:, axis].min(), points[:, axis].max()
+            # A little off the middle, where a mesh has its nodes.
+            at = options.at if options.at is not None else low + 0.5003 * (high - low)
+            polygons, crossed = cut(points, elements, axis, at)
+            values = values[crossed]
+            if not polygons:
+                sys.exit(f"--at: given {at}; the blank lies between {low:.6g} and {high:.6g} m")
+        segments, planes = tool_lines(result, frame, axis, at)
+        title = f"{result.attrs['scene']}, {frame.attrs['stage']}, t = {1e3 * frame.attrs['time']:.4g} ms"
+        if axis is not None:
+            title += f", cut at {options.axis} = {1e3 * at:.4g} mm"
+
+    polygons = [1e3 * polygon for polygon in polygons]
+    corners = np.concatenate(polygons)
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    margin = 0.08 * (high - low).max()
+    extent = high - low + 2 * margin
+    figure, axes = plt.subplots(figsize=(8, float(np.clip(8 * extent[1] / extent[0], 2.8, 9)) + 0.4), layout="constrained")
+    blank = PolyCollection(polygons, array=values, cmap="turbo", edgecolors="face", linewidths=0.2, zorder=2)
+    if options.field == "plastic_strain":
+        blank.set_clim(0, max(values.max(), 1e-12))
+    axes.add_collection(blank)
+    axes.add_collection(LineCollection([1e3 * np.asarray(s) for s in segments], colors="0.25", linewidths=1.4, zorder=3))
+    for point, normal in planes:
+        along = np.array([-normal[1], normal[0]])
+        axes.axline(1e3 * point, 1e3 * point + along, color="0.25", linewidth=1.4, zorder=3)
+    axes.set_xlim(low[0] - margin, high[0] + margin)
+    axes.set_ylim(low[1] - margin, high[1] + margin)
+    axes.set_aspect("equal")
+    axes.set_xlabel(f"{names[0]} [mm]")
+    axes.set_ylabel(f"{names[1]} [mm]")
+    axes.set_title(title, fontsize=10)
+    figure.colorbar(blank, ax=axes, label=label, shrink=0.8)
+    output = options.output or os.path.join(os.path.dirname(options.result), "section.png")
+    figure.savefig(output, dpi=150)
+    print(output)
+
+
+main()

@@ -1,0 +1,106 @@
+// checkpoint.h5: what is saved is loaded; what is damaged is refused with a sentence.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "forming_sim/results/checkpoint.h"
+#include "forming_sim/results/version.h"
+#include "results/small_scene.h"
+
+namespace forming_sim {
+namespace {
+
+Checkpoint example_checkpoint() {
+  Checkpoint checkpoint;
+  checkpoint.version = package_version();
+  checkpoint.scene = write_scene(small_scene());
+  checkpoint.time = 1.25e-3;
+  checkpoint.step = 4711;
+  for (int i = 0; i < 3000000; ++i) checkpoint.state.push_back(static_cast<char>(i * 31 + i / 256));
+  RunRecord record;
+  record.thickness_min = 0.9e-3;
+  record.angle_formed_deg = -89.5;
+  record.surface_strain = {0.3, 12, Vec3(1, 2, 3), 1e-3};
+  record.stages.push_back({"form", "form", 1e-3, 1, 2, 3});
+  record.history_impulses = {Vec3(0, -1, 0)};
+  checkpoint.record = record.to_json();
+  return checkpoint;
+}
+
+void expect_refused(const std::string& path, const std::string& words) {
+  try {
+    load_checkpoint(path);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Code::resume_error);
+    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << error.what();
+  }
+}
+
+TEST(Checkpoint, IsLoadedAsSaved) {
+  const TemporaryDirectory directory;
+  const Checkpoint saved = example_checkpoint();
+  save_checkpoint(directory.file("checkpoint.h5"), saved);
+  const Checkpoint loaded = load_checkpoint(directory.file("checkpoint.h5"));
+  EXPECT_EQ(loaded.version, saved.version);
+  EXPECT_EQ(loaded.scene, saved.scene);
+  EXPECT_EQ(loaded.time, saved.time);
+  EXPECT_EQ(loaded.step, saved.step);
+  EXPECT_EQ(loaded.state, saved.state);
+  EXPECT_EQ(loaded.record, saved.record);
+  const RunRecord record = RunRecord::from_json(loaded.record);
+  EXPECT_EQ(record.thickness_min, 0.9e-3);
+  EXPECT_FALSE(record.thickness_initial);
+  EXPECT_EQ(record.angle_formed_deg, -89.5);
+  EXPECT_EQ(record.surface_strain.position, Vec3(1, 2, 3));
+  EXPECT_EQ(record.stages[0].kinetic_over_internal(), 0.2);
+  EXPECT_EQ(record.history_impulses[0], Vec3(0, -1, 0));
+  EXPECT_NO_THROW(require_same_run(loaded, small_scene(), "checkpoint.h5"));
+}
+
+TEST(Checkpoint, ThatIsMissingCutOffOrDamagedIsRefused) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("checkpoint.h5");
+  expect_refused(path, "does not exist");
+  save_checkpoint(path, example_checkpoint());
+  const std::string whole = read_text(path);
+  replace_file(path, whole.substr(0, whole.size() / 2));
+  expect_refused(path, "damaged");
+  std::string flipped = whole;
+  flipped[whole.size() / 2] ^= 1;  // one bit of the state
+  replace_file(path, flipped);
+  expect_refused(path, "damaged");
+  replace_file(path, "name: scene.yaml");
+  expect_refused(path, "damaged");
+}
+
+TEST(Checkpoint, OfAnotherVersionIsRefused) {
+  Checkpoint checkpoint = example_checkpoint();
+  checkpoint.version = "0.0.1";
+  try {
+    require_same_run(checkpoint, small_scene(), "checkpoint.h5");
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Code::resume_error);
+    EXPECT_EQ(std::string(error.what()), std::string("checkpoint.h5 was written by version 0.0.1, this is version ") +
+                                             package_version() + "; resume with the version that wrote it");
+  }
+}
+
+TEST(Checkpoint, StaysTheOldOneWhereTheNewOneCannotBeWritten) {
+  EXPECT_THROW(save_checkpoint("/nonexistent/checkpoint.h5", example_checkpoint()), Error);
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("checkpoint.h5");
+  save_checkpoint(path, example_checkpoint());
+  EXPECT_FALSE(std::ifstream(path + ".part").good());
+}
+
+TEST(RunRecord, RefusesWhatIsNotOne) {
+  EXPECT_THROW(RunRecord::from_json("{}"), Error);
+  EXPECT_THROW(RunRecord::from_json("not json"), Error);
+}
+
+}  // namespace
+}  // namespace forming_sim

@@ -1,0 +1,239 @@
+// A run from its scene to its files: what they hold, how it fails, how it resumes.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <csignal>
+#include <sstream>
+
+#include "forming_sim/results/estimate.h"
+#include "forming_sim/results/result_reader.h"
+#include "forming_sim/results/run_scene.h"
+#include "results/small_scene.h"
+
+namespace forming_sim {
+namespace {
+
+using nlohmann::json;
+
+const std::atomic<bool> kNever{false};
+
+/// Cancels the run after a number of steps.
+class CancelAfter : public Observer {
+ public:
+  CancelAfter(long steps) : steps_(steps) {}
+  void on_step(const Simulation& simulation) override { cancel = simulation.steps() >= steps_; }
+  std::atomic<bool> cancel{false};
+
+ private:
+  long steps_;
+};
+
+std::vector<std::vector<std::string>> read_csv(const std::string& path) {
+  std::istringstream text(read_text(path));
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(text, line);) {
+    EXPECT_EQ(line.back(), '\r');
+    line.pop_back();
+    rows.emplace_back();
+    std::istringstream cells(line + ",");
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+/// What takes wall-clock time or tells of the resume is not compared.
+json comparable(json summary) {
+  for (const char* key : {"wall_time_s", "ns_per_element_step", "resumed_at_s"}) summary.erase(key);
+  return summary;
+}
+
+void expect_same_frames(const std::string& path, const std::string& expected_path) {
+  const ResultReader file(path), expected(expected_path);
+  ASSERT_EQ(file.frames().size(), expected.frames().size());
+  for (std::size_t i = 0; i < file.frames().size(); ++i) {
+    const Frame a = file.frame(i), b = expected.frame(i);
+    EXPECT_EQ(a.time, b.time);
+    EXPECT_EQ(a.step, b.step);
+    EXPECT_EQ(a.stage, b.stage);
+    EXPECT_EQ(a.positions, b.positions);
+    EXPECT_EQ(a.velocities, b.velocities);
+    EXPECT_EQ(a.plastic_strain, b.plastic_strain);
+    EXPECT_EQ(a.stress, b.stress);
+    EXPECT_EQ(a.tools[0].force, b.tools[0].force);
+  }
+}
+
+TEST(RunScene, LeavesFilesThatAgreeWithEachOther) {
+  const TemporaryDirectory directory;
+  const Outcome outcome = run_scene(small_scene(), directory.path(), 1, "", kNever);
+  ASSERT_TRUE(outcome.code == Code::success || outcome.code == Code::limit_reached) << outcome.message;
+  const json summary = read_json(directory.file("summary.json"));
+  EXPECT_EQ(summary["status"]["code"], static_cast<int>(outcome.code));
+  EXPECT_EQ(summary["scene"], "small");
+  EXPECT_EQ(summary["elements"], 80);
+  EXPECT_EQ(summary["nodes"], 53);
+  EXPECT_LT(summary["energy_J"]["balance_error"].get<double>(), 0.02);
+  EXPECT_EQ(summary["contact"]["crossings"], 0);
+  EXPECT_GT(summary["plastic_strain"]["max"].get<double>(), 0);
+  EXPECT_EQ(summary["plastic_strain"]["where"]["body"], "strip");
+  EXPECT_NEAR(summary["thickness_m"]["initial"].get<double>(), 2e-3, 1e-12);
+  EXPECT_LT(summary["thickness_m"]["min"].get<double>(), 2e-3);
+  EXPECT_GT(summary["thickness_m"]["min"].get<double>(), 1.5e-3);
+  EXPECT_NEAR(summary["bodies"][0]["mass"].get<double>(), 2700 * 0.01 * 0.002, 1e-9);
+  ASSERT_EQ(summary["stages"].size(), 3u);
+  EXPECT_EQ(summary["stages"][1]["name"], "withdraw");
+  EXPECT_LT(summary["springback"]["angle_deg_formed"].get<double>(), -0.5);  // pressed down
+  EXPECT_NEAR(summary["springback"]["change_deg"].get<double>(),
+              summary["springback"]["angle_deg_released"].get<double>() - summary["springback"]["angle_deg_formed"].get<double>(), 1e-12);
+  const double peak = summary["tools"][0]["peak_force"][1].get<double>();
+  EXPECT_GT(peak, 0);  // the sheet pushes the punch up
+
+  const ResultReader result(directory.file("result.h5"));
+  const Frame last = result.frame(result.frames().size() - 1);
+  EXPECT_EQ(last.step, summary["steps"].get<long>());
+  EXPECT_EQ(result.frames().front().step, 0);
+  EXPECT_FALSE(result.frames().back().tools_present[0]);
+  EXPECT_FLOAT_EQ(*std::max_element(last.plastic_strain.begin(), last.plastic_strain.end()),
+                  summary["plastic_strain"]["max"].get<float>());
+  EXPECT_GE(result.frames().size(), 12u);
+
+  const auto history = read_csv(directory.file("history.csv"));
+  ASSERT_GE(history.size(), 100u);
+  for (const auto& row : history) ASSERT_EQ(row.size(), history[0].size());
+  const auto column = [&](const std::string& name) {
+    const auto place = std::find(history[0].begin(), history[0].end(), name);
+    EXPECT_NE(place, history[0].end()) << name;
+    return place - history[0].begin();
+  };
+  EXPECT_EQ(std::stol(history.back()[column("step")]), last.step);
+  EXPECT_EQ(std::stod(history.back()[column("kinetic_J_per_m")]), summary["energy_J"]["kinetic"].get<double>());
+  EXPECT_EQ(history.back()[column("stage")], "settle");
+  const double tip = std::stod(history.back()[column("probe_tip_position_y_m")]);
+  EXPECT_LT(tip, 1e-3);
+  double force = 0;
+  for (std::size_t i = 1; i < history.size(); ++i)
+    force = std::max(force, std::stod(history[i][column("tool_punch_force_y_N_per_m")]));
+  EXPECT_GT(force, 0.3 * peak);
+  column("probe_all_stress_zx_Pa");
+  column("min_gap_over_h0");
+}
+
+TEST(RunScene, WritesTheSameNumbersWithTwoThreads) {
+  const TemporaryDirectory one, two;
+  run_scene(small_scene(), one.path(), 1, "", kNever);
+  run_scene(small_scene(), two.path(), 2, "", kNever);
+  expect_same_frames(one.file("result.h5"), two.file("result.h5"));
+  EXPECT_EQ(read_text(one.file("history.csv")), read_text(two.file("history.csv")));
+}
+
+class Resume : public testing::Test {
+ protected:
+  void SetUp() override { run_scene(small_scene(), whole_.path(), 1, "", kNever); }
+  long steps() const { return read_json(whole_.file("summary.json"))["steps"]; }
+  TemporaryDirectory whole_;
+};
+
+TEST_F(Resume, AfterACancelGivesTheFilesOfAnUnbrokenRun) {
+  const json expected = read_json(whole_.file("summary.json"));
+  for (double part : {0.1, 0.5, 0.8, 0.97}) {
+    const TemporaryDirectory directory;
+    CancelAfter canceller(static_cast<long>(part * steps()));
+    const Outcome cancelled = run_scene(small_scene(), directory.path(), 1, "", canceller.cancel, {&canceller});
+    ASSERT_EQ(cancelled.code, Code::cancelled);
+    EXPECT_EQ(read_json(directory.file("summary.json"))["status"]["name"], name_of(Code::cancelled));
+    const ResultReader partial(directory.file("result.h5"));
+    EXPECT_TRUE(partial.frames().back().interrupted);
+
+    run_scene(small_scene(), directory.path(), 1, directory.file("checkpoint.h5"), kNever);
+    expect_same_frames(directory.file("result.h5"), whole_.file("result.h5"));
+    EXPECT_EQ(read_text(directory.file("history.csv")), read_text(whole_.file("history.csv")));
+    const json summary = read_json(directory.file("summary.json"));
+    EXPECT_EQ(comparable(summary), comparable(expected));
+    EXPECT_GT(summary["resumed_at_s"].get<double>(), 0);
+  }
+}
+
+TEST_F(Resume, FromTheLastIntervalGoesOnInTheSameDirectory) {
+  run_scene(small_scene(), whole_.path(), 1, whole_.file("checkpoint.h5"), kNever);
+  const TemporaryDirectory again;
+  run_scene(small_scene(), again.path(), 1, "", kNever);
+  expect_same_frames(whole_.file("result.h5"), again.file("result.h5"));
+  EXPECT_EQ(read_text(whole_.file("history.csv")), read_text(again.file("history.csv")));
+}
+
+TEST_F(Resume, IntoAnotherDirectoryBeginsThereAndSaysSo) {
+  const TemporaryDirectory directory;
+  run_scene(small_scene(), directory.path(), 1, whole_.file("checkpoint.h5"), kNever);
+  const json summary = read_json(directory.file("summary.json")), expected = read_json(whole_.file("summary.json"));
+  EXPECT_EQ(summary["steps"], expected["steps"]);
+  EXPECT_EQ(summary["bodies"], expected["bodies"]);
+  EXPECT_EQ(summary["warnings"].size(), expected["warnings"].size() + 2);
+  const ResultReader result(directory.file("result.h5")), whole(whole_.file("result.h5"));
+  EXPECT_GT(result.frames().front().step, 0);
+  EXPECT_EQ(result.frame(result.frames().size() - 1).positions, whole.frame(whole.frames().size() - 1).positions);
+}
+
+TEST_F(Resume, OfAnotherSceneIsRefusedWithTheDifference) {
+  Scene other = small_scene();
+  other.tools[0].friction = 0.25;
+  const TemporaryDirectory directory;
+  const Outcome outcome = run_scene(other, directory.path(), 1, whole_.file("checkpoint.h5"), kNever);
+  EXPECT_EQ(outcome.code, Code::resume_error);
+  EXPECT_NE(outcome.message.find("was written for another scene"), std::string::npos) << outcome.message;
+  EXPECT_NE(outcome.message.find("0.25"), std::string::npos) << outcome.message;
+  EXPECT_EQ(read_json(directory.file("summary.json"))["status"]["message"], outcome.message);
+}
+
+TEST(RunScene, ThatIsInvalidIsRefusedWithAllFaultsInTheSummary) {
+  const TemporaryDirectory directory;
+  Scene scene = small_scene();
+  scene.bodies[0].material.density = -1;
+  scene.output.probes[2].set = "nowhere";
+  EXPECT_THROW(run_scene(scene, directory.path(), 1, "", kNever), SceneError);
+  const json summary = read_json(directory.file("summary.json"));
+  EXPECT_EQ(summary["status"]["code"], static_cast<int>(Code::invalid_scene));
+  ASSERT_GE(summary["faults"].size(), 1u);
+  EXPECT_EQ(summary["faults"][0]["field"], "bodies[0].material.density");
+  EXPECT_FALSE(std::ifstream(directory.file("result.h5")).good());
+}
+
+TEST(RunScene, IntoADirectoryThatCannotBeMadeIsAnOutcome) {
+  const TemporaryDirectory directory;
+  std::ofstream(directory.file("occupied")) << "a file";
+  const Outcome outcome = run_scene(small_scene(), directory.file("occupied"), 1, "", kNever);
+  EXPECT_EQ(outcome.code, Code::output_error);
+  EXPECT_NE(outcome.message.find(directory.file("occupied")), std::string::npos) << outcome.message;
+}
+
+void run_on_a_small_disk(const std::string& directory) {
+  signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{60000, 60000};
+  setrlimit(RLIMIT_FSIZE, &limit);
+  const Outcome outcome = run_scene(small_scene(), directory, 1, "", kNever);
+  std::fprintf(stderr, "%s\n", outcome.message.c_str());
+  std::exit(outcome.code == Code::output_error ? 0 : 1);
+}
+
+TEST(RunSceneDeathTest, OnAFullDiskEndsWithASentence) {
+  const TemporaryDirectory directory;
+  EXPECT_EXIT(run_on_a_small_disk(directory.path()), testing::ExitedWithCode(0), "^cannot .*: File too large");
+  EXPECT_EQ(read_json(directory.file("summary.json"))["status"]["code"], static_cast<int>(Code::output_error));
+}
+
+TEST(EstimateRun, IsThatOfTheRunItself) {
+  const TemporaryDirectory directory;
+  run_scene(small_scene(), directory.path(), 1, "", kNever);
+  const json summary = read_json(directory.file("summary.json"));
+  const Estimate estimate = estimate_run(small_scene(), 1);
+  EXPECT_EQ(estimate.nodes, summary["nodes"].get<long>());
+  EXPECT_EQ(estimate.elements, summary["elements"].get<long>());
+  // The settle stage may end before its limit, and the step changes as the sheet deforms.
+  EXPECT_NEAR(estimate.time_step_s, summary["time_step_s"]["first"].get<double>(), 0.1 * estimate.time_step_s);
+  EXPECT_GT(estimate.steps, 0.8 * summary["steps"].get<double>());
+  EXPECT_GT(estimate.wall_time_s, 0);
+  EXPECT_GT(estimate.memory_bytes, 0);
+}
+
+}  // namespace
+}  // namespace forming_sim
