@@ -50,10 +50,12 @@ RunPublisher::RunPublisher(const ros::NodeHandle& node, const PublishOptions& op
 void RunPublisher::start(const RunShape& shape) {
   markers_ = RunMarkers(shape, options_.markers);
   next_ = {};
-  forces_.clear();
+  // A tool of the last run keeps its topic, and with it those who listen.
+  std::vector<ros::Publisher> forces;
   for (const ToolModel& tool : shape.tools) {
-    forces_.push_back(node_.advertise<geometry_msgs::WrenchStamped>("tool_forces/" + topic_name(tool.name), 10));
+    forces.push_back(node_.advertise<geometry_msgs::WrenchStamped>("tool_forces/" + topic_name(tool.name), 10, true));
   }
+  forces_ = std::move(forces);
   PlasticStrainTopology topology;
   topology.header.frame_id = options_.markers.frame;
   topology.header.stamp = ros::Time::now();
@@ -76,7 +78,7 @@ void RunPublisher::publish(const RunFrame& frame, RunStatus status, bool always)
     if (always || mesh_.getNumSubscribers() > 0) mesh_.publish(markers_.at(frame, stamp));
     publish_strain(frame, stamp);
   }
-  publish_forces(frame, stamp);
+  publish_forces(frame, stamp, always);
   publish(std::move(status));
 }
 
@@ -97,9 +99,9 @@ void RunPublisher::publish_strain(const RunFrame& frame, const ros::Time& stamp)
   strain_.publish(message);
 }
 
-void RunPublisher::publish_forces(const RunFrame& frame, const ros::Time& stamp) {
+void RunPublisher::publish_forces(const RunFrame& frame, const ros::Time& stamp, bool always) {
   for (std::size_t k = 0; k < forces_.size(); ++k) {
-    if (forces_[k].getNumSubscribers() == 0) continue;
+    if (!always && forces_[k].getNumSubscribers() == 0) continue;
     const ToolStatus& tool = frame.tools[k];
     if (!tool.force.allFinite() || !tool.moment.allFinite()) continue;
     geometry_msgs::WrenchStamped message;

@@ -1,5 +1,6 @@
 #include "forming_sim/ros/server.h"
 
+#include <chrono>
 #include <cstdlib>
 
 #include "forming_sim/ResultCode.h"
@@ -81,6 +82,13 @@ void FormingServer::stop() {
   if (worker_.joinable()) worker_.join();
 }
 
+void FormingServer::reject(Goal& goal, const SimulateFormingResult& result) {
+  // actionlib's SimpleActionClient in Python loses an answer that comes before its
+  // send_goal has returned, and then waits for ever.
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  goal.setRejected(result, result.message);
+}
+
 void FormingServer::on_goal(Goal goal) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -93,7 +101,7 @@ void FormingServer::on_goal(Goal goal) {
     }
   }
   const auto result = result_of(Code::busy, "another run is under way; send the goal again when it has ended, or cancel it");
-  goal.setRejected(result, result.message);
+  reject(goal, result);
 }
 
 void FormingServer::on_cancel(Goal goal) {
@@ -190,7 +198,7 @@ void FormingServer::finish(Goal& goal, const SimulateFormingResult& result, bool
   if (result.code == ResultCode::CANCELLED) {
     goal.setCanceled(result, result.message);
   } else if (!accepted) {
-    goal.setRejected(result, result.message);
+    reject(goal, result);
   } else if (result.code == ResultCode::SUCCESS) {
     goal.setSucceeded(result, result.message);
   } else {

@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -63,9 +64,14 @@ def executable(name):
 class ServiceTest(unittest.TestCase):
     def setUp(self):
         self.directory = tempfile.mkdtemp(prefix='forming_sim_')
+        self.addCleanup(shutil.rmtree, self.directory)
 
     def path(self, name):
         return os.path.join(self.directory, name)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(rospy.get_param('/forming_server/output_root'), ignore_errors=True)
 
     # ---- success
 

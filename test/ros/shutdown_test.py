@@ -2,6 +2,7 @@
 """A server that is stopped in the middle of a run ends, and leaves files that can be read."""
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -26,6 +27,7 @@ class ShutdownTest(unittest.TestCase):
     def start(self, name):
         """A server with a run under way: its process, its client, its directory."""
         directory = tempfile.mkdtemp(prefix='forming_sim_')
+        self.addCleanup(shutil.rmtree, directory, ignore_errors=True)
         server = subprocess.Popen([executable('forming_server'), '__name:=' + name])
         self.addCleanup(lambda: server.poll() is None and server.kill())
         client = actionlib.SimpleActionClient('/%s/simulate_forming' % name, SimulateFormingAction)

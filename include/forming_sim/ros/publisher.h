@@ -29,7 +29,8 @@ class RunPublisher {
   void start(const RunShape& shape);
   /// True once the time to publish again has come; costs a look at the clock.
   bool is_due() const { return std::chrono::steady_clock::now() >= next_; }
-  /// Sends what somebody listens to. `always`: also the latched markers.
+  /// Sends what somebody listens to; `always`: also to the latched topics that
+  /// nobody listens to yet.
   /// Messages are built only here; nothing waits for a subscriber.
   void publish(const RunFrame& frame, RunStatus status, bool always);
   /// Sends a status alone (latched).
@@ -37,7 +38,7 @@ class RunPublisher {
 
  private:
   void publish_strain(const RunFrame& frame, const ros::Time& stamp);
-  void publish_forces(const RunFrame& frame, const ros::Time& stamp);
+  void publish_forces(const RunFrame& frame, const ros::Time& stamp, bool always);
 
   ros::NodeHandle node_;
   PublishOptions options_;

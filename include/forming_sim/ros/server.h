@@ -45,6 +45,7 @@ class FormingServer {
   void work();
   void serve(Goal goal);
   SimulateFormingResult run(Goal& goal, bool& accepted);
+  static void reject(Goal& goal, const SimulateFormingResult& result);
   void finish(Goal& goal, const SimulateFormingResult& result, bool accepted);
 
   ros::NodeHandle node_;
