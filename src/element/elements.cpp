@@ -154,12 +154,13 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   }
 }
 
-/// Calls work(group, first, last) over chunks of blocks, in parallel.
+/// Calls work(group, first, last) over chunks of blocks, in parallel where each
+/// thread gets 512 packs or more: below that, waiting for each other costs more.
 template <class Work> void Elements::over_blocks(Work&& work) const {
   for (const Group& g : groups_) {
     const int per_chunk = std::max(1, 64 / (g.cell_simplices * kLanes / 8));
     const int chunks = (g.blocks + per_chunk - 1) / per_chunk;
-    const int threads = std::min(threads_, std::max(1, g.blocks * g.cell_simplices / 64));
+    const int threads = std::min(threads_, std::max(1, g.blocks * g.cell_simplices / 512));
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (int c = 0; c < chunks; ++c) work(g, c * per_chunk, std::min(g.blocks, (c + 1) * per_chunk));
   }
@@ -208,7 +209,7 @@ void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, i
   for (const Group& g : groups_) {
     std::vector<BlockStep> steps(g.blocks);
     const int chunks = (g.blocks + 15) / 16;
-#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1 && g.blocks > 64)
+#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1 && g.blocks * g.cell_simplices > 1024)
     for (int c = 0; c < chunks; ++c)
       kernels_.time_step(g, view, c * 16, std::min(g.blocks, (c + 1) * 16), steps.data());
     for (int b = 0; b < g.blocks; ++b)
