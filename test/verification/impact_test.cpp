@@ -38,7 +38,7 @@ Impact hit_wall(int cells, double safety) {
   run.model.tools.push_back(wall);
   auto sim = run.start();
   const double start = 1e-3 / v;
-  double early = 0, late = 0, first = 0, last = 0, before = 0;
+  double early = 0, late = 0, t_early = 0, t_late = 0, first = 0, last = 0, before = 0;
   while (sim->step()) {
     const double t = sim->time() - start, impulse = -sim->tools()[0].impulse[0];
     if (impulse > before) {
@@ -46,11 +46,11 @@ Impact hit_wall(int cells, double safety) {
       last = sim->time();
     }
     before = impulse;
-    if (t < 0.3e-3) early = impulse;
-    if (t < 1.0e-3) late = impulse;
+    if (t < 0.3e-3) early = impulse, t_early = t;
+    if (t < 1.0e-3) late = impulse, t_late = t;
   }
   const double momentum = 2 * rho * L * height * v;  // for restitution 1
-  return {(late - early) / 0.7e-3 / height, last - first, sim->tools()[0].impulse.norm() / momentum * 2 - 1,
+  return {(late - early) / (t_late - t_early) / height, last - first, sim->tools()[0].impulse.norm() / momentum * 2 - 1,
           sim->balance_error(), sim->contact_status().crossings};
 }
 
