@@ -35,13 +35,17 @@ void RunMarkers::add_legend(const RunFrame& frame, const ros::Time& stamp,
     array.markers.push_back(m);
   };
   const double range = options_.colour_max > 0 ? options_.colour_max : range_;
+  // One line a marker: rviz spaces the lines of one marker for texts of a metre.
   char text[160];
-  write(1, foot + (height + 3.2 * text_height) * up, "equivalent\nplastic strain");
+  write(1, foot + (height + 2.6 * text_height) * up, "plastic strain");
   write(2, foot - 1.0 * text_height * up, "0");
   std::snprintf(text, sizeof text, "%.3g", range);
   write(3, foot + (height + 1.0 * text_height) * up, text);
-  std::snprintf(text, sizeof text, "%s\nt = %.3f ms\nstep %ld", frame.stage.c_str(), 1e3 * frame.time, frame.step);
-  write(4, foot - 4.0 * text_height * up, text);
+  write(4, foot - 3.0 * text_height * up, frame.stage);
+  std::snprintf(text, sizeof text, "t = %.3f ms", 1e3 * frame.time);
+  write(5, foot - 4.4 * text_height * up, text);
+  std::snprintf(text, sizeof text, "step %ld", frame.step);
+  write(6, foot - 5.8 * text_height * up, text);
 }
 
 }  // namespace forming_sim

@@ -1,7 +1,7 @@
 #pragma once
 // A run as rviz markers: the sheet coloured by plastic strain, tools, a legend.
 // Namespaces and ids are fixed: sheet 0; tools k, tool_edges k for tool k;
-// legend 0 to 4.
+// legend 0 to 6.
 #include <string>
 #include <vector>
 
