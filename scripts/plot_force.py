@@ -79,7 +79,7 @@ def main():
     for colour, stage in zip(colours, names):
         rows = np.flatnonzero(stages == stage)
         rows = np.arange(max(rows[0] - 1, 0), rows[-1] + 1)  # join the line to the stage before
-        if np.ptp(stroke[rows]) > 0 or np.any(force[rows] != 0):
+        if np.ptp(stroke[rows]) > 0.01 * np.ptp(stroke):  # a stage in which the tool moves this way
             axes.plot(stroke[rows], force[rows], color=colour, linewidth=1.6, label=stage)
     peak = int(np.argmax(force))
     unit = "N/mm" if plane_strain else "kN"
@@ -87,7 +87,7 @@ def main():
               label=f"peak {force[peak]:.4g} {unit} at {stroke[peak]:.3g} mm")
     axes.axhline(0, color="0.6", linewidth=0.8)
     axes.set_xlabel(f"stroke of {name} along {AXES[axis]} [mm]")
-    axes.set_ylabel(f"force on {name} [{unit}]" + (" of width" if plane_strain else ""))
+    axes.set_ylabel(f"force on {name}" + (" per width" if plane_strain else "") + f" [{unit}]")
     axes.grid(alpha=0.3)
     axes.legend(frameon=False)
     output = options.output or os.path.join(os.path.dirname(options.history), "force.png")

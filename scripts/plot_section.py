@@ -2,7 +2,7 @@
 """Draws a field over the deformed section of a run, with the tools, from its result.h5.
 
 In plane strain the section is the model; in 3D it is a cut normal to y, half way
-along the blank's width.
+along the blank's width. Tools that have left are drawn pale where they last stood.
 """
 import argparse
 import os
@@ -48,23 +48,32 @@ def cut(points, simplices, axis, at):
     return polygons, crossed
 
 
+def last_pose(result, frame, index):
+    """Where a tool stands in a frame; one that has left: where it last stood."""
+    time = frame.attrs["time"]
+    poses = [f["tools"][index] for f in result["frames"].values() if f.attrs["time"] <= time]
+    there = [pose for pose in poses if pose.attrs["present"]]
+    return (there or poses)[-1]
+
+
 def tool_lines(result, frame, axis, at):
-    """(segments of the tools with a surface, (point, normal) of the rigid planes)."""
-    segments, planes = [], []
+    """(segments of the tools with a surface that are there, of those that have left,
+    (point, normal) of the rigid planes)."""
+    segments, left, planes = [], [], []
     for index in sorted(result["tools"], key=int):
-        shape, pose = result["tools"][index], frame["tools"][index]
-        if not pose.attrs["present"]:
-            continue
+        shape, pose = result["tools"][index], last_pose(result, frame, index)
+        present = frame["tools"][index].attrs["present"]
         if "facets" in shape:
             points, facets = pose["points"][:], shape["facets"][:]
-            segments += list(points[facets][:, :, :2]) if axis is None else cut(points, facets, axis, at)[0]
+            lines = list(points[facets][:, :, :2]) if axis is None else cut(points, facets, axis, at)[0]
+            (segments if present else left).extend(lines)
         else:
             point = pose["position"][:] + pose["rotation"][:] @ shape["plane_point"][:]
             normal = pose["rotation"][:] @ shape["plane_normal"][:]
             kept = [0, 1] if axis is None else [i for i in range(3) if i != axis]
             if np.linalg.norm(normal[kept]) > 0.5:
                 planes.append((point[kept], normal[kept]))
-    return segments, planes
+    return segments, left, planes
 
 
 def main():
@@ -95,7 +104,7 @@ def main():
             values = values[crossed]
             if not polygons:
                 sys.exit(f"--at: given {at}; the blank lies between {low:.6g} and {high:.6g} m")
-        segments, planes = tool_lines(result, frame, axis, at)
+        segments, left, planes = tool_lines(result, frame, axis, at)
         title = f"{result.attrs['scene']}, {frame.attrs['stage']}, t = {1e3 * frame.attrs['time']:.4g} ms"
         if axis is not None:
             title += f", cut at {options.axis} = {1e3 * at:.4g} mm"
@@ -111,6 +120,10 @@ def main():
         blank.set_clim(0, max(values.max(), 1e-12))
     axes.add_collection(blank)
     axes.add_collection(LineCollection([1e3 * np.asarray(s) for s in segments], colors="0.25", linewidths=1.4, zorder=3))
+    if left:
+        axes.add_collection(LineCollection([1e3 * np.asarray(s) for s in left], colors="0.7", linewidths=1.0, zorder=1))
+        axes.plot([], [], color="0.7", linewidth=1.0, label="tools that have left")
+        axes.legend(frameon=False, loc="best", fontsize=9)
     for point, normal in planes:
         along = np.array([-normal[1], normal[0]])
         axes.axline(1e3 * point, 1e3 * point + along, color="0.25", linewidth=1.4, zorder=3)
@@ -122,7 +135,7 @@ def main():
     axes.set_title(title, fontsize=10)
     figure.colorbar(blank, ax=axes, label=label, shrink=0.8)
     output = options.output or os.path.join(os.path.dirname(options.result), "section.png")
-    figure.savefig(output, dpi=150)
+    figure.savefig(output, dpi=150, bbox_inches="tight")
     print(output)
 
 

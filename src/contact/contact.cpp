@@ -47,6 +47,7 @@ struct Contact::Impl {
   // ---- scratch
   NodeField v_star, place;
   Narrow near;
+  std::vector<double> moved;
   std::vector<LayerRecord> next_records;
 
   template <class Each> void each_body_vertex(Each&& each) const {
@@ -171,7 +172,9 @@ struct Contact::Impl {
   int surface_of_first(const ContactPair& pair) const { return features.vertex_surface[work.vertex[pair.node[0]]]; }
 
   // The first close pair that touches on the way, -1: none.
-  int first_touch(double dt) const {
+  int first_touch(double dt) {
+    moved.resize(work.v.size());
+    for (size_t i = 0; i < moved.size(); ++i) moved[i] = dt * std::sqrt(dot3(work.v[i], work.v[i]));
     Node x[4], d[4];
     for (size_t c = 0; c < near.close.size(); ++c) {
       const ClosePair& close = near.close[c];
@@ -188,12 +191,12 @@ struct Contact::Impl {
         split = 2;
       }
       double most[2] = {0, 0};
+      for (int k = 0; k < count; ++k) most[k >= split] = std::max(most[k >= split], moved[n[k]]);
+      if (most[0] + most[1] < 0.999 * close.distance) continue;
       for (int k = 0; k < count; ++k) {
         d[k] = dt * work.v[n[k]];
-        most[k >= split] = std::max(most[k >= split], dot3(d[k], d[k]));
+        x[k] = work.x[n[k]];
       }
-      if (std::sqrt(most[0]) + std::sqrt(most[1]) < 0.999 * close.distance) continue;
-      for (int k = 0; k < count; ++k) x[k] = work.x[n[k]];
       const double least = 1e-3 * std::min(close.distance, layer);
       if (close.group >= 0 ? point_meets_facet(features.corners(), x, d, least) : edges_meet(x, d, least)) return static_cast<int>(c);
     }
@@ -364,15 +367,15 @@ ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v,
     }
   }
   const PairWork done = work_of(m.work, m.near.pairs);
-  double end = 0;
-  for (const ContactPair& pair : m.near.pairs) end += mild_potential(pair.end_gap, pair.layer, pair.stiffness);
-  step.soft_start_work = relax_layers(m.push_speed * dt, m.near.pairs, m.next_records, step.potential);
+  const RelaxedPotential end = relax_layers(m.push_speed * dt, m.near.pairs, m.next_records);
+  step.soft_start_work = end.after - end.before;
+  step.potential = end.after;
   m.records.swap(m.next_records);
   step.tool_work = done.tool;
   step.held_work = done.held;
   step.friction_work = done.friction;
   // Potential that comes or goes with the change of features counts as dissipation, of either sign.
-  step.dissipated = -done.normal - (end - start) - (start - m.potential);
+  step.dissipated = -done.normal - (end.before - start) - (start - m.potential);
   m.potential = step.potential;
   return step;
 }

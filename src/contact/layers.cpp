@@ -56,19 +56,17 @@ void assign_layers(const std::vector<LayerRecord>& before, const Workspace& work
   }
 }
 
-double relax_layers(double growth, std::vector<ContactPair>& pairs, std::vector<LayerRecord>& after, double& potential) {
+RelaxedPotential relax_layers(double growth, std::vector<ContactPair>& pairs, std::vector<LayerRecord>& after) {
   after.clear();
-  double work = 0;
-  potential = 0;
+  RelaxedPotential potential;
   for (ContactPair& pair : pairs) {
-    const double old = pair.layer;
+    const double old = pair.layer, before = mild_potential(pair.end_gap, old, pair.stiffness);
     pair.layer = old < pair.base ? std::min(pair.base, old + growth) : std::max(pair.base, old - growth);
-    const double now = mild_potential(pair.end_gap, pair.layer, pair.stiffness);
-    if (pair.layer != old) work += now - mild_potential(pair.end_gap, old, pair.stiffness);
-    potential += now;
+    potential.before += before;
+    potential.after += pair.layer == old ? before : mild_potential(pair.end_gap, pair.layer, pair.stiffness);
     if (pair.end_gap < std::max(pair.layer, pair.base)) after.push_back({pair.key, pair.surface, pair.layer, pair.end_gap});
   }
-  return work;
+  return potential;
 }
 
 }  // namespace forming_sim

@@ -43,8 +43,7 @@ class Start {
         const Node& third = at(c[f_.corners() - 1]);
         const Closest q = f_.dimension == 2 ? closest_on_segment_facet(p, at(c[0]), at(c[1])) : closest_on_triangle(p, at(c[0]), at(c[1]), third);
         if (q.squared > best * (1 + 1e-9)) continue;
-        Node d = p;
-        for (int k = 0; k < f_.corners(); ++k) d -= q.weight[k] * at(c[k]);
+        const Node& d = q.apart;
         const int side = f_.rigid(c[0]) ? sides_[facet] : f_.facet_outward[facet];
         const Node n = side * facet_normal(f_.dimension, at(c[0]), at(c[1]), third);
         const double distance = std::sqrt(q.squared), along = dot3(d, n);

@@ -66,8 +66,11 @@ std::vector<int> agree(const Features& f, int surface, const Parts& parts, std::
   return sign;
 }
 
-// On which side of each part the body nodes `points` (in the tool's frame) are: +1, -1, 0 both.
-std::vector<int> vote(const Features& f, int surface, const Parts& parts, const std::vector<int>& sign, const NodeField& points) {
+// On which side of each part the body nodes `points` (in the tool's frame) are:
+// +1, -1, 0 both. Nodes on the surface do not know their side, and those that
+// overlap a little are mistaken: nearer than `least` they are not asked.
+std::vector<int> vote(const Features& f, int surface, const Parts& parts, const std::vector<int>& sign, const NodeField& points,
+                      double least) {
   const auto& s = f.surfaces[surface];
   const size_t count = parts.closed.size();
   std::vector<bool> border(f.vertex_count, false);
@@ -94,17 +97,18 @@ std::vector<int> vote(const Features& f, int surface, const Parts& parts, const 
       const Closest q = f.dimension == 2 ? closest_on_segment_facet(p, at(c[0]), at(c[1])) : closest_on_triangle(p, at(c[0]), at(c[1]), third);
       Nearest& best = nearest[parts.of_facet[i - s.first_facet]];
       if (q.squared > best.squared * (1 + 1e-9)) continue;
-      Node d = p;
+      const Node& d = q.apart;
       bool on_border = q.feature != Closest::face;
-      for (int k = 0; k < f.corners(); ++k) {
-        d -= q.weight[k] * at(c[k]);
+      for (int k = 0; k < f.corners(); ++k)
         if (q.weight[k] > 0 && !border[c[k]]) on_border = false;
-      }
       // Of facets equally near, the one that faces the point most squarely knows its side.
       const double slope = dot3(d, facet_normal(f.dimension, at(c[0]), at(c[1]), third)) * sign[i - s.first_facet];
       if (q.squared < best.squared * (1 - 1e-9) || std::abs(slope) > best.slope)
         best = {std::min(q.squared, best.squared), std::abs(slope), slope > 0 ? 1 : -1, on_border};
     }
+    double any = 1e300;
+    for (const Nearest& n : nearest) any = std::min(any, n.squared);
+    if (any <= least * least) continue;
     for (size_t k = 0; k < count; ++k)
       if (nearest[k].side != 0) ++votes[k][(nearest[k].border ? 2 : 0) + (nearest[k].side > 0 ? 1 : 0)];
   }
@@ -163,25 +167,13 @@ std::vector<int> find_sides(double layer, const Features& f, const NodeField& x,
     const Parts parts = find_parts(f, surface);
     std::vector<bool> torn;
     const std::vector<int> sign = agree(f, surface, parts, torn);
-    const size_t samples = std::max(50.0, std::min(2000.0, 2e7 / facets));
+    const size_t samples = std::max(50.0, std::min(2000.0, 4e6 / facets));
     const size_t stride = std::max<size_t>(1, vertices.size() / samples);
     NodeField points;
     for (size_t i = 0; i < vertices.size(); i += stride)
       points.push_back(node(at_start[t].rotation0.transpose() * (vec3(x[vertices[i]]) - at_start[t].position0)));
-    // Nodes on the surface do not know their side, and those that overlap a little are mistaken.
-    NodeField inner;
     const double least = std::max(3 * layer, 0.02 * f.smallest_edge);
-    for (const Node& p : points) {
-      bool clear = true;
-      for (int i = s.first_facet; i < s.last_facet && clear; ++i) {
-        const auto& c = f.facets[i];
-        const auto at = [&](int k) -> const Node& { return f.place[c[k] - f.body_nodes]; };
-        const double squared = f.dimension == 2 ? closest_on_segment_facet(p, at(0), at(1)).squared : closest_on_triangle(p, at(0), at(1), at(2)).squared;
-        clear = squared > least * least;
-      }
-      if (clear) inner.push_back(p);
-    }
-    const std::vector<int> side = vote(f, surface, parts, sign, inner);
+    const std::vector<int> side = vote(f, surface, parts, sign, points, least);
     for (int i = 0; i < facets; ++i) {
       const int part = parts.of_facet[i];
       sides[s.first_facet + i] = torn[part] ? 0 : sign[i] * side[part];

@@ -37,7 +37,7 @@ void set_storage(hid_t list, const std::vector<std::uint64_t>& shape, std::size_
 Hdf5Handle text_type(std::size_t length) {
   Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type.id(), std::max<std::size_t>(length, 1));
-  H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
+  H5Tset_strpad(type.id(), length == H5T_VARIABLE ? H5T_STR_NULLTERM : H5T_STR_NULLPAD);
   H5Tset_cset(type.id(), H5T_CSET_UTF8);
   return type;
 }
@@ -55,9 +55,10 @@ bool put_attribute(hid_t object, const std::string& name, hid_t type, const void
   return attribute.valid() && H5Awrite(attribute.id(), type, value) >= 0;
 }
 
+/// Of variable length: what h5py shows as str.
 bool put_attribute(hid_t object, const std::string& name, const std::string& value) {
-  const std::string text = value.empty() ? std::string(1, '\0') : value;
-  return put_attribute(object, name, text_type(value.size()).id(), text.data());
+  const char* text = value.c_str();
+  return put_attribute(object, name, text_type(H5T_VARIABLE).id(), &text);
 }
 
 bool get_attribute(hid_t object, const std::string& name, hid_t type, void* value) {
@@ -158,10 +159,12 @@ void Hdf5Group::set(const std::string& attribute, std::int64_t value) {
 std::string Hdf5Group::text(const std::string& attribute) const {
   const Hdf5Handle handle(H5Aopen(handle_.id(), attribute.c_str(), H5P_DEFAULT), H5Aclose);
   if (!handle.valid()) fail("read attribute", attribute);
-  const Hdf5Handle type(H5Aget_type(handle.id()), H5Tclose);
-  std::string value(H5Tget_size(type.id()), '\0');
-  if (H5Aread(handle.id(), type.id(), value.data()) < 0) fail("read attribute", attribute);
-  return without_padding(value);
+  const Hdf5Handle type = text_type(H5T_VARIABLE);
+  char* value = nullptr;
+  if (H5Aread(handle.id(), type.id(), &value) < 0) fail("read attribute", attribute);
+  const std::string text = value ? value : "";
+  H5free_memory(value);
+  return text;
 }
 double Hdf5Group::number(const std::string& attribute) const {
   double value = 0;

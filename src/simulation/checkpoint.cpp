@@ -17,6 +17,10 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.number(smallest.element);
   a.text(smallest.reason);
   a.raw(settle);
+  f_before.resize(x.size(), Node::Zero());
+  a.numbers(f_before.data()->data(), f_before.size() * 4);
+  a.number(f_before_step);
+  a.number(rests);
   a.number(settled);
   for (ToolStatus& tool : tools)
     for (Vec3* value : {&tool.force, &tool.moment, &tool.impulse, &tool.peak_force}) a.numbers(value->data(), 3);

@@ -39,6 +39,9 @@ struct Simulation::Impl {
   StepLimit limit, smallest;
   double first_dt = 0;
   Settle settle;
+  NodeField f_before;               ///< forces of the step before an estimate of the settling frequency
+  long f_before_step = -2;
+  bool rests = false;               ///< a settling body has come to rest
   bool settled = true;              ///< false once a settle stage has run into its limit
   double wall = 0;
 
@@ -71,12 +74,15 @@ struct Simulation::Impl {
   /// Work of prescribed motion, pressure, gravity and damping over the kick.
   void book_loads(const NodeField& external);
   double kinetic() const;
+  /// Mass-proportional damping now, 1/s.
+  double damping_rate() const;
+  /// Settling: estimates the frequency and sees whether the body rests; f is complete.
+  void watch_settling();
 
   // simulation.cpp
   void begin_stage();
   /// True when the running stage has come to its end.
   bool stage_over();
-  void stop_motion();
   void check_crossings();
 
   // checkpoint.cpp

@@ -1,39 +1,45 @@
 #pragma once
-// Kinetic damping: a body released from its tools swings towards equilibrium;
-// each time its kinetic energy has passed a peak it stands near a minimum of the
-// potential energy, and all velocities are set to zero there. It rests when the
-// kinetic energy has stayed below a fraction of the elastic energy for a while
-// that is long against the slowest swing seen.
+// How a body that its tools have left comes to rest: adaptive dynamic relaxation.
+//
+// Mass-proportional damping alpha = 2 omega is critical for the mode of frequency
+// omega, and every mode then dies out at least as exp(-omega t). omega is taken
+// from the motion itself by the Rayleigh quotient of the last step,
+//   omega^2 = - v . (f_n - f_(n-1)) / (dt v . M v),
+// so that fast modes are damped first and the slowest swing decides in the end.
+//
+// The body rests when its kinetic energy and the energy that the forces out of
+// balance could still set free, f . M^-1 f / (2 omega^2), have both stayed below a
+// fraction of the elastic energy for a while.
+#include <algorithm>
+#include <cmath>
+
 namespace forming_sim {
 
 class Settle {
  public:
-  Settle() = default;
-  /// shortest: s, a lower bound of the slowest swing (size^2 / (thickness wave speed)).
-  Settle(double start, double shortest, double fraction, double elastic)
-      : shortest_(shortest), fraction_(fraction), elastic_(elastic), last_stop_(start), quiet_since_(start) {}
+  static constexpr int kInterval = 10;  ///< steps between two estimates of omega
 
-  struct Verdict { bool stop_motion, at_rest; };
-  /// After each step: time and kinetic energy. stop_motion: set the velocities to zero.
-  Verdict observe(double t, double kinetic) {
-    if (kinetic > fraction_ * elastic_) quiet_since_ = t;
-    Verdict verdict{false, false};
-    if (kinetic < previous_ && t - last_stop_ > 0.05 * shortest_) {
-      verdict.stop_motion = true;
-      longest_swing_ = longest_swing_ > t - last_stop_ ? longest_swing_ : t - last_stop_;
-      last_stop_ = t;
-      previous_ = 0;
-    } else {
-      previous_ = kinetic;
-    }
-    const double window = 2 * longest_swing_ > shortest_ ? 2 * longest_swing_ : shortest_;
-    verdict.at_rest = t - quiet_since_ > window;
-    return verdict;
+  Settle() = default;
+  /// shortest: s, time for which the body must be quiet (size^2 / (thickness wave
+  /// speed), about the slowest swing of a strip).
+  Settle(double start, double shortest, double fraction) : shortest_(shortest), fraction_(fraction), quiet_since_(start) {}
+
+  /// v . (f_n - f_(n-1)) and v . M v of the free motion over a step dt.
+  void estimate(double v_df, double v_Mv, double dt) {
+    if (v_Mv > 0 && v_df < 0) omega_ = std::min(std::sqrt(-v_df / (dt * v_Mv)), 0.5 / dt);
+  }
+  /// alpha, 1/s.
+  double damping() const { return 2 * omega_; }
+
+  /// At the same steps: f_Mf = f . M^-1 f, energies in J. True when the body rests.
+  bool at_rest(double t, double f_Mf, double kinetic, double elastic) {
+    const double releasable = omega_ > 0 ? 0.5 * f_Mf / (omega_ * omega_) : 0;
+    if (omega_ == 0 || kinetic + releasable > fraction_ * elastic) quiet_since_ = t;
+    return t - quiet_since_ > shortest_;
   }
 
  private:
-  double shortest_ = 0, fraction_ = 0, elastic_ = 0;
-  double last_stop_ = 0, quiet_since_ = 0, previous_ = 0, longest_swing_ = 0;
+  double shortest_ = 0, fraction_ = 0, quiet_since_ = 0, omega_ = 0;
 };
 
 }  // namespace forming_sim

@@ -15,6 +15,7 @@ constexpr int kCrossingChecks = 200;  ///< independent crossing checks over a ru
 }
 
 void Simulation::Impl::begin_stage() {
+  rests = false;
   if (!stages.settling()) return;
   double size = 0, thin = 1e300, speed = 1e300;
   for (const BodyModel& body : model.bodies) {
@@ -24,34 +25,15 @@ void Simulation::Impl::begin_stage() {
     thin = std::min(thin, thickness_of(body));
     speed = std::min(speed, std::sqrt(body.material.youngs_modulus / body.material.density / plan.time_step.mass_scaling));
   }
-  const double elastic = elements.observe(x).stored_energy;
-  settle = Settle(time, size * size / (thin * speed), stages.stage().kinetic_fraction, elastic);
+  settle = Settle(time, size * size / (thin * speed), stages.stage().kinetic_fraction);
 }
 
 bool Simulation::Impl::stage_over() {
-  if (stages.settling()) {
-    const double energy = kinetic();
-    const Settle::Verdict verdict = settle.observe(time, energy);
-    if (verdict.stop_motion) stop_motion();
-    if (verdict.at_rest) return true;
-    if (stages.remaining(time) <= 0) {
-      settled = false;
-      return true;
-    }
-    return false;
-  }
-  return stages.remaining(time) <= 1e-12 * (time + stages.stage().duration);
-}
-
-/// Sets all velocities to zero at time n. The kick that follows is a half one, as
-/// at the start of a run: a full kick would feed the highest modes at every stop.
-void Simulation::Impl::stop_motion() {
-  NodeField half = x;
-  for (std::size_t i = 0; i < half.size(); ++i) half[i] -= 0.5 * dt * v[i];
-  damping += kinetic() + elements.observe(half).stored_energy - elements.observe(x).stored_energy;
-  std::fill(v.begin(), v.end(), Node::Zero());
-  boundaries.apply_velocity(time, v);
-  previous_dt = 0;
+  if (!stages.settling()) return stages.remaining(time) <= 1e-12 * (time + stages.stage().duration);
+  if (rests) return true;
+  if (stages.remaining(time) > 0) return false;
+  settled = false;
+  return true;
 }
 
 void Simulation::Impl::check_crossings() {

@@ -31,7 +31,7 @@ void Simulation::Impl::choose_dt() {
 
 void Simulation::Impl::predict(double step_dt, NodeField& v_star) const {
   const double kick = 0.5 * (previous_dt + step_dt);
-  const double a = 0.5 * plan.time_step.damping * kick;
+  const double a = 0.5 * damping_rate() * kick;
   const std::vector<double>& mass = elements.nodal_mass();
   const int nodes = static_cast<int>(v.size());
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1 && nodes > 4000)
@@ -51,6 +51,7 @@ void Simulation::Impl::take_step() {
     if (!plan.gravity.isZero()) add_gravity(plan.gravity, physical_mass, external);
     for (std::size_t i = 0; i < f.size(); ++i) f[i] += external[i];
   }
+  if (stages.settling()) watch_settling();
   if (contact) {
     const ContactStep done = contact->advance(
         time, dt, x, v, [&](double step_dt, NodeField& v_star) { predict(step_dt, v_star); },
@@ -92,7 +93,7 @@ void Simulation::Impl::book(const ContactStep& done) {
 }
 
 void Simulation::Impl::book_loads(const NodeField& external) {
-  const double kick = 0.5 * (previous_dt + dt), alpha = plan.time_step.damping;
+  const double kick = 0.5 * (previous_dt + dt), alpha = damping_rate();
   const std::vector<double>& mass = elements.nodal_mass();
   for (std::size_t i = 0; i < external.size(); ++i) work += 0.5 * kick * external[i].dot(v_before[i] + v[i]);
   if (alpha > 0) {
@@ -113,6 +114,28 @@ double Simulation::Impl::kinetic() const {
   const std::vector<double>& mass = elements.nodal_mass();
   for (std::size_t i = 0; i < v.size(); ++i) sum += 0.5 * mass[i] * v[i].squaredNorm();
   return sum;
+}
+
+double Simulation::Impl::damping_rate() const {
+  return plan.time_step.damping + (stages.settling() ? settle.damping() : 0);
+}
+
+void Simulation::Impl::watch_settling() {
+  const long phase = steps % Settle::kInterval;
+  if (phase == Settle::kInterval - 1) f_before = f, f_before_step = steps;
+  if (phase != 0 || f_before_step != steps - 1) return;
+  const std::vector<double>& mass = elements.nodal_mass();
+  NodeField out_of_balance = f;
+  boundaries.project_force(out_of_balance);
+  double v_df = 0, v_Mv = 0, f_Mf = 0;
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    v_df += v[i].dot(f[i] - f_before[i]);
+    v_Mv += mass[i] * v[i].squaredNorm();
+    f_Mf += out_of_balance[i].squaredNorm() / mass[i];
+  }
+  settle.estimate(v_df, v_Mv, previous_dt);
+  if (steps % (10 * Settle::kInterval) == 0)
+    rests = settle.at_rest(time, f_Mf, 0.5 * v_Mv, elements.observe(x).stored_energy);
 }
 
 }  // namespace forming_sim

@@ -22,8 +22,6 @@ bodies:
       youngs_modulus: 70e9
       poissons_ratio: 0.33
       hardening: {curve: perfect, yield_stress: 50e6}
-    sets:
-      - {name: left, choose: plane, normal: [1, 0, 0]}
     boundaries:
       - {set: left, kind: fixed}
 tools:

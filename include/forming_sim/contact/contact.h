@@ -2,6 +2,11 @@
 // The mild contact of deformable bodies with rigid moving tools: what the time
 // loop sees of it. The loop predicts, contact corrects the velocities so that
 // no pair of features ends the step closer than zero, and moves the nodes.
+//
+// Law of a pair: f = E A h0 (1/h - 1/h0) for a gap h < h0 (contact/law.h), taken
+// at the end of the step. A is the area that the body's node stands for, or the
+// mean over the nodes of the body's edge or facet; E, A and h0 are fixed at
+// set-up, weights and normals are those of the start of the step.
 #include <functional>
 #include <memory>
 #include <string>

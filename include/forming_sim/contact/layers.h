@@ -24,9 +24,13 @@ struct LayerRecord {
 void assign_layers(const std::vector<LayerRecord>& before, const Workspace& work, double dt, double full, double ceiling,
                    std::vector<ContactPair>& pairs);
 
+/// Potential of all pairs at their end gaps, J, before and after relax_layers;
+/// the difference is the work of the layers' growth.
+struct RelaxedPotential {
+  double before = 0, after = 0;
+};
 /// Lets each layer grow (or shrink) to its base by at most `growth`, and keeps
-/// the pairs inside. Returns the work that takes at fixed gaps, J; adds up the
-/// potential that remains.
-double relax_layers(double growth, std::vector<ContactPair>& pairs, std::vector<LayerRecord>& after, double& potential);
+/// the pairs inside.
+RelaxedPotential relax_layers(double growth, std::vector<ContactPair>& pairs, std::vector<LayerRecord>& after);
 
 }  // namespace forming_sim

@@ -7,7 +7,7 @@
 //   /topology/surface       m x 2|3 int32, boundary facets, normal outwards
 //   /topology/surface_element  m int32, the element of each facet
 //   /topology/initial_positions  nodes x 3, m (z = 0 in plane strain)
-//   /bodies/<index>         attribute name; sets/<name>: node numbers, int32
+//   /bodies/<index>         attribute name; sets/<index>: attribute name, nodes, int32
 //   /tools/<index>          attribute name; points (m), facets, or plane_point and plane_normal
 //   /frames/NNNNNN          attributes time, step, stage, interrupted; positions, velocities, plastic_strain,
 //                           stress (xx yy zz xy yz zx), mises, volume_ratio, surface_strain;

@@ -38,11 +38,11 @@ struct StageConfig {
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(name), Field().computed("the kind").doc("name of the stage in feedback and files"));
     visit(FORMING_SIM_FIELD(kind), Field().required().choices({"form", "withdraw", "settle"})
-          .doc("form: run for a duration; withdraw: the tools move away from where they stand, then they are gone; settle: kinetic damping until the body rests"));
+          .doc("form: run for a duration; withdraw: the tools move away from where they stand, then they are gone; settle: damping adapted to the body's own slowest swing until it rests"));
     visit(FORMING_SIM_FIELD(duration), Field().unit("s").above(0).required().when("kind", {"form", "withdraw"}).doc("length of the stage in simulated time"));
     visit(FORMING_SIM_FIELD(tools), Field().when("kind", {"withdraw"}).computed("all tools").doc("tools that leave"));
     visit(FORMING_SIM_FIELD(displacement), Field().unit("m").when("kind", {"withdraw"}).doc("how far the tools move from where they stand, smoothly; [0, 0, 0]: they are lifted off at once"));
-    visit(FORMING_SIM_FIELD(kinetic_fraction), Field().above(0).below(1).when("kind", {"settle"}).doc("the body rests when its kinetic energy stays below this fraction of its elastic energy"));
+    visit(FORMING_SIM_FIELD(kinetic_fraction), Field().above(0).below(1).when("kind", {"settle"}).doc("the body rests when its kinetic energy, and the energy its forces out of balance could still set free, stay below this fraction of its elastic energy"));
     visit(FORMING_SIM_FIELD(limit), Field().unit("s").above(0).required().when("kind", {"settle"}).doc("longest time of the stage; when it is reached the result says so"));
   }
 };
