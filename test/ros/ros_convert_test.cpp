@@ -22,7 +22,8 @@ template <class T> void fill(T& value, int& seed) {
     value.resize(2);
     for (auto& entry : value) fill(entry, seed);
   } else if constexpr (std::is_same_v<T, Vec3>) {
-    value = Vec3(++seed, ++seed, -0.1 * ++seed);
+    value = Vec3(seed + 1, seed + 2, -0.1 * (seed + 3));
+    seed += 3;
   } else if constexpr (std::is_same_v<T, std::string>) {
     value = "/text" + std::to_string(++seed);
   } else if constexpr (std::is_same_v<T, bool>) {

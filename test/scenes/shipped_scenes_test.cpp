@@ -54,8 +54,9 @@ TEST_P(ShippedScene, starts_with_its_tools_at_rest_in_their_places) {
   for (const StageConfig& stage : scene.stages)
     if (stage.kind == "form") formed += stage.duration;
   for (const ToolModel& tool : model.tools)
-    if (tool.motion)
+    if (tool.motion) {
       EXPECT_LT(RigidMotion(*tool.motion, model.dimension).at(formed).velocity.norm(), 1e-9) << tool.name;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedScene, ::testing::ValuesIn(shipped()),
@@ -82,9 +83,13 @@ TEST(ShippedScenes, flange_section_fits_the_sheet) {
   EXPECT_NEAR(punch_face - die_wall, 1.03e-3, 1e-12);
   // Every corner of an edge lies on its arc of 1 mm, none inside the material's wrap.
   for (const Vec3& p : tools.at("die")->mesh.nodes)
-    if (p.x() > 9e-3 && p.y() > -1e-3) EXPECT_NEAR((p - Vec3(9e-3, -1e-3, 0)).norm(), 1e-3, 2e-6);
+    if (p.x() > 9e-3 && p.y() > -1e-3) {
+      EXPECT_NEAR((p - Vec3(9e-3, -1e-3, 0)).norm(), 1e-3, 2e-6);
+    }
   for (const Vec3& p : tools.at("punch")->mesh.nodes)
-    if (p.x() < 12.03e-3 && p.y() < 1.93e-3) EXPECT_NEAR((p - Vec3(12.03e-3, 1.93e-3, 0)).norm(), 1e-3, 2e-6);
+    if (p.x() < 12.03e-3 && p.y() < 1.93e-3) {
+      EXPECT_NEAR((p - Vec3(12.03e-3, 1.93e-3, 0)).norm(), 1e-3, 2e-6);
+    }
 }
 
 TEST(ShippedScenes, impact_has_the_moduli_it_states) {
