@@ -6,7 +6,7 @@
 
 namespace forming_sim {
 
-/// Outcome codes of a run: those of msg/Code.msg, where they are explained.
+/// Outcome codes of a run: those of msg/ResultCode.msg, where they are explained.
 enum class Code : int {
   none = 0,               ///< not set; never reported as an outcome
   success = 1,
