@@ -29,6 +29,14 @@ void edges_of(const Vector<Pack, kD<Cell>>* x, int s, Vector<Pack, kD<Cell>>* ed
   for (int m = 0; m < kD<Cell>; ++m) edge[m] = x[corner[m + 1]] - x[corner[0]];
 }
 
+template <class Cell> void simplex_volumes(const Vector<Pack, kD<Cell>>* x, Pack* V) {
+  for (int s = 0; s < Cell::simplices; ++s) {
+    Vector<Pack, kD<Cell>> edge[kD<Cell>];
+    edges_of<Cell>(x, s, edge);
+    V[s] = simplex_volume<Pack, kD<Cell>>(edge);
+  }
+}
+
 /// Memory of simplex s: G, p, V0.
 template <int D> struct Memory {
   Symmetric<Pack, D> G;
@@ -117,11 +125,7 @@ template <class Cell>
     for (int i = 0; i < D; ++i) f[a][i] = Pack(0.0);
 
   Pack V[Cell::simplices], p[Cell::simplices];
-  for (int s = 0; s < Cell::simplices; ++s) {
-    Vector<Pack, D> edge[D];
-    edges_of<Cell>(x, s, edge);
-    V[s] = simplex_volume<Pack, D>(edge);
-  }
+  simplex_volumes<Cell>(x, V);
   pressures<Cell>(g, view, block, V, p);
   const int in_use = block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes;
   if (g.linear_viscosity > 0 || g.quadratic_viscosity > 0) {
@@ -182,10 +186,10 @@ template <class Cell> void volumes_of_block(const CellGroup& g, const NodalView&
   gather<Cell>(nodes, view.x, x);
   Pack share[Cell::nodes];
   for (int a = 0; a < Cell::nodes; ++a) share[a] = Pack(0.0);
+  Pack V[Cell::simplices];
+  simplex_volumes<Cell>(x, V);
   for (int s = 0; s < Cell::simplices; ++s) {
-    Vector<Pack, D> edge[D];
-    edges_of<Cell>(x, s, edge);
-    const Pack part = simplex_volume<Pack, D>(edge) * Pack(1.0 / (D + 1));
+    const Pack part = V[s] * Pack(1.0 / (D + 1));
     for (int a = 0; a <= D; ++a) share[Cell::table[s][a]] += part;
   }
   double* out = g.records + block * Cell::nodes * kLanes;
@@ -237,11 +241,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   Vector<Pack, D> x[Cell::nodes];
   gather<Cell>(nodes, view.x, x);
   Pack V[Cell::simplices], p[Cell::simplices];
-  for (int s = 0; s < Cell::simplices; ++s) {
-    Vector<Pack, D> edge[D];
-    edges_of<Cell>(x, s, edge);
-    V[s] = simplex_volume<Pack, D>(edge);
-  }
+  simplex_volumes<Cell>(x, V);
   pressures<Cell>(g, view, block, V, p);
   Pack stored(0.0), cell_V(0.0), cell_V0(0.0);
   const double own = g.pressure == PressureMode::element ? 1 : g.element_share;

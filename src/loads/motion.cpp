@@ -7,7 +7,7 @@
 
 #include "forming_sim/config/fault.h"
 #include "forming_sim/loads/rotation.h"
-#include "forming_sim/simulation/model.h"
+#include "forming_sim/loads/tool.h"
 
 namespace forming_sim {
 namespace {
