@@ -77,7 +77,8 @@ bool follow(Client& client, ClientProgress& line, std::mutex& mutex) {
   int missed = 0;
   while (!client.waitForResult(ros::Duration(0.1))) {
     if (!ros::ok()) return false;
-    if (stop_requested() && !cancelled) {
+    // Not while pending: actionlib gives a goal up as lost when it is cancelled before a status lists it.
+    if (stop_requested() && !cancelled && client.getState() != actionlib::SimpleClientGoalState::PENDING) {
       const std::lock_guard<std::mutex> lock(mutex);
       line.end();
       std::printf("cancelling\n");
