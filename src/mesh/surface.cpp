@@ -30,6 +30,24 @@ struct Candidate {
   throw Error(Code::mesh_error, text.str());
 }
 
+// The facet runs the other way round in the element on its other side, or the
+// two lie on the same side of it.
+bool same_side(const Facet& a, const Facet& b, int d) {
+  for (int turn = 0; turn < (d == 2 ? 1 : 3); ++turn) {
+    bool same = true;
+    for (int k = 0; k < d; ++k) same = same && a.nodes[k] == b.nodes[(k + turn) % d];
+    if (same) return true;
+  }
+  return false;
+}
+
+[[noreturn]] void refuse_folded(const Mesh& mesh, const Facet& a, const Facet& b) {
+  std::ostringstream text;
+  text << "mesh: elements " << a.element << " and " << b.element << " near " << place(mesh.nodes[a.nodes[0]])
+       << " lie on the same side of the facet they share; the mesh is folded there, or one of them has a negative volume";
+  throw Error(Code::mesh_error, text.str());
+}
+
 }  // namespace
 
 void find_surface(Mesh& mesh) {
@@ -58,6 +76,7 @@ void find_surface(Mesh& mesh) {
     while (end < all.size() && all[end].key == all[i].key) ++end;
     if (end - i > 2) refuse_shared(mesh, all[i], static_cast<int>(end - i));
     if (end - i == 1) once.push_back(all[i]);
+    else if (same_side(all[i].facet, all[i + 1].facet, d)) refuse_folded(mesh, all[i].facet, all[i + 1].facet);
     i = end;
   }
   std::sort(once.begin(), once.end(), [](const Candidate& a, const Candidate& b) { return a.order < b.order; });

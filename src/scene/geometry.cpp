@@ -106,7 +106,8 @@ bool make_body(const Scene& scene, std::size_t i, const std::vector<Fault>& know
   return true;
 }
 
-bool make_tool(const Scene& scene, std::size_t i, const std::vector<Fault>& known, Mesh& mesh, std::vector<Fault>& faults) {
+bool make_tool(const Scene& scene, std::size_t i, const std::vector<Fault>& known, Mesh& mesh, Geometry& geometry) {
+  std::vector<Fault>& faults = geometry.faults;
   const ToolConfig& tool = scene.tools[i];
   const std::string path = tool_path(i);
   const int sources = int(tool.mesh.has_value()) + int(tool.profile.has_value()) + int(!tool.normal.isZero(0));
@@ -114,7 +115,7 @@ bool make_tool(const Scene& scene, std::size_t i, const std::vector<Fault>& know
   if (tool.profile) return attempt(path + ".profile", "this profile", faults, [&] { mesh = mesh_profile(*tool.profile); });
   if (!tool.mesh) return true;  // a plane
   return attempt(path + (tool.mesh->url.empty() ? ".mesh" : ".mesh.url"), origin_of(tool.mesh, ""), faults,
-                 [&] { mesh = load_tool_surface(*tool.mesh, scene.base_directory); });
+                 [&] { mesh = load_tool_surface(*tool.mesh, scene.base_directory, geometry.model.notes); });
 }
 
 void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
@@ -157,7 +158,7 @@ Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known) {
     }
   }
   for (std::size_t i = 0; i < tools.size(); ++i) {
-    if (!make_tool(scene, i, known, tools[i], geometry.faults)) tools[i] = Mesh{};
+    if (!make_tool(scene, i, known, tools[i], geometry)) tools[i] = Mesh{};
   }
   for (std::size_t i = 0; i < scene.output.probes.size(); ++i) {
     const ProbeConfig& probe = scene.output.probes[i];

@@ -11,7 +11,7 @@ void check_source(const ToolConfig& tool, const std::string& path, int dimension
   if (tool.profile) given.push_back("profile");
   if (plane) given.push_back("normal");
   if (given.size() != 1) {
-    faults.add(path, given.empty() ? "none of mesh, profile and normal" : one_of(given, " and "),
+    faults.add(path, given.empty() ? "none of mesh, profile and normal (a normal of length 0 is none)" : one_of(given, " and "),
                "give exactly one: mesh (the surface of a tool in 3D), profile (its section in plane strain), or normal (a rigid plane)");
   }
   if (!plane && !tool.point.isZero(0) && !given.empty()) faults.add(path + ".point", given_text(tool.point), "leave it out: it belongs to a rigid plane, which has a normal; position moves a mesh or profile");

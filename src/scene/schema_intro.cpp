@@ -24,7 +24,7 @@ leave a field out: there 0, "" and [] mean "not given", and the default holds.
 
 - SI units throughout: m, s, kg, N, Pa, J. Angles are in degrees where a name ends in `_deg`. Only a mesh file has a
   unit of its own, and `unit_scale` says it: 0.001 for a file in millimetres. A scale that makes a body or tool larger
-  than 100 m or smaller than 1e-6 m, or a tool 1000 times larger or smaller than the bodies, is refused.
+  than 100 m or smaller than 1e-6 m, or a tool 200 times larger than the bodies or smaller than their elements, is refused.
 - Right-handed coordinates x, y, z. Vectors are written `[x, y, z]`; `[x, y]` means z = 0.
 - `dimension: 2` is plane strain: everything lies in the x-y plane and nothing strains along z. Forces, masses and
   energies are then per metre of width (N/m, kg/m, J/m). Vectors have z = 0, and things turn about z only.

@@ -1,5 +1,7 @@
 // A wrong unit_scale shows in the size of things.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "forming_sim/config/reflect.h"
 #include "forming_sim/config/words.h"
@@ -11,10 +13,19 @@ namespace forming_sim {
 namespace {
 
 constexpr double kLargest = 100, kSmallest = 1e-6;  // m
-constexpr double kRatio = 1000;                     // of a tool to the bodies, and back
+constexpr double kRatio = 200;                      // of a tool to the bodies
 
 /// Largest extent along an axis, m; 0 without nodes.
 double extent(const Mesh& mesh) { return mesh.nodes.empty() ? 0 : bounds(mesh).sizes().maxCoeff(); }
+
+/// Shortest edge of the surface, m; infinite without one.
+double shortest_edge(const Mesh& mesh) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Facet& facet : mesh.surface)
+    for (int k = 0; k < mesh.dimension; ++k)
+      shortest = std::min(shortest, (mesh.nodes[facet.nodes[k]] - mesh.nodes[facet.nodes[(k + 1) % mesh.dimension]]).norm());
+  return shortest;
+}
 
 std::string in_metres(double size) {
   const double digits = std::pow(10, 2 - std::floor(std::log10(size)));
@@ -44,11 +55,12 @@ void check_extent(const std::optional<MeshConfig>& mesh, double size, const std:
 
 void check_sizes(const Scene& scene, const std::vector<Mesh>& bodies, const std::vector<Mesh>& tools, std::vector<Fault>& faults) {
   const std::size_t before = faults.size();
-  double largest_body = 0;
+  double largest_body = 0, least_edge = std::numeric_limits<double>::infinity();
   bool all_known = true;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const double size = extent(bodies[i]);
     largest_body = std::max(largest_body, size);
+    least_edge = std::min(least_edge, shortest_edge(bodies[i]));
     all_known = all_known && size > 0;
     check_extent(scene.bodies[i].mesh, size, join_path("bodies", i) + (scene.bodies[i].blank ? ".blank" : ""), faults);
   }
@@ -58,12 +70,12 @@ void check_sizes(const Scene& scene, const std::vector<Mesh>& bodies, const std:
   if (!all_known || largest_body == 0 || faults.size() > before) return;
   for (std::size_t i = 0; i < tools.size(); ++i) {
     const double size = extent(tools[i]);
-    const double ratio = size / largest_body;
-    if (size == 0 || (ratio <= kRatio && ratio >= 1 / kRatio)) continue;
-    const std::string given = "a tool of " + in_metres(size) + " to bodies of " + in_metres(largest_body);
-    const std::string refused = "a tool is refused that is more than 1000 times larger or smaller than the bodies; ";
+    const bool large = size > kRatio * largest_body;
+    if (size == 0 || !(large || size < least_edge)) continue;
+    const std::string given = "a tool of " + in_metres(size) + " to bodies of " + in_metres(largest_body) + " with elements of " + in_metres(least_edge) + " and more";
+    const std::string refused = "a tool is refused that is more than 200 times larger than the bodies or smaller than their elements; ";
     if (const auto& mesh = scene.tools[i].mesh) {
-      const double wrong = ratio > 1 ? ratio / kRatio : ratio * kRatio;
+      const double wrong = large ? size / (kRatio * largest_body) : size / least_edge;
       faults.push_back({Code::invalid_scene, join_path("tools", i) + ".mesh.unit_scale", number_text(mesh->unit_scale) + ", which makes " + given, refused + right_scale(*mesh, size, wrong)});
     } else {
       faults.push_back({Code::invalid_scene, join_path("tools", i) + ".profile", given, refused + "give lengths in metres, and check the unit_scale of the bodies"});

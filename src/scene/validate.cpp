@@ -1,5 +1,7 @@
 #include "forming_sim/scene/validate.h"
 
+#include <algorithm>
+
 #include "forming_sim/scene/yaml.h"
 #include "geometry.h"
 #include "rules.h"
@@ -27,6 +29,8 @@ std::vector<Fault> check_scene(const Scene& scene) {
 }
 
 std::vector<Fault> validate(const Scene& scene, std::vector<Fault> known) {
+  // A text that is no scene at all has nothing else to be told about.
+  if (std::any_of(known.begin(), known.end(), [](const Fault& fault) { return fault.field == "scene"; })) return known;
   merge_faults(known, check_scene(scene));
   merge_faults(known, make_geometry(scene, known).faults);
   return known;

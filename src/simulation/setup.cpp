@@ -117,7 +117,8 @@ void Simulation::Impl::set_up_contact() {
   for (std::size_t k = 0; k < boundaries.nodes().size(); ++k)
     held.push_back({boundaries.nodes()[k], boundaries.projector(static_cast<int>(k))});
   contact->set_masses(inverse_mass, held);
-  warnings = contact->warnings();
+  warnings = model.notes;
+  warnings.insert(warnings.end(), contact->warnings().begin(), contact->warnings().end());
 }
 
 std::vector<ToolMotion> Simulation::Impl::tool_motions(double from, double to) const {

@@ -111,7 +111,7 @@ TEST(SceneBuild, WrongUnitScaleNamesTheRightOne) {
   scene.tools[0].mesh->unit_scale = 10;
   expect_geometry_fault(scene, "tools[0].mesh.unit_scale", "with unit_scale 0.01 it would be 0.2 m");
   scene.tools[0].mesh->unit_scale = 2;  // 40 m to a plate of 0.02 m
-  expect_geometry_fault(scene, "tools[0].mesh.unit_scale", "1000 times larger");
+  expect_geometry_fault(scene, "tools[0].mesh.unit_scale", "200 times larger");
   scene.tools[0].mesh->unit_scale = 5e-7;  // 10 micrometres
   expect_geometry_fault(scene, "tools[0].mesh.unit_scale", "with unit_scale 0.0005 it would be 0.01 m");
   scene.tools[0].mesh->unit_scale = 1e-9;

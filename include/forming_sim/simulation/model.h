@@ -1,6 +1,7 @@
 #pragma once
 // What does not change while a scene runs: the joined mesh of all bodies, their
 // materials, the tools in their own frames. Built by scene/build.h.
+#include <string>
 #include <vector>
 
 #include "forming_sim/element/body.h"
@@ -12,6 +13,7 @@ struct Model {
   int dimension = 3;
   std::vector<BodyModel> bodies;
   std::vector<ToolModel> tools;
+  std::vector<std::string> notes;  ///< what was mended or looks odd in the meshes; said with the warnings of a run
 
   int node_count() const { return bodies.empty() ? 0 : bodies.back().first_node + bodies.back().node_count; }
   int element_count() const { return bodies.empty() ? 0 : bodies.back().first_element + bodies.back().element_count; }
