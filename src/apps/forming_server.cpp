@@ -1,5 +1,6 @@
 // The node: serves simulate_forming, validate_scene and estimate_run.
 #include <cstdio>
+#include <string>
 
 #include <ros/ros.h>
 
@@ -7,6 +8,11 @@
 #include "forming_sim/ros/signals.h"
 
 int main(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i)
+    if (const std::string option = argv[i]; option == "--help" || option == "-h") {
+      std::printf("usage: forming_server [ROS remappings]\nA ROS node; it needs a master. launch/forming.launch starts it and tells its parameters.\n");
+      return 0;
+    }
   ros::init(argc, argv, "forming_server", ros::init_options::NoSigintHandler);
   forming_sim::catch_stop_signals();
   try {

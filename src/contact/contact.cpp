@@ -344,9 +344,7 @@ ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v,
   if (!m.near.pairs.empty())
     for (int i = 0; i < m.work.body_entries; ++i) m.v_star[m.work.vertex[i]] = m.work.v[i];
   v.swap(m.v_star);
-  const long nodes = static_cast<long>(x.size());
-#pragma omp parallel for schedule(static) if (nodes > 20000)
-  for (long i = 0; i < nodes; ++i) x[i] += dt * v[i];
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += dt * v[i];
 
   // ---- what it did
   step.tool_impulse.assign(m.tools.names.size(), Vec3::Zero());

@@ -45,7 +45,7 @@ Elements::~Elements() = default;
 
 Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x,
                    const ElementOptions& options, int threads, const char* kernels)
-    : kernels_(choose_kernels(kernels)), dimension_(dimension), threads_(std::max(1, threads)) {
+    : kernels_(choose_kernels(kernels)), dimension_(dimension), team_(std::make_unique<Team>(threads)) {
   const int nodes = static_cast<int>(x.size()), D = dimension_;
   mass_.assign(nodes, 0.0);
   nodal_volume0_.assign(nodes, 0.0);
@@ -160,10 +160,9 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
 template <class Work> void Elements::over_blocks(Work&& work) const {
   for (const Group& g : groups_) {
     const int per_chunk = std::max(1, 64 / (g.cell_simplices * kLanes / 8));
-    const int chunks = (g.blocks + per_chunk - 1) / per_chunk;
-    const int threads = std::min(threads_, std::max(1, g.blocks * g.cell_simplices / 512));
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (int c = 0; c < chunks; ++c) work(g, c * per_chunk, std::min(g.blocks, (c + 1) * per_chunk));
+    team_->share(g.blocks, 512 / g.cell_simplices, [&](long begin, long end) {
+      for (long b = begin; b < end; b += per_chunk) work(g, static_cast<int>(b), static_cast<int>(std::min(end, b + per_chunk)));
+    });
   }
 }
 
@@ -173,13 +172,13 @@ void Elements::nodal_pressure(const NodalView& view) const {
     one_wide.records = records_ + g.first_record;
     kernels_.volumes(one_wide, view, first, last);
   });
-  const int nodes = static_cast<int>(mass_.size());
-#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1 && nodes > 2000)
-  for (int n = 0; n < nodes; ++n) {
-    double V = 0;
-    for (int k = record_start_[n]; k < record_start_[n + 1]; ++k) V += records_[record_index_[k]];
-    pressure_[n] = nodal_bulk_[n] * (V / nodal_volume0_[n] - 1);
-  }
+  team_->share(static_cast<long>(mass_.size()), kNodesOfAThread, [&](long first, long last) {
+    for (long n = first; n < last; ++n) {
+      double V = 0;
+      for (int k = record_start_[n]; k < record_start_[n + 1]; ++k) V += records_[record_index_[k]];
+      pressure_[n] = nodal_bulk_[n] * (V / nodal_volume0_[n] - 1);
+    }
+  });
 }
 
 void Elements::forces(const NodeField& x, const NodeField& v, double dt, NodeField& f) {
@@ -189,18 +188,18 @@ void Elements::forces(const NodeField& x, const NodeField& v, double dt, NodeFie
   for (const Group& g : groups_)
     for (double ratio : g.lowest)
       if (!(ratio > 0)) report_inversion(x);
-  const int nodes = static_cast<int>(mass_.size());
   const bool flat = dimension_ == 2;
-#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1 && nodes > 2000)
-  for (int n = 0; n < nodes; ++n) {
-    Node sum = Node::Zero();
-    for (int k = record_start_[n]; k < record_start_[n + 1]; ++k) {
-      const double* record = records_ + static_cast<std::size_t>(record_index_[k]) * record_size_;
-      if (flat) sum.head<2>() += Eigen::Map<const Eigen::Vector2d>(record);
-      else sum += Eigen::Map<const Node>(record);
+  team_->share(static_cast<long>(mass_.size()), kNodesOfAThread, [&](long first, long last) {
+    for (long n = first; n < last; ++n) {
+      Node sum = Node::Zero();
+      for (int k = record_start_[n]; k < record_start_[n + 1]; ++k) {
+        const double* record = records_ + static_cast<std::size_t>(record_index_[k]) * record_size_;
+        if (flat) sum.head<2>() += Eigen::Map<const Eigen::Vector2d>(record);
+        else sum += Eigen::Map<const Node>(record);
+      }
+      f[n] = sum;
     }
-    f[n] = sum;
-  }
+  });
 }
 
 void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const {
@@ -209,10 +208,9 @@ void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, i
   element = -1;
   for (const Group& g : groups_) {
     std::vector<BlockStep> steps(g.blocks);
-    const int chunks = (g.blocks + 15) / 16;
-#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1 && g.blocks * g.cell_simplices > 1024)
-    for (int c = 0; c < chunks; ++c)
-      kernels_.time_step(g, view, c * 16, std::min(g.blocks, (c + 1) * 16), steps.data());
+    team_->share(g.blocks, 512 / g.cell_simplices, [&](long first, long last) {
+      kernels_.time_step(g, view, static_cast<int>(first), static_cast<int>(last), steps.data());
+    });
     for (int b = 0; b < g.blocks; ++b)
       if (!(steps[b].dt >= dt)) {
         dt = steps[b].dt;
@@ -256,9 +254,9 @@ ElementFields Elements::observe(const NodeField& x) const {
     std::vector<Lane> stress(static_cast<std::size_t>(g.blocks) * g.cell_simplices * 6);
     std::vector<Lane> ratio(static_cast<std::size_t>(g.blocks) * g.cell_simplices);
     std::vector<double> energy(g.blocks);
-#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
-    for (int b = 0; b < g.blocks; ++b)
-      kernels_.observe(g, view, b, b + 1, stress.data()->value, ratio.data()->value, energy.data());
+    team_->share(g.blocks, 512 / g.cell_simplices, [&](long first, long last) {
+      kernels_.observe(g, view, static_cast<int>(first), static_cast<int>(last), stress.data()->value, ratio.data()->value, energy.data());
+    });
     for (double e : energy) fields.stored_energy += e;
     for (int cell = 0; cell < g.cells; ++cell)
       for (int s = 0; s < g.cell_simplices; ++s) {

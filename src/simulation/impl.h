@@ -19,7 +19,6 @@ double thickness_of(const BodyModel& body);
 struct Simulation::Impl {
   RunPlan plan;
   Model model;
-  int threads;
   NodeField X;                      ///< initial positions
   NodeField x, v, v_before, f;      ///< v at the half step
   Elements elements;

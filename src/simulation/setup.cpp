@@ -37,10 +37,10 @@ double thickness_of(const BodyModel& body) {
 }
 
 Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
-    : plan(p), model(std::move(m)), threads(std::max(1, n)), X(initial_positions_of(model)), x(X),
+    : plan(p), model(std::move(m)), X(initial_positions_of(model)), x(X),
       v(X.size(), Node::Zero()), v_before(v), f(v),
       elements(model.bodies, model.dimension, X,
-               {p.time_step.mass_scaling, p.time_step.linear_viscosity, p.time_step.quadratic_viscosity}, threads),
+               {p.time_step.mass_scaling, p.time_step.linear_viscosity, p.time_step.quadratic_viscosity}, n),
       stages(plan.stages, model) {
   set_up_loads();
   set_up_contact();

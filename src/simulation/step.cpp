@@ -33,9 +33,9 @@ void Simulation::Impl::predict(double step_dt, NodeField& v_star) const {
   const double kick = 0.5 * (previous_dt + step_dt);
   const double a = 0.5 * damping_rate() * kick;
   const std::vector<double>& mass = elements.nodal_mass();
-  const int nodes = static_cast<int>(v.size());
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1 && nodes > 4000)
-  for (int i = 0; i < nodes; ++i) v_star[i] = ((1 - a) * v_before[i] + kick / mass[i] * f[i]) / (1 + a);
+  elements.team().share(static_cast<long>(v.size()), kNodesOfAThread, [&](long first, long last) {
+    for (long i = first; i < last; ++i) v_star[i] = ((1 - a) * v_before[i] + kick / mass[i] * f[i]) / (1 + a);
+  });
   boundaries.apply_velocity(time + 0.5 * step_dt, v_star);
 }
 

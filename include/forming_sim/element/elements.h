@@ -10,6 +10,7 @@
 #include "forming_sim/element/cell_group.h"
 #include "forming_sim/config/fault.h"
 #include "forming_sim/element/body.h"
+#include "forming_sim/parallel/team.h"
 #include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
@@ -54,6 +55,7 @@ class Elements {
   void append_state(std::vector<double>& to) const;
   const double* read_state(const double* from);
   const char* kernel_name() const;
+  Team& team() const { return *team_; }  ///< the threads of the run
 
  private:
   struct Group;
@@ -64,7 +66,8 @@ class Elements {
   template <class Work> void over_blocks(Work&& work) const;
 
   const Kernels& kernels_;
-  int dimension_, threads_;
+  int dimension_;
+  std::unique_ptr<Team> team_;
   std::vector<Group> groups_;
   std::vector<std::array<int, 4>> simplices_;
   std::vector<double> mass_;

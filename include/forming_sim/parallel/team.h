@@ -1,0 +1,38 @@
+#pragma once
+// The threads of a run. They share out a loop in equal pieces and wait for each
+// other at its end. A thread without work watches for it for a tenth of a
+// millisecond, which spans the gap between two loops of a step, and then sleeps:
+// a machine that does other things as well is neither held up nor does it hold
+// up the run for longer than that.
+#include <memory>
+#include <type_traits>
+
+namespace forming_sim {
+
+constexpr long kNodesOfAThread = 2000;  ///< fewer are not worth another thread
+
+class Team {
+ public:
+  /// threads: with the calling one, at least 1.
+  explicit Team(int threads);
+  ~Team();
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  int size() const;
+
+  /// Calls work(first, last) over [0, count), in as many pieces as give each of
+  /// them at least `least`, at most one a thread. The pieces depend on nothing but
+  /// count, least and size(). Work must not throw. One loop at a time.
+  template <class Work> void share(long count, long least, Work&& work) {
+    run(count, least, [](void* w, long first, long last) { (*static_cast<std::remove_reference_t<Work>*>(w))(first, last); }, &work);
+  }
+
+ private:
+  using Call = void (*)(void* work, long first, long last);
+  void run(long count, long least, Call call, void* work);
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace forming_sim

@@ -1,0 +1,48 @@
+#include "forming_sim/parallel/team.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+#include <vector>
+
+namespace forming_sim {
+namespace {
+
+TEST(Team, EveryItemOnceInEveryLoop) {
+  for (int threads : {1, 2, 3, 7}) {
+    Team team(threads);
+    EXPECT_EQ(team.size(), threads);
+    std::vector<int> times(1001, 0);
+    for (int loop = 0; loop < 2000; ++loop)
+      team.share(static_cast<long>(times.size()), 1, [&](long first, long last) {
+        for (long i = first; i < last; ++i) ++times[i];
+      });
+    for (int t : times) ASSERT_EQ(t, 2000);
+  }
+}
+
+TEST(Team, SleepersWake) {
+  Team team(3);
+  for (int loop = 0; loop < 20; ++loop) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(loop % 3));
+    std::atomic<long> sum{0};
+    team.share(300, 1, [&](long first, long last) { sum += last - first; });
+    ASSERT_EQ(sum, 300);
+  }
+}
+
+TEST(Team, SmallLoopsStayWhole) {
+  Team team(4);
+  std::atomic<int> pieces{0};
+  team.share(99, 50, [&](long first, long last) { ++pieces; EXPECT_EQ(last - first, 99); });
+  EXPECT_EQ(pieces, 1);
+  pieces = 0;
+  team.share(100, 50, [&](long first, long last) { ++pieces; EXPECT_EQ(last - first, 50); });
+  EXPECT_EQ(pieces, 2);
+  team.share(0, 1, [&](long, long) { FAIL(); });
+}
+
+}  // namespace
+}  // namespace forming_sim
