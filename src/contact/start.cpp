@@ -109,9 +109,10 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
     if (!at_start[t].present) continue;
     const int tool = static_cast<int>(t);
     const std::vector<StartGap> gaps = start.gaps(tool, at_start, place);
-    bool close = false;
+    bool close = false, touches = false;
     for (const StartGap& g : gaps) {
       if (g.gap < 0.99 * layer) close = true;
+      if (g.gap < 1.01 * layer) touches = true;
       if (g.gap >= -1.001 * layer) continue;
       const Node& p = g.vertex < f.body_nodes ? x[g.vertex] : place[g.vertex - f.body_nodes];
       std::ostringstream text;
@@ -119,6 +120,11 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
            << (g.vertex < f.body_nodes ? "tool " + setup.tools[t].name : "a body");
       refused.push_back(text.str());
       told[t] = true;
+    }
+    if (touches && !close) {
+      std::ostringstream text;
+      text << "tool " << setup.tools[t].name << " touches a body at the start: it was backed off by the contact layer, " << layer << " m along its normals";
+      warnings.push_back(text.str());
     }
     if (!close || told[t]) continue;
     const Node shift = start.back_off(gaps);

@@ -55,6 +55,18 @@ Json energies(const Simulation& simulation, const RunRecord& record) {
           {"kinetic_over_internal_formed", number(record.kinetic_over_internal_formed)}};
 }
 
+/// The numerical options of the scene and what each took from the run or added to it.
+Json options(const Simulation& simulation, const Scene& scene) {
+  const Energies& e = simulation.energies();
+  const TimeStepConfig& c = scene.time_step;
+  double mass = 0;
+  for (double m : simulation.nodal_mass()) mass += m;
+  return {{"bulk_viscosity", {{"linear", number(c.linear_viscosity)}, {"quadratic", number(c.quadratic_viscosity)}, {"dissipated_J", number(e.viscosity)}}},
+          {"damping", {{"rate_1_s", number(c.damping)}, {"dissipated_J", number(e.damping - e.viscosity - e.settling)}}},
+          {"settling", {{"dissipated_J", number(e.settling)}}},
+          {"mass_scaling", {{"factor", number(c.mass_scaling)}, {"added_mass_kg", number(mass * (1 - 1 / c.mass_scaling))}}}};
+}
+
 Json bodies(const Simulation& simulation) {
   Json list = Json::array();
   for (const BodyModel& body : simulation.model().bodies) {
@@ -139,6 +151,7 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
                       {"min", number(smallest.dt)},
                       {"limited_by", smallest.reason}};
   j["energy_J"] = energies(simulation, record);
+  j["options"] = options(simulation, scene);
   j["contact"] = {{"crossings", contact.crossings},
                   {"halvings", contact.halvings},
                   {"min_gap_over_h0", number(contact.min_gap_over_layer)},

@@ -9,7 +9,7 @@ namespace forming_sim {
 template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.numbers(x.data()->data(), x.size() * 4);
   a.numbers(v.data()->data(), v.size() * 4);
-  for (double* value : {&time, &dt, &previous_dt, &work, &damping, &friction, &contact_dissipated, &contact_potential,
+  for (double* value : {&time, &dt, &previous_dt, &work, &damping, &settled_away, &friction, &contact_dissipated, &contact_potential,
                         &initial, &most, &min_gap, &first_dt, &smallest.dt, &next_crossing_check, &wall})
     a.number(*value);
   for (long* value : {&steps, &halvings, &active_pairs, &crossings}) a.number(*value);

@@ -52,7 +52,9 @@ const Energies& Simulation::energies() const {
   e.plastic = s.elements.plastic_work();
   e.contact = s.contact_potential + s.contact_dissipated;
   e.friction = s.friction;
-  e.damping = s.damping + s.elements.viscous_work();
+  e.viscosity = s.elements.viscous_work();
+  e.settling = s.settled_away;
+  e.damping = s.damping + e.viscosity;
   e.work = s.work;
   e.initial = s.initial;
   s.energies_step = s.steps;

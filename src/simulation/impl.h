@@ -45,7 +45,7 @@ struct Simulation::Impl {
   double wall = 0;
 
   // the ledger's running sums, J
-  double work = 0, damping = 0, friction = 0, contact_dissipated = 0, contact_potential = 0, initial = 0, most = 0;
+  double work = 0, damping = 0, settled_away = 0, friction = 0, contact_dissipated = 0, contact_potential = 0, initial = 0, most = 0;
   long halvings = 0;
   double min_gap = 1;
   long active_pairs = 0;

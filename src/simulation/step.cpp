@@ -99,12 +99,15 @@ void Simulation::Impl::book_loads(const NodeField& external) {
   if (alpha > 0) {
     NodeField v_star(v.size());
     predict(dt, v_star);
+    double lost = 0;
     for (std::size_t i = 0; i < v.size(); ++i) {
       const Node drag = alpha * kick * 0.5 * mass[i] * (v_before[i] + v_star[i]);
       const int k = boundaries.find(static_cast<int>(i));
       const Vec3 free = k < 0 ? vec3(drag) : Vec3(boundaries.projector(k) * vec3(drag));
-      damping += 0.5 * free.dot(vec3(v_before[i] + v[i]));
+      lost += 0.5 * free.dot(vec3(v_before[i] + v[i]));
     }
+    damping += lost;
+    if (stages.settling()) settled_away += lost * settle.damping() / alpha;
   }
   work += boundaries.work(f, mass, v_before, v, kick);
 }

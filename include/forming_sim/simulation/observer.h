@@ -18,6 +18,8 @@ struct Energies {
   double contact = 0;   ///< potential of the mild layer plus what its implicit step dissipated
   double friction = 0;  ///< dissipated by Coulomb friction
   double damping = 0;   ///< dissipated by viscosity, damping and settling
+  double viscosity = 0; ///< the part of damping that bulk viscosity took
+  double settling = 0;  ///< the part of damping that the settle stage took
   double work = 0;      ///< of tools, prescribed motion, pressure, gravity and soft start
   double initial = 0;   ///< kinetic + elastic at the start
   double residual() const { return kinetic + elastic + contact + plastic + friction + damping - work - initial; }
