@@ -95,7 +95,9 @@ void FormingServer::on_goal(Goal goal) {
     if (!current_ && !stopping_) {
       current_ = std::make_unique<Goal>(goal);
       waiting_ = std::make_unique<Goal>(goal);
-      cancel_ = false;
+      // Its cancel may have come already, in another thread: then on_cancel did not know the goal yet.
+      const int status = goal.getGoalStatus().status;
+      cancel_ = status == actionlib_msgs::GoalStatus::RECALLING || status == actionlib_msgs::GoalStatus::PREEMPTING;
       changed_.notify_all();
       return;
     }

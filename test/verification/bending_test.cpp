@@ -132,7 +132,7 @@ Bend bend(int dimension, double kt, int cells, double aspect, const MaterialConf
           const std::string& pattern = "fine", const std::string& average = "cell") {
   Column column(dimension, cells, aspect, material, pattern, average);
   const double angle = kt / thickness * column.length();
-  const int steps = (getenv("SLOW") ? atoi(getenv("SLOW")) : 1) * 4000 * cells;
+  const int steps = 4000 * cells;
   Bend b;
   column.turn(angle, 4 * steps);
   b.moment = column.turn(angle, steps);
@@ -145,16 +145,24 @@ Bend bend(int dimension, double kt, int cells, double aspect, const MaterialConf
 struct Exact {
   double kt, moment, thickness, after;
 };
-/// Bounds are what 4 and 8 square cells through the thickness are good for: second order.
+struct Allowed {
+  int cells;
+  double moment, thickness, after;  ///< relative, mm, 1
+};
+/// Square cells through the thickness. The sheet thins by the shift of its neutral
+/// axis, which is less than a cell for 4 and 8 of them: thickness converges last.
+constexpr Allowed kAllowed[] = {{4, 0.02, 0.0045, 0.0015}, {8, 0.011, 0.0035, 0.0005}, {16, 0.004, 0.0012, 0.0002}};
+
 void expect_bend(int dimension, const Exact& exact, const MaterialConfig& material) {
-  for (int cells : {4, 8}) {
-    const Bend b = bend(dimension, exact.kt, cells, 1, material);
-    std::printf("  %dD, k t %.2f, %d cells: M %.3f N (%+.2f %%), thickness %.5f mm (%+.5f), k_after/k %.5f (%+.5f)\n", dimension, exact.kt, cells,
-                b.moment, 100 * (b.moment / exact.moment - 1), b.thickness * 1e3, b.thickness * 1e3 - exact.thickness, b.after, b.after - exact.after);
-    EXPECT_NEAR(b.moment, exact.moment, (cells == 4 ? 0.02 : 0.01) * exact.moment);
-    EXPECT_NEAR(b.thickness * 1e3, exact.thickness, cells == 4 ? 0.003 : 0.0015);
-    EXPECT_NEAR(b.after, exact.after, cells == 4 ? 0.0015 : 0.0005);
-    if (dimension == 3) break;  // 8 cells take too long here; they are as good
+  for (const Allowed& allowed : kAllowed) {
+    const Bend b = bend(dimension, exact.kt, allowed.cells, 1, material);
+    std::printf("  %dD, k t %.2f, %d cells: M %.3f N (%+.2f %%), thickness %.5f mm (%+.5f), k_after/k %.5f (%+.5f)\n", dimension, exact.kt,
+                allowed.cells, b.moment, 100 * (b.moment / exact.moment - 1), b.thickness * 1e3, b.thickness * 1e3 - exact.thickness, b.after,
+                b.after - exact.after);
+    EXPECT_NEAR(b.moment, exact.moment, allowed.moment * exact.moment);
+    EXPECT_NEAR(b.thickness * 1e3, exact.thickness, allowed.thickness);
+    EXPECT_NEAR(b.after, exact.after, allowed.after);
+    if (dimension == 3) break;  // more cells take too long here; the kernels are the same
   }
 }
 
