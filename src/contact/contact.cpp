@@ -25,6 +25,8 @@ struct Contact::Impl {
   ToolSet tools;
   std::vector<double> friction;
   std::vector<std::string> body_names;
+  std::vector<Vec3> body_shifts;
+  double both = 1;          ///< 2 where both sides of a pair can be deformable and move
   double layer = 0, ceiling = 0, modulus = 0, push_speed = 0;
   std::vector<std::string> warnings;
   // ---- masses
@@ -104,7 +106,7 @@ struct Contact::Impl {
       each_body_vertex([&](int v) { body = std::max(body, (x[v] - x_at_build[i++]).squaredNorm()); });
       const double tool = way(motion, x, [&](size_t t, const Vec3& p) { return pose0(motion_at_build[t], p); },
                               [&](size_t t, const Vec3& p) { return pose0(motion[t], p); });
-      used = (std::sqrt(body) + tool) * (1 + 1e-12);
+      used = (both * std::sqrt(body) + tool) * (1 + 1e-12);
       if (used + reach <= list.radius - std::max(0.1 * features.mean_edge, step_bound)) return;
     }
     tools.place_all(features, motion, false, place);
@@ -152,7 +154,7 @@ struct Contact::Impl {
 
   void set_constants() {
     for (ContactPair& pair : near.pairs) {
-      // The area of the body's side: its vertex, or the mean of its feature's.
+      // The mean area of the deformable nodes.
       double sum = 0;
       int count = 0;
       for (int k = 0; k < pair.nodes; ++k)
@@ -163,8 +165,8 @@ struct Contact::Impl {
       pair.stiffness = count > 0 ? modulus * layer * sum / count : 0;
       int rigid = pair.surface;
       if (rigid < features.bodies) rigid = surface_of_first(pair);
-      pair.tool = rigid - features.bodies;
-      pair.friction = pair.tool >= 0 ? friction[pair.tool] : 0;
+      pair.tool = std::max(-1, rigid - features.bodies);
+      pair.friction = pair.tool >= 0 ? friction[pair.tool] : config.friction;
     }
     prepare_pairs(work, near.pairs);
   }
@@ -219,12 +221,16 @@ struct Contact::Impl {
     return text.str();
   }
 
+  std::string name_of_other(const ContactPair& pair) const {
+    return pair.tool >= 0 ? "tool " + tools.names[pair.tool] : "body " + body_names[pair.surface];
+  }
+
   void check_unmovable(double time) const {
     for (const ContactPair& pair : near.pairs) {
       if (pair.w > 0 || pair.end_gap > 0) continue;
       std::ostringstream text;
-      text << "at time " << time << " s tool " << tools.names[pair.tool] << " runs over " << name_of_entry(pair.node[0])
-           << ", which is held or driven against it (gap " << pair.end_gap << " m at the end of the step): let the tool stop short of it, or free the node";
+      text << "at time " << time << " s " << name_of_other(pair) << " runs over " << name_of_entry(pair.node[0])
+           << ", which is held or driven against it (gap " << pair.end_gap << " m at the end of the step): let it stop short of it, or free the node";
       throw Error(Code::contact_error, text.str());
     }
   }
@@ -245,7 +251,7 @@ struct Contact::Impl {
           worst = p.end_gap;
           pair = &p;
         }
-      if (pair) text << ": " << name_of_entry(pair->node[0]) << " against tool " << tools.names[pair->tool] << " ends at a gap of " << worst << " m";
+      if (pair) text << ": " << name_of_entry(pair->node[0]) << " against " << name_of_other(*pair) << " ends at a gap of " << worst << " m";
     }
     text << ". The bodies may be squeezed harder than they can yield, or move too fast for the layer of " << layer
          << " m: check the tools' stroke, refine the mesh there, or set contact.layer larger";
@@ -253,10 +259,10 @@ struct Contact::Impl {
   }
 };
 
-Contact::Contact(const ContactSetup& setup, const NodeField& x, const std::vector<ToolMotion>& at_start) : impl_(new Impl) {
+Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vector<ToolMotion>& at_start) : impl_(new Impl) {
   Impl& m = *impl_;
   m.config = setup.config;
-  m.features = build_features(setup, x);
+  m.features = build_features(setup, at);
   m.layer = setup.config.layer > 0 ? setup.config.layer : std::min(0.05 * m.features.smallest_edge, 1e-3 * setup.thinnest);
   m.ceiling = std::max(m.layer, 0.05 * m.features.smallest_edge);
   m.modulus = setup.config.stiffness > 0 ? setup.config.stiffness : setup.softest_modulus;
@@ -269,6 +275,9 @@ Contact::Contact(const ContactSetup& setup, const NodeField& x, const std::vecto
     m.tools.names.push_back(tool.name);
     m.friction.push_back(tool.friction);
   }
+  m.both = m.features.bodies_meet() ? 2 : 1;
+  NodeField x = at;
+  m.body_shifts = part_bodies(m.layer, setup, m.features, x, m.warnings);
   const std::vector<int> sides = find_sides(m.layer, m.features, x, at_start);
   set_back(m.layer, sides, setup, m.features, m.tools, m.warnings);
   check_start(m.layer, sides, setup, x, at_start, m.features, m.tools, m.warnings);
@@ -297,7 +306,7 @@ ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v,
     const std::vector<ToolMotion> motion = tools_at(dt);
     predict(dt, m.v_star);
     const double tool_way = m.step_way(motion, x);
-    double bound = 2 * (m.fastest(m.v_star) * dt + tool_way);
+    double bound = 2 * (m.both * m.fastest(m.v_star) * dt + tool_way);
     double thickest = m.layer;
     for (const LayerRecord& r : m.records) thickest = std::max(thickest, r.layer);
     const std::vector<PlanePose> planes = m.tools.planes(motion);
@@ -319,7 +328,7 @@ ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v,
       if (!m.near.pairs.empty()) swept = solve_pairs(dt, 1e-3 * m.layer, m.config.max_sweeps, m.work, m.near.pairs);
       double fastest = 0;
       for (int i = 0; i < m.work.body_entries; ++i) fastest = std::max(fastest, dot3(m.work.v[i], m.work.v[i]));
-      way = std::max(bound / 2, std::sqrt(fastest) * dt + tool_way);
+      way = std::max(bound / 2, m.both * std::sqrt(fastest) * dt + tool_way);
       if (way <= bound) break;
     }
     step.sweeps += swept.sweeps;
@@ -390,6 +399,7 @@ double Contact::stiffness() const { return impl_->modulus; }
 double Contact::push_speed() const { return impl_->push_speed; }
 long Contact::listed_pairs() const { return impl_->list.size(); }
 long Contact::list_builds() const { return impl_->builds; }
+const std::vector<Vec3>& Contact::body_shifts() const { return impl_->body_shifts; }
 const std::vector<std::string>& Contact::warnings() const { return impl_->warnings; }
 
 namespace {

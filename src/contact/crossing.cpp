@@ -18,7 +18,7 @@ class Finder {
   const Node& at(int v) const { return v < f_.body_nodes ? x_[v] : place_[v - f_.body_nodes]; }
 
   // Edges (2D: segments) of surface a through facets of surface b.
-  void pierce(int a, int b, int body, int tool) {
+  void pierce(int a, int b) {
     const auto &sa = f_.surfaces[a], &sb = f_.surfaces[b];
     std::vector<Box> boxes(sb.last_facet - sb.first_facet);
     for (size_t i = 0; i < boxes.size(); ++i)
@@ -35,22 +35,23 @@ class Finder {
       query.add(at(q));
       grid.query(query, [&](int i) {
         const auto& c = f_.facets[sb.first_facet + i];
+        if (a == b && (p == c[0] || p == c[1] || p == c[2] || q == c[0] || q == c[1] || q == c[2])) return;
         const bool hit = flat ? segments_cross(at(p), at(q), at(c[0]), at(c[1]), true)
                               : pierces(at(p), at(q), at(c[0]), at(c[1]), at(c[2]), true);
-        if (hit) found.push_back({body, tool, {p, q}, sb.first_facet + i});
+        if (hit) found.push_back({std::min(a, b), std::max(a, b), {p, q}, sb.first_facet + i});
       });
     }
   }
 
   // One vertex of each part of surface a against the closed parts of surface b.
-  void inside(int a, int b, int body, int tool) {
+  void inside(int a, int b) {
     const Parts pa = find_parts(f_, a), pb = find_parts(f_, b);
     std::vector<int> seen(pa.closed.size(), 0);
     for (size_t i = 0; i < pa.of_facet.size(); ++i) {
       if (seen[pa.of_facet[i]]++) continue;
       const int v = f_.facets[f_.surfaces[a].first_facet + i][0];
       for (size_t part = 0; part < pb.closed.size(); ++part)
-        if (pb.closed[part] && is_inside(at(v), b, pb, static_cast<int>(part))) found.push_back({body, tool, {v, -1}, -1});
+        if (pb.closed[part] && is_inside(at(v), b, pb, static_cast<int>(part))) found.push_back({std::min(a, b), std::max(a, b), {v, -1}, -1});
     }
   }
 
@@ -130,24 +131,30 @@ Parts find_parts(const Features& f, int surface) {
 std::vector<Crossing> find_crossings(const Features& f, const NodeField& x, const NodeField& place, const std::vector<bool>& present,
                                      const std::vector<bool>& is_plane, const std::vector<PlanePose>& planes) {
   Finder finder(f, x, place);
-  for (int body = 0; body < f.bodies; ++body)
+  const auto meet = [&](int a, int b) {
+    const Box box_a = box_of(f, a, x, place), box_b = box_of(f, b, x, place);
+    if (box_a.empty() || box_b.empty() || !box_a.overlaps(box_b)) return;
+    const size_t before = finder.found.size();
+    finder.pierce(a, b);
+    if (a == b) return;
+    if (f.dimension == 3) finder.pierce(b, a);
+    if (finder.found.size() > before) return;
+    finder.inside(a, b);
+    finder.inside(b, a);
+  };
+  for (int body = 0; body < f.bodies; ++body) {
     for (size_t t = 0; t < present.size(); ++t) {
-      const int tool = static_cast<int>(t), surface = f.bodies + tool;
+      const int surface = f.bodies + static_cast<int>(t);
       if (!present[t]) continue;
-      if (is_plane[t]) {
-        for (int v : f.surfaces[body].vertices)
-          if (dot3(x[v] - planes[t].point, planes[t].normal) <= 0) finder.found.push_back({body, tool, {v, -1}, -1});
+      if (!is_plane[t]) {
+        meet(body, surface);
         continue;
       }
-      const Box a = box_of(f, body, x, place), b = box_of(f, surface, x, place);
-      if (a.empty() || b.empty() || !a.overlaps(b)) continue;
-      const size_t before = finder.found.size();
-      finder.pierce(body, surface, body, tool);
-      if (f.dimension == 3) finder.pierce(surface, body, body, tool);
-      if (finder.found.size() > before) continue;
-      finder.inside(body, surface, body, tool);
-      finder.inside(surface, body, body, tool);
+      for (int v : f.surfaces[body].vertices)
+        if (dot3(x[v] - planes[t].point, planes[t].normal) <= 0) finder.found.push_back({body, surface, {v, -1}, -1});
     }
+    for (int other = f.meets_itself[body] ? body : body + 1; other < f.bodies; ++other) meet(body, other);
+  }
   return std::move(finder.found);
 }
 

@@ -156,7 +156,10 @@ Features build_features(const ContactSetup& setup, const NodeField& x) {
     f.facet_surface.resize(f.facets.size(), static_cast<int>(f.surfaces.size()));
     f.surfaces.push_back(std::move(s));
   };
-  for (const ContactSurface& body : setup.bodies) add_surface(body.facets, 0, nullptr);
+  for (const ContactSurface& body : setup.bodies) {
+    add_surface(body.facets, 0, nullptr);
+    f.meets_itself.push_back(body.meets_itself);
+  }
   for (size_t t = 0; t < setup.tools.size(); ++t) {
     if (setup.tools[t].plane) {
       add_surface({}, f.vertex_count, nullptr);

@@ -34,6 +34,7 @@ class Builder {
       found.clear();
       grid.query(query, [&](int i) {
         const auto& c = f_.facets[sb.first_facet + i];
+        if (a == b && (c[0] == v || c[1] == v || c[2] == v)) return;
         const double squared = f_.dimension == 2 ? closest_on_segment_facet(p, at(c[0]), at(c[1])).squared
                                                  : closest_on_triangle(p, at(c[0]), at(c[1]), at(c[2])).squared;
         if (squared <= radius_ * radius_) found.push_back(sb.first_facet + i);
@@ -64,6 +65,7 @@ class Builder {
       if (!query.overlaps(near)) continue;
       grid.query(query, [&](int i) {
         const auto& q = f_.edges[sb.first_edge + i].node;
+        if (a == b && (sb.first_edge + i <= e || p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1])) return;
         if (closest_on_edges(at(p[0]), at(p[1]), at(q[0]), at(q[1])).squared > radius_ * radius_) return;
         const auto &op = f_.edges[e].opposite, &oq = f_.edges[sb.first_edge + i].opposite;
         list.edges.push_back({e, sb.first_edge + i, {p[0], p[1], q[0], q[1]}, {op[0], op[1], oq[0], oq[1]}, kAwake});
@@ -137,6 +139,21 @@ NearList build_list(const Features& f, const NodeField& x, const NodeField& plac
   double clear = std::numeric_limits<double>::infinity();  // of all boxes from one another
   bool any = false;
   const double cell = std::max(f.mean_edge, 2 * radius);
+  const auto meet = [&](int a, int b, const Box& box_a, const Box& box_b) {
+    if (box_a.empty() || box_b.empty()) return;
+    const double distance = box_a.distance(box_b);
+    clear = std::min(clear, distance);
+    if (distance > radius) return;
+    any = true;
+    Box near = box_a, near_b = box_b;
+    near.grow(radius);
+    near_b.grow(radius);
+    near.low = near.low.cwiseMax(near_b.low);
+    near.high = near.high.cwiseMin(near_b.high);
+    build.vertices_against_facets(a, b, near, cell);
+    if (a != b) build.vertices_against_facets(b, a, near, cell);
+    if (f.dimension == 3) build.edges_against_edges(a, b, near, cell);
+  };
   for (int a = 0; a < f.bodies; ++a) {
     const Box body = box_of(f, a, x, place);
     for (size_t t = 0; t < present.size(); ++t) {
@@ -148,20 +165,9 @@ NearList build_list(const Features& f, const NodeField& x, const NodeField& plac
       }
       const int b = f.bodies + static_cast<int>(t);
       const Box tool = box_of(f, b, x, place);
-      if (body.empty() || tool.empty()) continue;
-      const double distance = body.distance(tool);
-      clear = std::min(clear, distance);
-      if (distance > radius) continue;
-      any = true;
-      Box near = body, near_tool = tool;
-      near.grow(radius);
-      near_tool.grow(radius);
-      near.low = near.low.cwiseMax(near_tool.low);
-      near.high = near.high.cwiseMin(near_tool.high);
-      build.vertices_against_facets(a, b, near, cell);
-      build.vertices_against_facets(b, a, near, cell);
-      if (f.dimension == 3) build.edges_against_edges(a, b, near, cell);
+      meet(a, b, body, tool);
     }
+    for (int b = f.meets_itself[a] ? a : a + 1; b < f.bodies; ++b) meet(a, b, body, b == a ? body : box_of(f, b, x, place));
   }
   std::sort(build.list.groups.begin(), build.list.groups.end(), [](const auto& p, const auto& q) {
     return p.vertex != q.vertex ? p.vertex < q.vertex : p.surface < q.surface;

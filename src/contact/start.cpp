@@ -13,8 +13,9 @@ namespace {
 // A vertex near a facet of the other side, with the gap signed by what is inside.
 struct StartGap {
   int vertex = -1;
+  int surface = -1;            ///< of the facet, or the plane
   double gap = 0;              ///< to the tool set back; negative inside
-  Node away = Node::Zero();    ///< from the tool to the body
+  Node away = Node::Zero();    ///< from the tool to the body; of two bodies from the facet to the vertex
 };
 
 class Start {
@@ -22,33 +23,40 @@ class Start {
   Start(double layer, const std::vector<int>& sides, const ContactSetup& setup, const NodeField& x, const Features& f, const ToolSet& tools)
       : layer_(layer), sides_(sides), setup_(setup), x_(x), f_(f), tools_(tools) {}
 
+  /// To the bodies from one tool; tool -1: of the bodies from each other.
   std::vector<StartGap> gaps(int tool, const std::vector<ToolMotion>& motion, const NodeField& place) const {
     std::vector<bool> only(motion.size(), false);
-    only[tool] = motion[tool].present;
+    if (tool >= 0) only[tool] = motion[tool].present;
     Workspace work;
     const std::vector<PlanePose> planes = tools_.planes(motion);
     const double radius = 5 * layer_;
     const NearList list = build_list(f_, x_, place, only, tools_.is_plane, planes, radius, work);
     std::vector<StartGap> found;
-    for (const auto& p : list.planes) found.push_back({p.vertex, dot3(x_[p.vertex] - planes[tool].point, planes[tool].normal), planes[tool].normal});
+    for (const auto& p : list.planes) found.push_back({p.vertex, f_.bodies + tool, dot3(x_[p.vertex] - planes[tool].point, planes[tool].normal), planes[tool].normal});
     const auto at = [&](int v) -> const Node& { return v < f_.body_nodes ? x_[v] : place[v - f_.body_nodes]; };
     for (const auto& g : list.groups) {
+      const bool with_tool = f_.rigid(g.vertex) || g.surface >= f_.bodies;
+      if (with_tool != (tool >= 0) || f_.vertex_surface[g.vertex] == g.surface) continue;
       const Node& p = at(g.vertex);
-      double best = 1e300, slope = -1;
+      double best = 1e300, slope = -1e300;
       StartGap gap;
       gap.vertex = g.vertex;
+      gap.surface = g.surface;
       for (int i = g.first; i < g.last; ++i) {
         const int facet = list.facets[i].facet;
         const auto& c = f_.facets[facet];
         const Node& third = at(c[f_.corners() - 1]);
         const Closest q = f_.dimension == 2 ? closest_on_segment_facet(p, at(c[0]), at(c[1])) : closest_on_triangle(p, at(c[0]), at(c[1]), third);
-        if (q.squared > best * (1 + 1e-9)) continue;
+        if (q.squared > best * (1 + 1e-9) + 1e-12 * layer_ * layer_) continue;
         const Node& d = q.apart;
         const int side = f_.rigid(c[0]) ? sides_[facet] : f_.facet_outward[facet];
         const Node n = side * facet_normal(f_.dimension, at(c[0]), at(c[1]), third);
         const double distance = std::sqrt(q.squared), along = dot3(d, n);
-        if (q.squared >= best * (1 - 1e-9) && std::abs(along) <= slope) continue;
-        slope = std::abs(along);
+        // Of facets that are equally near, the one that is met most squarely; where the vertex
+        // lies on them, the one with the most of the vertex' own surface before it.
+        const double square = distance > 1e-6 * layer_ ? std::abs(along) : room(g.vertex, n, at);
+        if (q.squared >= best * (1 - 1e-9) - 1e-12 * layer_ * layer_ && square <= slope) continue;
+        slope = square;
         best = std::min(best, q.squared);
         gap.gap = along < 0 ? -distance : distance;
         // From the second feature to the vertex, on the outer side; then from tool to body.
@@ -58,6 +66,25 @@ class Start {
       found.push_back(gap);
     }
     return found;
+  }
+
+  // Translations of the bodies after which no two of them are nearer than the
+  // layer; empty where there are none of a few layers.
+  std::vector<Node> part(const std::vector<StartGap>& gaps) const {
+    std::vector<Node> t(f_.bodies, Node::Zero());
+    for (int turn = 0; turn < 10000; ++turn) {
+      double worst = 0;
+      for (const StartGap& g : gaps) {
+        Node &a = t[f_.vertex_surface[g.vertex]], &b = t[g.surface];
+        const double missing = layer_ - (g.gap + dot3(g.away, a - b));
+        if (missing <= 0) continue;
+        a += 0.5 * missing * g.away;
+        b -= 0.5 * missing * g.away;
+        worst = std::max(worst, missing);
+      }
+      if (worst < 1e-6 * layer_) return t;
+    }
+    return {};
   }
 
   // A small translation of the tool after which no gap is less than the layer;
@@ -77,17 +104,32 @@ class Start {
     return Node::Zero();
   }
 
-  std::string vertex_name(int v, int tool, const Node& at) const {
+  std::string surface_name(int surface) const {
+    return surface < f_.bodies ? "body " + setup_.bodies[surface].name : "tool " + setup_.tools[surface - f_.bodies].name;
+  }
+  std::string vertex_name(int v, const Node& at) const {
     std::ostringstream text;
     if (v < f_.body_nodes)
       text << "node " << v << " of body " << setup_.bodies[f_.vertex_surface[v]].name;
     else
-      text << "a vertex of tool " << setup_.tools[tool].name;
+      text << "a vertex of " << surface_name(f_.vertex_surface[v]);
     text << " at (" << at[0] << ", " << at[1] << ", " << at[2] << ") m";
     return text.str();
   }
 
  private:
+  // How far the vertex' own surface lies before the plane through it with normal n:
+  // the least slope of the edges that leave it.
+  template <class At> double room(int vertex, const Node& n, At&& at) const {
+    double least = 1;
+    for (int i = f_.first_neighbour[vertex]; i < f_.first_neighbour[vertex + 1]; ++i) {
+      const Node along = at(f_.neighbours[i]) - at(vertex);
+      const double slope = dot3(along, n) / std::sqrt(dot3(along, along));
+      least = std::min(least, slope);
+    }
+    return least;
+  }
+
   double layer_;
   const std::vector<int>& sides_;
   const ContactSetup& setup_;
@@ -97,6 +139,28 @@ class Start {
 };
 
 }  // namespace
+
+std::vector<Vec3> part_bodies(double layer, const ContactSetup& setup, const Features& f, NodeField& x, std::vector<std::string>& warnings) {
+  std::vector<Vec3> shifts(f.bodies, Vec3::Zero());
+  if (f.bodies < 2) return shifts;
+  const ToolSet none;
+  const std::vector<int> sides;
+  const Start start(layer, sides, setup, x, f, none);
+  const std::vector<StartGap> gaps = start.gaps(-1, {}, {});
+  if (std::none_of(gaps.begin(), gaps.end(), [&](const StartGap& g) { return g.gap < 0.99 * layer; })) return shifts;
+  const std::vector<Node> moves = start.part(gaps);
+  for (int b = 0; b < static_cast<int>(moves.size()); ++b) {
+    if (moves[b].isZero(0) || moves[b].norm() > 8 * f.bodies * layer) continue;  // no way out: left as it is, check_start decides
+    shifts[b] = vec3(moves[b]);
+    for (int v : f.surfaces[b].vertices) x[v] += moves[b];
+    const Vec3 along = shifts[b].normalized();
+    std::ostringstream text;
+    text << "body " << setup.bodies[b].name << " touches another body at the start: it was moved by " << shifts[b].norm() << " m along ("
+         << along.x() << ", " << along.y() << ", " << along.z() << ")";
+    warnings.push_back(text.str());
+  }
+  return shifts;
+}
 
 void check_start(double layer, const std::vector<int>& sides, const ContactSetup& setup, const NodeField& x,
                  const std::vector<ToolMotion>& at_start, Features& f, ToolSet& tools, std::vector<std::string>& warnings) {
@@ -116,7 +180,7 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
       if (g.gap >= -1.001 * layer) continue;
       const Node& p = g.vertex < f.body_nodes ? x[g.vertex] : place[g.vertex - f.body_nodes];
       std::ostringstream text;
-      text << start.vertex_name(g.vertex, tool, p) << " lies " << layer - g.gap << " m deep in "
+      text << start.vertex_name(g.vertex, p) << " lies " << layer - g.gap << " m deep in "
            << (g.vertex < f.body_nodes ? "tool " + setup.tools[t].name : "a body");
       refused.push_back(text.str());
       told[t] = true;
@@ -141,25 +205,25 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
   tools.place_all(f, at_start, false, place);
   const auto at = [&](int v) -> const Node& { return v < f.body_nodes ? x[v] : place[v - f.body_nodes]; };
   for (const Crossing& c : find_crossings(f, x, place, ToolSet::present(at_start), tools.is_plane, tools.planes(at_start))) {
-    if (told[c.tool]) continue;
+    if (c.other >= f.bodies && told[c.other - f.bodies]) continue;
+    const int pierced = c.facet >= 0 ? f.facet_surface[c.facet] : f.vertex_surface[c.edge[0]] == c.surface ? c.other : c.surface;
     std::ostringstream text;
-    text << start.vertex_name(c.edge[0], c.tool, at(c.edge[0]));
+    text << start.vertex_name(c.edge[0], at(c.edge[0]));
     if (c.facet < 0) {
-      text << (c.edge[1] < 0 && c.edge[0] < f.body_nodes ? " lies inside tool " + setup.tools[c.tool].name : " lies inside body " + setup.bodies[c.body].name);
+      text << " lies inside " << start.surface_name(pierced);
     } else {
       const auto& corner = f.facets[c.facet];
       const Node n = facet_normal(f.dimension, at(corner[0]), at(corner[1]), at(corner[f.corners() - 1]));
       const double depth = std::min(std::abs(dot3(at(c.edge[0]) - at(corner[0]), n)), std::abs(dot3(at(c.edge[1]) - at(corner[0]), n)));
-      text << " and " << start.vertex_name(c.edge[1], c.tool, at(c.edge[1])) << " are joined by an edge that pierces a facet of "
-           << (c.edge[0] < f.body_nodes ? "tool " + setup.tools[c.tool].name : "body " + setup.bodies[c.body].name) << " by "
-           << depth + layer << " m";
+      text << " and " << start.vertex_name(c.edge[1], at(c.edge[1])) << " are joined by an edge that pierces a facet of "
+           << start.surface_name(pierced) << " by " << depth + layer << " m";
     }
     refused.push_back(text.str());
   }
   if (refused.empty()) return;
   std::ostringstream text;
-  text << refused.size() << " pairs of a tool and a body overlap at the start by more than " << 2 * layer
-       << " m: move the tool's position, or the blank, so that they at most touch.";
+  text << refused.size() << " pairs of tools and bodies overlap at the start by more than " << 2 * layer
+       << " m: move the tool's position, or the body, so that they at most touch.";
   for (size_t i = 0; i < std::min<size_t>(refused.size(), 10); ++i) text << "\n  " << refused[i];
   if (refused.size() > 10) text << "\n  ...";
   throw Error(Code::initial_penetration, text.str());

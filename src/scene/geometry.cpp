@@ -127,6 +127,7 @@ void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
   body.element_count = mesh.simplex_count();
   body.material = config.material;
   body.pressure_average = config.pressure_average;
+  body.self_contact = config.self_contact;
   body.mesh = std::move(mesh);
   model.bodies.push_back(std::move(body));
 }

@@ -77,7 +77,8 @@ void Simulation::Impl::set_up_loads() {
 void Simulation::Impl::set_up_contact() {
   tools.resize(model.tools.size());
   place_tools();
-  if (model.tools.empty()) return;
+  // What can meet: a body and a tool, two bodies, a body and itself.
+  if (model.tools.empty() && model.bodies.size() < 2 && !model.bodies.front().self_contact) return;
   ContactSetup setup;
   setup.dimension = model.dimension;
   setup.config = plan.contact;
@@ -87,6 +88,7 @@ void Simulation::Impl::set_up_contact() {
     ContactSurface s;
     s.name = body.name;
     s.dimension = model.dimension;
+    s.meets_itself = body.self_contact;
     const std::size_t count = body.mesh.surface.size();
     s.facets.assign(surface.begin() + first_facet, surface.begin() + first_facet + count);
     first_facet += count;
@@ -111,6 +113,11 @@ void Simulation::Impl::set_up_contact() {
     setup.tool_meshes.push_back(&tool.mesh);
   }
   contact.emplace(setup, x, tool_motions(0, 0));
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const Node shift = node(contact->body_shifts()[b]);
+    for (int n = body.first_node; n < body.first_node + body.node_count; ++n) x[n] += shift, X[n] += shift;
+  }
   std::vector<double> inverse_mass;
   for (double m : elements.nodal_mass()) inverse_mass.push_back(1 / m);
   std::vector<HeldNode> held;

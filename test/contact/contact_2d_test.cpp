@@ -175,7 +175,7 @@ TEST(Contact2D, BirthInsideTheLayerDoesNotEject) {
       World world;
       const double h0 = 1e-3;
       world.add_strip(Vec3(0, 0, 0), 4, 1, .1, .1, 2700, 0);
-      world.add_strip(Vec3(0, -.1 - 2 * fraction * h0, 0), 4, 1, .1, .1, 2700, 0);  // on both sides: the tool is neither set back nor backed off
+      world.add_strip(Vec3(1, -.1 - 2 * fraction * h0, 0), 4, 1, .1, .1, 2700, 0);  // on both sides: the tool is neither set back nor backed off
       world.config.layer = h0;
       world.config.push_speed = push;
       world.add_tool("foil", polyline(line(-1, 2, 3)), 0, [=](double) { return Vec3(0, -fraction * h0, 0); });

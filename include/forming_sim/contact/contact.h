@@ -1,11 +1,11 @@
 #pragma once
-// The mild contact of deformable bodies with rigid moving tools: what the time
-// loop sees of it. The loop predicts, contact corrects the velocities so that
+// The mild contact of deformable bodies with rigid moving tools, with each other
+// and with themselves: what the time loop sees of it. The loop predicts, contact corrects the velocities so that
 // no pair of features ends the step closer than zero, and moves the nodes.
 //
 // Law of a pair: f = E A h0 (1/h - 1/h0) for a gap h < h0 (contact/law.h), taken
-// at the end of the step. A is the area that the body's node stands for, or the
-// mean over the nodes of the body's edge or facet; E, A and h0 are fixed at
+// at the end of the step. A is the mean of the areas that the pair's deformable
+// nodes stand for; E, A and h0 are fixed at
 // set-up, weights and normals are those of the start of the step.
 #include <functional>
 #include <memory>
@@ -26,6 +26,7 @@ struct ContactSurface {
   bool rigid = false;
   std::vector<Facet> facets;  ///< bodies: joined numbering; tools: the tool mesh's own numbering. Orientation is used of bodies only
   double friction = 0;        ///< tools: Coulomb coefficient against every body
+  bool meets_itself = false;  ///< bodies: contact with itself
   bool plane = false;         ///< rigid half space without facets
   Vec3 point = Vec3::Zero(), normal = Vec3::Zero();  ///< plane, in the tool's frame; normal of length 1 towards the bodies
 };
@@ -117,6 +118,9 @@ class Contact {
   double push_speed() const;                          ///< m/s
   long listed_pairs() const;                          ///< pairs of features near enough to be watched
   long list_builds() const;                           ///< how often the list was built
+  /// Bodies that touched each other at the start are moved apart by so much, m: one
+  /// per body, mostly zero. The caller moves their nodes before the first step.
+  const std::vector<Vec3>& body_shifts() const;
   const std::vector<std::string>& warnings() const;   ///< "tool die was backed off by 1e-6 m along (0, -1, 0) ..."
 
   /// All that the next steps depend on beside x, v and the tools' motion.

@@ -10,8 +10,9 @@ namespace forming_sim {
 /// An edge of one surface that goes through a facet of another (2D: two
 /// segments that cross), or, where facet < 0, a vertex behind a plane
 /// (edge[1] = -1) or a part wholly inside a closed one (edge[0] a vertex of it).
+/// surface, other: of a body, and of a tool or another body (or the same one).
 struct Crossing {
-  int body = -1, tool = -1;
+  int surface = -1, other = -1;
   int edge[2] = {-1, -1};  ///< feature vertices
   int facet = -1;
 };

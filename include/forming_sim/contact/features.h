@@ -30,6 +30,7 @@ struct Features {
   int dimension = 3;
   int body_nodes = 0;
   int bodies = 0;                     ///< surfaces 0 ... bodies - 1; tool t is surface bodies + t
+  std::vector<bool> meets_itself;     ///< per body
   int vertex_count = 0;
   std::vector<Surface> surfaces;
   std::vector<std::array<int, 3>> facets;       ///< corners, rising; 2D: 2 used, third -1
@@ -47,6 +48,8 @@ struct Features {
 
   bool rigid(int vertex) const { return vertex >= body_nodes; }
   int corners() const { return dimension; }
+  /// Can deformable meet deformable? Then both sides of a pair move.
+  bool bodies_meet() const { return bodies > 1 || (bodies == 1 && meets_itself[0]); }
 };
 
 /// x: positions of the bodies' nodes, from which areas and edge lengths are taken.

@@ -47,7 +47,8 @@ struct PlanePose {
   Node point = Node::Zero(), normal = Node::Zero();
 };
 
-/// Lists all pairs of a body's and a tool's features within `radius`, and
+/// Lists all pairs of features within `radius` of a body and a tool, of two
+/// bodies, and of a body and itself where it meets itself and the features share no node;
 /// numbers the workspace (vertex, body_entries; x of all entries but the feet).
 /// place: positions of all feature vertices of present tools now, index vertex -
 /// body_nodes. present: per tool. planes: per tool, used where it is a plane.

@@ -39,6 +39,11 @@ Node facet_normal(int dimension, const Node& a, const Node& b, const Node& c);
 void set_back(double layer, const std::vector<int>& sides, const ContactSetup& setup, Features& features, ToolSet& tools,
               std::vector<std::string>& warnings);
 
+/// Moves bodies apart (x, by so much a body, reported in warnings) that touch each
+/// other or overlap by no more than a layer, until none is nearer than the layer.
+std::vector<Vec3> part_bodies(double layer, const ContactSetup& setup, const Features& features, NodeField& x,
+                              std::vector<std::string>& warnings);
+
 /// Backs off tools that overlap a body by no more than 2 layers (before they
 /// were set back), reported in warnings.
 /// Throws Error(initial_penetration) with the deeper ones.

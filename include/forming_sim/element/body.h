@@ -14,6 +14,7 @@ struct BodyModel {
   int first_element = 0, element_count = 0;  ///< simplices
   MaterialConfig material;
   std::string pressure_average = "cell";     ///< cell | node | element
+  bool self_contact = false;                 ///< it meets itself where it folds
   Mesh mesh;                     ///< its own mesh, nodes numbered from 0; sets hold the named sets of the scene too
 };
 

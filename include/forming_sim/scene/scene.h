@@ -23,6 +23,7 @@ struct BodyConfig {
   std::optional<MeshConfig> mesh;
   std::string pressure_average = "cell";
   MaterialConfig material;
+  bool self_contact = false;
   std::vector<SetConfig> sets;
   Vec3 initial_velocity = Vec3::Zero();
   Vec3 initial_spin_deg_s = Vec3::Zero();
@@ -36,6 +37,7 @@ struct BodyConfig {
     visit(FORMING_SIM_FIELD(mesh), Field().doc("a body from a volume mesh; its physical groups become sets"));
     visit(FORMING_SIM_FIELD(pressure_average), Field().choices({"cell", "node", "element"}).doc("over what the pressure is averaged: cell: one per quadrilateral or hexahedron, per node in free triangles and tetrahedra; node: everywhere per node; element: no average (locks in plastic flow)"));
     visit(FORMING_SIM_FIELD(material), Field().required().doc("what the body is made of"));
+    visit(FORMING_SIM_FIELD(self_contact), Field().doc("true: the body meets itself where it folds; contact of bodies with each other is always on"));
     visit(FORMING_SIM_FIELD(sets), Field().doc("named sets of nodes, beside those of the mesh"));
     visit(FORMING_SIM_FIELD(initial_velocity), Field().unit("m/s").doc("uniform initial velocity"));
     visit(FORMING_SIM_FIELD(initial_spin_deg_s), Field().unit("deg/s").doc("initial angular velocity, added to the uniform velocity"));
