@@ -1,0 +1,149 @@
+// What each stage of a step costs.
+#include <cmath>
+
+#include "forming_sim/contact/contact.h"
+#include "rows.h"
+#include "support/bodies.h"
+
+namespace forming_sim::bench {
+namespace {
+
+struct Family {
+  CellKind kind;
+  const char* average;
+  double goal;  ///< ns an element and step, elements of the size of a cache
+};
+
+BodyModel block(const Family& family, int elements) {
+  const CellShape& shape = shape_of(family.kind);
+  const double cells = static_cast<double>(elements) / (family.kind == CellKind::tetrahedron ? 6 : family.kind == CellKind::triangle ? 2 : shape.simplices);
+  const int n = std::max(2, static_cast<int>(std::lround(shape.dimension == 2 ? std::sqrt(cells) : std::cbrt(cells))));
+  return body_of(block_of(family.kind, n), aluminium(true), family.average);
+}
+
+/// Forces and time step of one block, stretched into yield step by step.
+void element_costs(const Family& family, int elements, const char* size, std::vector<Row>& rows) {
+  const Clock clock;
+  const BodyModel body = block(family, elements);
+  const int D = body.mesh.dimension;
+  const NodeField X = positions_of(body.mesh);
+  double one_thread = 0;
+  for (int threads : {1, 2}) {
+    Elements engine({body}, D, X, ElementOptions(), threads);
+    const double count = static_cast<double>(engine.simplices().size());
+    NodeField x = X, v(X.size(), Node::Zero()), f(X.size());
+    long calls = 0;
+    const double force = least_time([&] {
+      // To and fro, so that the material yields in most calls.
+      const double stretch = 1 + 0.02 * std::sin(0.05 * static_cast<double>(calls++));
+      for (std::size_t i = 0; i < x.size(); ++i) x[i][0] = stretch * X[i][0];
+      engine.forces(x, v, 1e-8, f);
+    });
+    const std::string name = std::string(shape_of(family.kind).name) + ", p per " + family.average + ", " + size;
+    if (threads == 1) {
+      one_thread = force;
+      rows.push_back(at_most(name, "forces, ns an element", 1e9 * force / count, family.goal, clock.seconds()));
+      double dt;
+      int element;
+      const double bound = least_time([&] { engine.stable_step(x, v, dt, element); });
+      rows.push_back(just(name, "time step, ns an element", 1e9 * bound / count, clock.seconds()));
+    } else {
+      rows.push_back(just(name, "forces, 1 thread over 2", one_thread / force, clock.seconds()));
+    }
+  }
+}
+
+/// A flat plate of n x n cells over a flat tool whose mesh does not match, all nodes
+/// at `gap` layers from it: contact alone, nothing moves.
+void contact_costs(double gap, const char* name, std::vector<Row>& rows) {
+  const Clock clock;
+  constexpr int n = 100;
+  BlankConfig blank;
+  blank.shape = "plate";
+  blank.pattern = "coarse";
+  blank.length = blank.width = 1;
+  blank.thickness = 0.02;
+  blank.cells_along = blank.cells_across = n;
+  blank.cells_through = 1;
+  const Mesh plate = generate_blank(blank);
+  Mesh tool;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) tool.nodes.emplace_back(-0.0037 + 1.0051 * i / n, -0.0029 + 1.0047 * j / n, 0);
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i;
+      Facet facet;
+      facet.nodes = {a, a + 1, a + n + 2};
+      tool.surface.push_back(facet);
+      facet.nodes = {a, a + n + 2, a + n + 1};
+      tool.surface.push_back(facet);
+    }
+  ContactSetup setup;
+  setup.config.layer = 1e-4;
+  setup.softest_modulus = 70e9;
+  setup.thinnest = 0.02;
+  setup.wave_speed = 5000;
+  ContactSurface body, die;
+  body.name = "plate";
+  body.facets = plate.surface;
+  die.name = "die";
+  die.rigid = true;
+  die.facets = tool.surface;
+  setup.bodies = {body};
+  setup.tools = {die};
+  setup.tool_meshes = {&tool};
+  NodeField x = positions_of(plate);
+  for (Node& node : x) node[2] += 1e-3;  // clear of the tool at the start
+  Contact contact(setup, x, {ToolMotion()});
+  contact.set_masses(std::vector<double>(x.size(), 1.0), {});
+  for (Node& node : x) node[2] += (gap - 1) * setup.config.layer - 1e-3;  // the tool stands a layer back
+  const NodeField rest = x;
+  NodeField v;
+  ContactStep step;
+  const double time = least_time([&] {
+    x = rest;
+    v.assign(x.size(), Node::Zero());
+    step = contact.advance(0, 1e-7, x, v, [&](double, NodeField& v_star) { v_star = v; }, [](double) { return std::vector<ToolMotion>(1); });
+  });
+  rows.push_back(just(name, "listed pairs", static_cast<double>(contact.listed_pairs()), clock.seconds()));
+  if (step.active == 0) {
+    rows.push_back(at_most(name, "ns a listed pair and step", 1e9 * time / static_cast<double>(contact.listed_pairs()), 20, clock.seconds()));
+    return;
+  }
+  rows.push_back(just(name, "active pairs", static_cast<double>(step.active), clock.seconds()));
+  rows.push_back(just(name, "sweeps", step.sweeps, clock.seconds()));
+  rows.push_back(at_most(name, "ns an active pair and sweep", 1e9 * time / static_cast<double>(step.active) / step.sweeps, 45, clock.seconds()));
+}
+
+/// Bytes a second of a sum over an array that no cache holds.
+double bandwidth() {
+  std::vector<double> a(32 << 20, 1.0);
+  volatile double sink = 0;
+  const double time = least_time([&] {
+    double sum[8] = {};
+    for (std::size_t i = 0; i < a.size(); i += 8)
+      for (int k = 0; k < 8; ++k) sum[k] += a[i + k];
+    sink = sum[0] + sum[1] + sum[2] + sum[3] + sum[4] + sum[5] + sum[6] + sum[7];
+  });
+  return static_cast<double>(a.size() * sizeof(double)) / time;
+}
+
+}  // namespace
+
+std::vector<Row> costs() {
+  const Family families[] = {{CellKind::crossed, "cell", 8},      {CellKind::quad2, "cell", 8},        {CellKind::triangle, "node", 8},
+                             {CellKind::hex24, "cell", 12},       {CellKind::hex6, "cell", 12},        {CellKind::tetrahedron, "node", 12}};
+  std::vector<Row> rows;
+  const Clock clock;
+  const double speed = bandwidth();
+  rows.push_back(just("this machine", "memory read, GB/s", 1e-9 * speed, clock.seconds()));
+  for (const Family& family : families) {
+    element_costs(family, 4000, "4k elements", rows);
+    element_costs(family, 400000, "400k elements", rows);
+  }
+  contact_costs(3, "contact, 10k nodes on 20k facets, apart", rows);
+  contact_costs(0.9, "contact, 10k nodes on 20k facets, pressed", rows);
+  return rows;
+}
+
+}  // namespace forming_sim::bench

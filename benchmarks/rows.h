@@ -1,0 +1,62 @@
+#pragma once
+// What a command of forming_bench finds: rows, printed as a table and kept as
+// DIR/<command>.json.
+#include <chrono>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace forming_sim::bench {
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+struct Row {
+  std::string name;       ///< "case" in the file
+  std::string quantity;   ///< with its unit
+  double found = kNothing;
+  double expected = kNothing;   ///< not a number: nothing to compare with
+  double error = kNothing;      ///< found / expected - 1
+  double wall_time = 0;         ///< s
+  bool holds = true;
+};
+
+/// A value that should come within `bound` (relative) of `expected`.
+Row near(const std::string& name, const std::string& quantity, double found, double expected, double bound, double wall_time);
+/// A cost that should be at most `goal`.
+Row at_most(const std::string& name, const std::string& quantity, double found, double goal, double wall_time);
+/// A value that is reported only.
+Row just(const std::string& name, const std::string& quantity, double found, double wall_time);
+
+void print(const std::vector<Row>& rows);
+/// Throws std::runtime_error where the file cannot be written.
+void write(const std::string& directory, const std::string& command, const std::vector<Row>& rows);
+
+class Clock {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Least time of one call, s: calls for 50 ms at a time, seven times.
+template <class Work> double least_time(Work&& work) {
+  work();
+  double least = std::numeric_limits<double>::infinity();
+  for (int turn = 0; turn < 7; ++turn) {
+    const Clock clock;
+    long calls = 0;
+    do {
+      work();
+      ++calls;
+    } while (clock.seconds() < 0.05);
+    least = std::min(least, clock.seconds() / static_cast<double>(calls));
+  }
+  return least;
+}
+
+std::vector<Row> costs();    ///< ns per element and step of each stage
+std::vector<Row> bending();  ///< moment, thickness and springback of a bent sheet
+std::vector<Row> impact();   ///< a bar against a plane and against a bar
+
+}  // namespace forming_sim::bench

@@ -1,0 +1,118 @@
+#pragma once
+// A bar in uniaxial strain meets a rigid plane, or another bar: p = rho c_p v for 2 L / c_p.
+#include <cmath>
+
+#include "support/runs.h"
+
+namespace forming_sim {
+
+constexpr double kBarPressure = 83.85e6, kBarDuration = 1.336e-3;  // Pa, s
+
+struct Impact {
+  double pressure, duration, restitution, balance;
+  long crossings;
+};
+
+inline Impact hit_wall(int cells, double safety) {
+  const double G = 26.5e9, K = 65.1e9, rho = 2800, v = 5, L = 4, height = 0.4;
+  MaterialConfig m;
+  m.density = rho;
+  m.youngs_modulus = 9 * K * G / (3 * K + G);
+  m.poissons_ratio = (3 * K - 2 * G) / (2 * (3 * K + G));
+  BlankConfig blank = strip_of(L, height, cells, std::max(1, cells / 10));
+  blank.origin = Vec3(1e-3, 0, 0);
+  OneBody run(body_of(generate_blank(blank), m), 2.2e-3);
+  run.plan.bodies[0].initial_velocity = Vec3(-v, 0, 0);
+  run.plan.time_step.safety = safety;
+  for (const char* side : {"bottom", "top"}) {
+    BoundaryConfig b;
+    b.set = side;
+    b.kind = "symmetric";
+    b.normal = Vec3::UnitY();
+    run.plan.bodies[0].boundaries.push_back(b);
+  }
+  ToolModel wall;
+  wall.name = "wall";
+  wall.normal = Vec3::UnitX();
+  wall.mesh.dimension = 2;
+  run.model.tools.push_back(wall);
+  auto sim = run.start();
+  const double start = 1e-3 / v;
+  double early = 0, late = 0, t_early = 0, t_late = 0, first = 0, last = 0, before = 0;
+  while (sim->step()) {
+    const double t = sim->time() - start, impulse = -sim->tools()[0].impulse[0];
+    if (impulse > before) {
+      if (first == 0) first = sim->time();
+      last = sim->time();
+    }
+    before = impulse;
+    if (t < 0.3e-3) early = impulse, t_early = t;
+    if (t < 1.0e-3) late = impulse, t_late = t;
+  }
+  const double momentum = 2 * rho * L * height * v;  // for restitution 1
+  return {(late - early) / (t_late - t_early) / height, last - first, sim->tools()[0].impulse.norm() / momentum * 2 - 1,
+          sim->balance_error(), sim->contact_status().crossings};
+}
+
+// Two bars, whose meshes need not match, do to each other what the plane does.
+struct Meeting {
+  double pressure, duration, restitution, balance, momentum;
+  long crossings;
+};
+
+inline Meeting hit_each_other(int cells, int other_cells) {
+  const double G = 26.5e9, K = 65.1e9, rho = 2800, v = 5, L = 4, height = 0.4, gap = 2e-3;
+  MaterialConfig m;
+  m.density = rho;
+  m.youngs_modulus = 9 * K * G / (3 * K + G);
+  m.poissons_ratio = (3 * K - 2 * G) / (2 * (3 * K + G));
+  Model model;
+  RunPlan plan;
+  model.dimension = 2;
+  plan.stages.push_back(form_for(2.2e-3));
+  for (int side = 0; side < 2; ++side) {
+    const int n = side == 0 ? cells : other_cells;
+    BlankConfig blank = strip_of(L, height, n, std::max(1, n / 10) + side);
+    blank.origin = Vec3(side == 0 ? -L - gap / 2 : gap / 2, 0, 0);
+    BodyModel body = body_of(generate_blank(blank), m);
+    body.name = side == 0 ? "left" : "right";
+    body.first_node = model.node_count();
+    body.first_element = model.element_count();
+    model.bodies.push_back(std::move(body));
+    plan.bodies.emplace_back();
+    plan.bodies.back().initial_velocity = Vec3(side == 0 ? v : -v, 0, 0);
+    for (const char* edge : {"bottom", "top"}) {
+      BoundaryConfig b;
+      b.set = edge;
+      b.kind = "symmetric";
+      b.normal = Vec3::UnitY();
+      plan.bodies.back().boundaries.push_back(b);
+    }
+  }
+  Simulation sim(plan, model, 1);
+  const auto momentum = [&](std::size_t body) {
+    double p = 0;
+    for (int i = 0; i < model.bodies[body].node_count; ++i) {
+      const int n = model.bodies[body].first_node + i;
+      p += sim.nodal_mass()[n] * sim.velocities()[n][0];
+    }
+    return p;
+  };
+  const double start = gap / (2 * v), whole = rho * L * height * v;
+  double early = 0, late = 0, t_early = 0, t_late = 0, first = 0, last = 0, before = 0, drift = 0;
+  while (sim.step()) {
+    const double t = sim.time() - start, p = momentum(1), impulse = p + whole;
+    drift = std::max(drift, std::fabs(p + momentum(0)) / whole);
+    if (impulse > before + 1e-9 * whole) {
+      if (first == 0) first = sim.time();
+      last = sim.time();
+    }
+    before = std::max(before, impulse);
+    if (t < 0.3e-3) early = impulse, t_early = t;
+    if (t < 1.0e-3) late = impulse, t_late = t;
+  }
+  return {(late - early) / (t_late - t_early) / height, last - first, momentum(1) / whole, sim.balance_error(), drift,
+          sim.contact_status().crossings};
+}
+
+}  // namespace forming_sim
