@@ -1,0 +1,199 @@
+#!/usr/bin/python3
+"""What a scene can say, each shown by what a mechanician would check.
+
+usage: features_test.py FORMING_OFFLINE
+"""
+import copy
+import csv
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy
+import yaml
+
+OFFLINE = sys.argv[1] if len(sys.argv) > 1 else ''
+
+ALUMINIUM = {'density': 2710.0, 'youngs_modulus': 70.5e9, 'poissons_ratio': 0.34}
+
+
+def body(shape='strip', material=None, **fields):
+    blank = {'strip': {'shape': 'strip', 'length': 0.010, 'thickness': 0.002, 'cells_along': 10, 'cells_through': 2},
+             'plate': {'shape': 'plate', 'length': 0.010, 'width': 0.010, 'thickness': 0.002,
+                       'cells_along': 4, 'cells_across': 4, 'cells_through': 1}}[shape]
+    return dict({'name': 'body', 'blank': blank, 'material': dict(ALUMINIUM, **(material or {}))}, **fields)
+
+
+def scene(*bodies, dimension=2, duration=2e-5, **fields):
+    return dict({'name': 'case', 'dimension': dimension, 'bodies': copy.deepcopy(list(bodies)),
+                 'stages': [{'kind': 'form', 'duration': duration}], 'output': {'frames': 2}}, **fields)
+
+
+CUBE = [[x, y, z] for z in (2.0, 5.0) for y in (-1.0, 11.0) for x in (-1.0, 11.0)]  # millimetres, on the plate
+FACETS = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)]
+
+
+def cube_files():
+    """The same cube in every format."""
+    points = '\n'.join('%g %g %g' % tuple(p) for p in CUBE)
+    stl = 'solid c\n' + ''.join('facet normal 0 0 0\nouter loop\n' + ''.join('vertex %g %g %g\n' % tuple(CUBE[i]) for i in f) + 'endloop\nendfacet\n'
+                                for f in FACETS) + 'endsolid c\n'
+    obj = ''.join('v %g %g %g\n' % tuple(p) for p in CUBE) + ''.join('f %d %d %d\n' % tuple(i + 1 for i in f) for f in FACETS)
+    ply = ('ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\nelement face 12\n'
+           'property list uchar int vertex_indices\nend_header\n' + points + '\n' + ''.join('3 %d %d %d\n' % f for f in FACETS))
+    dae = ('<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset><up_axis>Z_UP</up_axis></asset>'
+           '<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="24">' + points.replace('\n', ' ') +
+           '</float_array><technique_common><accessor source="#a" count="8" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>'
+           '<param name="Z" type="float"/></accessor></technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices>'
+           '<triangles count="12"><input semantic="VERTEX" source="#v" offset="0"/><p>' + ' '.join('%d %d %d' % f for f in FACETS) +
+           '</p></triangles></mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/>'
+           '</node></visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>')
+    return {'cube.stl': stl, 'cube.obj': obj, 'cube.ply': ply, 'cube.dae': dae}
+
+
+class Features(unittest.TestCase):
+    def setUp(self):
+        self.directory = tempfile.mkdtemp(prefix='forming_sim_')
+        self.addCleanup(shutil.rmtree, self.directory)
+
+    def path(self, name):
+        return os.path.join(self.directory, name)
+
+    def run_scene(self, data, name='out'):
+        with open(self.path('scene.yaml'), 'w') as file:
+            yaml.safe_dump(data, file)
+        run = subprocess.run([OFFLINE, self.path('scene.yaml'), '--output', self.path(name), '--quiet', '--threads', '1'],
+                             stderr=subprocess.PIPE, text=True)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with open(self.path(name + '/summary.json')) as file:
+            summary = json.load(file)
+        self.assertLess(summary['energy_J']['balance_error'], 0.01)
+        return summary
+
+    def history(self, name='out'):
+        with open(self.path(name + '/history.csv')) as file:
+            return list(csv.DictReader(file))
+
+    # ---- loads
+
+    def test_gravity(self):
+        fall = self.run_scene(scene(body('plate'), dimension=3, duration=4e-4, gravity=[1.0, 2.0, -10.0]))['bodies'][0]
+        self.assertAlmostEqual(fall['mass'], 2710 * 2e-7, delta=1e-12)
+        numpy.testing.assert_allclose(fall['momentum'], fall['mass'] * 4e-4 * numpy.array([1, 2, -10]), rtol=0.01)
+
+    def test_spin_carries_no_stress_and_keeps_its_momentum(self):
+        turns = 3 * 360 / 1e-3  # three turns in a millisecond
+        data = scene(body('strip', initial_spin_deg_s=[0.0, 0.0, turns], spin_centre=[0.005, 0.001, 0.0], initial_velocity=[2.0, 0.0, 0.0]),
+                     duration=1e-3)
+        after = self.run_scene(data)
+        strip = after['bodies'][0]
+        inertia = strip['mass'] * (0.010**2 + 0.002**2) / 12
+        expected = inertia * math.radians(turns)
+        about_centre = strip['angular_momentum'][2] - numpy.cross(strip['centre'], strip['momentum'])[2]
+        self.assertAlmostEqual(about_centre, expected, delta=0.02 * expected)
+        self.assertAlmostEqual(strip['momentum'][0], 2 * strip['mass'], delta=1e-9 * strip['mass'])
+        with h5py.File(self.path('out/result.h5')) as result:
+            last = result['frames'][sorted(result['frames'])[-1]]
+            # rho omega^2 (L/2)^2 / 2: what the turning itself pulls
+            pull = 2710 * math.radians(turns)**2 * 0.005**2 / 2
+            self.assertLess(numpy.abs(last['stress'][:]).max(), 4 * pull)
+
+    def test_a_pressure_pulse(self):
+        data = scene(body('plate', pressures=[{'set': 'top', 'times': [0.0, 1e-5, 2e-5], 'values': [0.0, 1e6, 0.0]}]), dimension=3)
+        plate = self.run_scene(data)['bodies'][0]
+        impulse = -1e6 * 1e-5 * 1e-4  # mean pressure, time, area
+        self.assertAlmostEqual(plate['momentum'][2], impulse, delta=0.02 * abs(impulse))
+
+    # ---- tools
+
+    def test_every_tool_format_is_the_same_tool(self):
+        found = {}
+        for name, text in cube_files().items():
+            with open(self.path(name), 'w') as file:
+                file.write(text)
+            data = scene(body('plate', boundaries=[{'set': 'bottom', 'kind': 'fixed', 'axes': ['z']}]), dimension=3, tools=[{
+                'name': 'cube', 'mesh': {'url': name, 'unit_scale': 0.001},
+                'motion': {'kind': 'velocity', 'times': [0.0, 5e-6], 'velocities': [[0.0, 0.0, 0.0], [0.0, 0.0, -5.0]]}}])
+            found[name] = self.run_scene(data, name + '.out')['tools'][0]['peak_force']
+            self.assertGreater(found[name][2], 100)
+        for name in found:
+            numpy.testing.assert_allclose(found[name], found['cube.stl'], rtol=1e-9, err_msg=name)
+
+    def test_a_turning_tool(self):
+        """A plane that tips by a trajectory of rotations pushes one end of the strip more than the other."""
+        data = scene(body('strip', boundaries=[{'set': 'bottom', 'kind': 'fixed'}]), duration=4e-5, tools=[{
+            'name': 'press', 'point': [0.0, 0.002, 0.0], 'normal': [0.0, -1.0, 0.0],
+            'motion': {'kind': 'trajectory', 'times': [0.0, 4e-5], 'centre': [0.0, 0.002, 0.0],
+                       'positions': [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]], 'rotations_deg': [[0.0, 0.0, 0.0], [0.0, 0.0, -0.1]]}}],
+            output={'frames': 2, 'probes': [{'name': 'near', 'point': [0.0, 0.002, 0.0]}, {'name': 'far', 'point': [0.010, 0.002, 0.0]}]})
+        self.run_scene(data)
+        last = self.history()[-1]
+        sunk = 0.010 * math.radians(0.1)
+        self.assertAlmostEqual(0.002 - float(last['probe_far_position_y_m']), sunk, delta=0.1 * sunk)
+        self.assertLess(abs(0.002 - float(last['probe_near_position_y_m'])), 0.15 * sunk)
+
+    # ---- materials
+
+    def test_hardening_curves(self):
+        """The strip is drawn out slowly; in plane strain it flows at 2/sqrt(3) of its yield stress."""
+        curves = {
+            'perfect': ({'curve': 'perfect', 'yield_stress': 200e6}, lambda p: 200e6),
+            'linear': ({'curve': 'linear', 'yield_stress': 200e6, 'modulus': 1e9}, lambda p: 200e6 + 1e9 * p),
+            'voce': ({'curve': 'voce', 'yield_stress': 192.1e6, 'saturation_stress': 429.8e6, 'rate': 8.504},
+                     lambda p: 429.8e6 - 237.7e6 * math.exp(-8.504 * p)),
+            'swift': ({'curve': 'swift', 'strength': 500e6, 'prestrain': 0.01, 'exponent': 0.2}, lambda p: 500e6 * (0.01 + p)**0.2),
+            'table': ({'curve': 'table', 'plastic_strains': [0.0, 0.02, 0.1], 'stresses': [200e6, 250e6, 300e6]},
+                      lambda p: numpy.interp(p, [0.0, 0.02, 0.1], [200e6, 250e6, 300e6]))}
+        for name, (hardening, sigma) in curves.items():
+            with self.subTest(curve=name):
+                data = scene(body('strip', {'hardening': hardening}, boundaries=[
+                    {'set': 'left', 'kind': 'fixed', 'axes': ['x']}, {'set': 'bottom', 'kind': 'symmetric', 'normal': [0.0, 1.0, 0.0]},
+                    {'set': 'right', 'kind': 'velocity', 'axes': ['x'], 'profile': 'smooth', 'times': [0.0, 1e-4, 2e-4, 3e-4],
+                     'velocities': [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 0.0]]}]),
+                    duration=3e-4, output={'frames': 2, 'probes': [{'name': 'middle', 'point': [0.005, 0.001, 0.0]}]})
+                self.run_scene(data, name)
+                # The greatest: the stop at the end lets a wave of relief run through.
+                stress = max(float(row['probe_middle_stress_xx_Pa']) for row in self.history(name))
+                with h5py.File(self.path(name + '/result.h5')) as result:
+                    p = result['frames'][sorted(result['frames'])[-1]]['plastic_strain'][:].mean()
+                self.assertGreater(p, 0.03)
+                expected = 2 / math.sqrt(3) * sigma(p)
+                self.assertAlmostEqual(stress, expected, delta=0.02 * expected)
+
+    # ---- options and what they cost
+
+    def test_options_are_told_with_what_they_took(self):
+        pulled = body('strip', boundaries=[
+            {'set': 'left', 'kind': 'fixed'}, {'set': 'right', 'kind': 'velocity', 'axes': ['x'], 'times': [0.0, 5e-6],
+                                               'velocities': [[0.0, 0.0, 0.0], [5.0, 0.0, 0.0]]}])
+        plain = self.run_scene(scene(pulled), 'plain')
+        self.assertEqual(plain['energy_J']['damping'], 0)
+        scaled = self.run_scene(scene(pulled, time_step={'mass_scaling': 4.0}), 'scaled')
+        self.assertAlmostEqual(plain['steps'] / scaled['steps'], 2, delta=0.05)
+        self.assertAlmostEqual(scaled['options']['mass_scaling']['added_mass_kg'], 3 * plain['bodies'][0]['mass'], delta=1e-9)
+        for option, field in (({'linear_viscosity': 0.06, 'quadratic_viscosity': 1.2}, 'bulk_viscosity'), ({'damping': 1e5}, 'damping')):
+            told = self.run_scene(scene(pulled, time_step=option), field)
+            self.assertGreater(told['options'][field]['dissipated_J'], 0)
+            self.assertAlmostEqual(told['options'][field]['dissipated_J'], told['energy_J']['damping'], delta=1e-12)
+
+    # ---- bodies that meet
+
+    def test_bodies_that_touch_are_parted_and_push_each_other(self):
+        lower, upper = body('strip'), body('strip', initial_velocity=[0.0, -5.0, 0.0])
+        lower['boundaries'] = [{'set': 'bottom', 'kind': 'fixed'}]
+        upper['name'] = 'upper'
+        upper['blank'] = dict(upper['blank'], origin=[0.001, 0.002, 0.0], cells_along=7)
+        summary = self.run_scene(scene(lower, upper))
+        self.assertEqual(summary['contact']['crossings'], 0)
+        self.assertTrue(any('body upper touches another body' in note for note in summary['warnings']), summary['warnings'])
+        self.assertGreater(summary['bodies'][1]['momentum'][1], 0, 'it should have bounced')
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1] + sys.argv[2:])
