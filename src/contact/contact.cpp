@@ -394,6 +394,13 @@ long Contact::count_crossings(const NodeField& x, const std::vector<ToolMotion>&
   return static_cast<long>(find_crossings(m.features, x, place, ToolSet::present(tools), m.tools.is_plane, m.tools.planes(tools)).size());
 }
 
+void Contact::add_normal_impulses(std::vector<double>& sum) const {
+  for (const ContactPair& pair : impl_->near.pairs)
+    for (int k = 0; k < pair.nodes; ++k)
+      if (pair.node[k] < impl_->work.body_entries) sum[impl_->work.vertex[pair.node[k]]] += std::abs(pair.weight[k]) * pair.impulse;
+}
+
+const std::vector<double>& Contact::nodal_area() const { return impl_->features.area; }
 double Contact::layer() const { return impl_->layer; }
 double Contact::stiffness() const { return impl_->modulus; }
 double Contact::push_speed() const { return impl_->push_speed; }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/results/disk.h"
 #include "forming_sim/results/result_reader.h"
 #include "result_header.h"
 
@@ -26,6 +27,7 @@ void write_fields(Hdf5Group& group, const Frame& frame) {
   const std::uint64_t nodes = frame.positions.size(), elements = frame.stress.size();
   group.write("positions", coordinates(frame.positions).data(), {nodes, 3}, "m");
   group.write("velocities", coordinates(frame.velocities).data(), {nodes, 3}, "m/s");
+  group.write("contact_pressure", frame.contact_pressure.data(), {frame.contact_pressure.size()}, "Pa");
   group.write("plastic_strain", frame.plastic_strain.data(), {frame.plastic_strain.size()}, "1");
   group.write("stress", elements ? frame.stress[0].data() : nullptr, {elements, 6}, "Pa");
   std::vector<float> mises(frame.stress.size());
@@ -33,6 +35,15 @@ void write_fields(Hdf5Group& group, const Frame& frame) {
   group.write("mises", mises.data(), {elements}, "Pa");
   group.write("volume_ratio", frame.volume_ratio.data(), {frame.volume_ratio.size()}, "1");
   group.write("surface_strain", frame.surface_strain.data(), {frame.surface_strain.size()}, "1");
+}
+
+/// At most what a frame takes in the file: its values as they are, and 4 KiB a data set and group for what describes them.
+std::uint64_t most_bytes(const Frame& frame, const ResultHeader& header) {
+  std::uint64_t bytes = 16 * 4096;
+  bytes += frame.positions.size() * (6 * sizeof(double) + sizeof(float)) + frame.stress.size() * 9 * sizeof(float) +
+           frame.surface_strain.size() * sizeof(float);
+  for (const ToolShape& tool : header.tools) bytes += 5 * 4096 + tool.points.size() * 3 * sizeof(double);
+  return bytes;
 }
 
 }  // namespace
@@ -43,10 +54,10 @@ float mises_stress(const std::array<float, 6>& s) {
   return static_cast<float>(std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * shear));
 }
 
-ResultFile::ResultFile(ResultHeader header, Hdf5File file) : header_(std::move(header)), file_(std::move(file)) {}
+ResultFile::ResultFile(const std::string& path, ResultHeader header, Hdf5File file) : path_(path), header_(std::move(header)), file_(std::move(file)) {}
 
 ResultFile::ResultFile(const std::string& path, ResultHeader header)
-    : header_(std::move(header)), file_(path, Hdf5File::Mode::create) {
+    : path_(path), header_(std::move(header)), file_(path, Hdf5File::Mode::create) {
   write_header(file_.root(), header_);
   file_.flush();
 }
@@ -56,7 +67,7 @@ std::optional<ResultFile> ResultFile::resume(const std::string& path, ResultHead
   try {
     Hdf5File file(path, Hdf5File::Mode::append);
     if (!same_model(read_header(file.root()), header)) return std::nullopt;
-    ResultFile result(std::move(header), std::move(file));
+    ResultFile result(path, std::move(header), std::move(file));
     Hdf5Group frames = result.file_.root().group("frames");
     for (FrameEntry& entry : read_entries(result.file_.root())) {
       if (entry.step > step || entry.interrupted) frames.remove(entry.name);
@@ -70,6 +81,7 @@ std::optional<ResultFile> ResultFile::resume(const std::string& path, ResultHead
 }
 
 void ResultFile::write(const Frame& frame) {
+  allot(path_, most_bytes(frame, header_));
   const std::string name = frame_name(frames_.size());
   Hdf5Group frames = file_.root().group("frames");
   Hdf5Group group = frames.create_unlinked(name);

@@ -101,6 +101,7 @@ Frame ResultReader::frame(std::size_t index) const {
   frame.stress.resize(stress.size() / 6);
   for (std::size_t e = 0; e < frame.stress.size(); ++e) std::copy_n(&stress[6 * e], 6, frame.stress[e].begin());
   frame.volume_ratio = group.read<float>("volume_ratio");
+  frame.contact_pressure = group.read<float>("contact_pressure");
   frame.surface_strain = group.read<float>("surface_strain");
   const Hdf5Group tools = group.group("tools");
   for (std::size_t i = 0; i < member_count(tools); ++i) {

@@ -52,6 +52,7 @@ Frame take_frame(const Simulation& simulation) {
   frame.plastic_strain = single(simulation.plastic_strain());
   frame.volume_ratio = single(simulation.volume_ratio());
   frame.surface_strain = single(simulation.surface_strain());
+  frame.contact_pressure = single(simulation.contact_pressure());
   for (const Sym& stress : simulation.stress()) {
     std::array<float, 6> row;
     for (int k = 0; k < 6; ++k) row[k] = static_cast<float>(stress[k]);

@@ -85,6 +85,12 @@ std::vector<double> Simulation::plastic_strain() const { return impl_->elements.
 std::vector<Sym> Simulation::stress() const { return impl_->elements.observe(impl_->x).stress; }
 std::vector<double> Simulation::volume_ratio() const { return impl_->elements.observe(impl_->x).volume_ratio; }
 
+std::vector<double> Simulation::contact_pressure() const {
+  std::vector<double> pressure = impl_->contact_pressure;
+  pressure.resize(impl_->x.size(), 0.0);
+  return pressure;
+}
+
 std::vector<double> Simulation::surface_strain() const {
   const Impl& s = *impl_;
   std::vector<double> strain;

@@ -45,6 +45,8 @@ struct Simulation::Impl {
   double wall = 0;
 
   // the ledger's running sums, J
+  std::vector<double> contact_pressure, node_impulse;  ///< per node: running mean, Pa; of a step, N s
+  bool pressed = false;                                ///< some contact pressure is not zero
   double work = 0, damping = 0, settled_away = 0, friction = 0, contact_dissipated = 0, contact_potential = 0, initial = 0, most = 0;
   long halvings = 0;
   double min_gap = 1;
@@ -71,6 +73,7 @@ struct Simulation::Impl {
   void take_step();
   void book(const ContactStep& done);
   /// Work of prescribed motion, pressure, gravity and damping over the kick.
+  void mean_contact_pressure(double step_dt);
   void book_loads(const NodeField& external);
   double kinetic() const;
   /// Mass-proportional damping now, 1/s.

@@ -8,7 +8,7 @@
 namespace forming_sim {
 
 namespace {
-constexpr double kForceMeanSteps = 50;  ///< tool forces are running means over about this many steps
+constexpr double kForceMeanSteps = 50;  ///< tool forces and contact pressures are running means over about this many steps
 }
 
 void Simulation::Impl::choose_dt() {
@@ -78,6 +78,7 @@ void Simulation::Impl::book(const ContactStep& done) {
   halvings += done.halvings;
   active_pairs = done.active;
   min_gap = std::min(min_gap, done.min_gap_over_layer);
+  if (done.active > 0 || pressed) mean_contact_pressure(done.dt);
   for (std::size_t k = 0; k < tools.size(); ++k) {
     ToolStatus& tool = tools[k];
     if (!tool.present) {
@@ -90,6 +91,21 @@ void Simulation::Impl::book(const ContactStep& done) {
     tool.moment += (about / done.dt - tool.moment) / kForceMeanSteps;
     if (tool.force.squaredNorm() > tool.peak_force.squaredNorm()) tool.peak_force = tool.force;
   }
+}
+
+void Simulation::Impl::mean_contact_pressure(double step_dt) {
+  const std::vector<double>& area = contact->nodal_area();
+  contact_pressure.resize(area.size(), 0.0);
+  node_impulse.assign(area.size(), 0.0);
+  contact->add_normal_impulses(node_impulse);
+  double most_now = 0;
+  for (std::size_t n = 0; n < area.size(); ++n) {
+    if (area[n] == 0) continue;
+    contact_pressure[n] += (node_impulse[n] / (step_dt * area[n]) - contact_pressure[n]) / kForceMeanSteps;
+    most_now = std::max(most_now, contact_pressure[n]);
+  }
+  pressed = most_now > 1e-12 * contact->stiffness();
+  if (!pressed) contact_pressure.assign(area.size(), 0.0);
 }
 
 void Simulation::Impl::book_loads(const NodeField& external) {

@@ -138,6 +138,23 @@ class Features(unittest.TestCase):
         self.assertAlmostEqual(0.002 - float(last['probe_far_position_y_m']), sunk, delta=0.1 * sunk)
         self.assertLess(abs(0.002 - float(last['probe_near_position_y_m'])), 0.15 * sunk)
 
+    def test_contact_pressure_adds_up_to_the_tool_force(self):
+        data = scene(body('plate', boundaries=[{'set': 'bottom', 'kind': 'fixed', 'axes': ['z']}]), dimension=3, tools=[{
+            'name': 'press', 'point': [0.0, 0.0, 0.002], 'normal': [0.0, 0.0, -1.0],
+            'motion': {'kind': 'velocity', 'times': [0.0, 5e-6], 'velocities': [[0.0, 0.0, 0.0], [0.0, 0.0, -1.0]]}}])
+        self.run_scene(data)
+        with h5py.File(self.path('out/result.h5')) as result:
+            last = result['frames'][sorted(result['frames'])[-1]]
+            pressure, facets = last['contact_pressure'][:], result['topology/surface'][:]
+            start = result['topology/initial_positions'][:]
+            area = numpy.zeros(len(start))
+            for a, b, c in facets:
+                area[[a, b, c]] += numpy.linalg.norm(numpy.cross(start[b] - start[a], start[c] - start[a])) / 6
+            force = last['tools/0/force'][2]
+        self.assertGreater(force, 1000)
+        self.assertAlmostEqual((pressure * area).sum(), force, delta=1e-3 * force)
+        self.assertEqual(pressure[start[:, 2] < 0.0019].max(), 0)
+
     # ---- materials
 
     def test_hardening_curves(self):

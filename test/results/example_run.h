@@ -68,6 +68,7 @@ inline Frame example_frame(const ResultHeader& header, int index) {
   for (std::size_t i = 0; i < frame.positions.size(); ++i) {
     frame.positions[i].y() += example_value(index, i);
     frame.velocities[i] = Node(0, example_value(index, i), 0, 0);
+    frame.contact_pressure.push_back(static_cast<float>(1e6 * example_value(index, i)));
   }
   for (std::size_t e = 0; e < header.elements.size(); ++e) {
     const float value = static_cast<float>(example_value(index, e));

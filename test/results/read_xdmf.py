@@ -54,7 +54,8 @@ def compare(reader_class, path, result):
         for field in ("plastic_strain", "stress", "mises", "volume_ratio"):
             shown = vtk_to_numpy(blank.GetCellData().GetArray(field))
             assert np.array_equal(shown, frame[field][:]), (reader_class.__name__, name, field)
-        assert np.array_equal(vtk_to_numpy(blank.GetPointData().GetArray("velocities")), frame["velocities"][:])
+        for field in ("velocities", "contact_pressure"):
+            assert np.array_equal(vtk_to_numpy(blank.GetPointData().GetArray(field)), frame[field][:]), (reader_class.__name__, name, field)
         for index, (_, tool) in zip(present, blocks[1:]):
             assert tool.GetNumberOfCells() == len(result["tools"][index]["facets"])
             assert np.allclose(vtk_to_numpy(tool.GetPoints().GetData()), frame["tools"][index]["points"][:], rtol=1e-6)

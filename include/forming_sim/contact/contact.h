@@ -113,6 +113,10 @@ class Contact {
   /// Tools stand at position0, rotation0, where contact sees them (set back).
   long count_crossings(const NodeField& x, const std::vector<ToolMotion>& tools) const;
 
+  /// Adds the normal impulses that the last step put on the bodies' nodes, N s; sum: one per node.
+  void add_normal_impulses(std::vector<double>& sum) const;
+  const std::vector<double>& nodal_area() const;      ///< of the bodies' nodes at the start, m^2 (m in plane strain); 0 inside
+
   double layer() const;                               ///< h0, m
   double stiffness() const;                           ///< E of the layer, Pa
   double push_speed() const;                          ///< m/s

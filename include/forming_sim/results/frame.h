@@ -51,6 +51,7 @@ struct Frame {
   std::vector<std::array<float, 6>> stress;  ///< Cauchy, Pa, per element: xx yy zz xy yz zx
   std::vector<float> volume_ratio;     ///< V/V0, per element
   std::vector<float> surface_strain;   ///< largest in-plane log strain, per surface facet
+  std::vector<float> contact_pressure; ///< normal, Pa, per node; 0 inside
   std::vector<FrameTool> tools;         ///< in the order of ResultHeader::tools
 };
 

@@ -10,7 +10,7 @@
 //   /bodies/<index>         attribute name; sets/<index>: attribute name, nodes, int32
 //   /tools/<index>          attribute name; points (m), facets, or plane_point and plane_normal
 //   /frames/NNNNNN          attributes time, step, stage, interrupted; positions, velocities, plastic_strain,
-//                           stress (xx yy zz xy yz zx), mises, volume_ratio, surface_strain;
+//                           contact_pressure, stress (xx yy zz xy yz zx), mises, volume_ratio, surface_strain;
 //                           tools/<index>: points (m, as they stand), position, rotation, force,
 //                           attribute present
 //
@@ -36,14 +36,16 @@ class ResultFile {
   /// `step` are dropped. nullopt where there is no such file.
   static std::optional<ResultFile> resume(const std::string& path, ResultHeader header, long step);
 
+  /// Throws Error(output_error); the frames before stay readable, also on a full disk.
   void write(const Frame& frame);
   const std::vector<FrameEntry>& frames() const { return frames_; }
   const ResultHeader& header() const { return header_; }
 
  private:
-  ResultFile(ResultHeader header, Hdf5File file);
+  ResultFile(const std::string& path, ResultHeader header, Hdf5File file);
   void write_tool(Hdf5Group& tools, const Frame& frame, std::size_t index);
 
+  std::string path_;
   ResultHeader header_;
   Hdf5File file_;
   std::vector<FrameEntry> frames_;

@@ -75,6 +75,10 @@ class Simulation {
   /// surface()): the stretch of the facet itself, hence on the surface.
   std::vector<double> surface_strain() const;
 
+  /// Normal contact pressure on the surface per node, Pa: force over the area that the
+  /// node stood for at the start, a running mean as the tool forces are. 0 inside.
+  std::vector<double> contact_pressure() const;
+
   // ---- checkpoint: every number that the next steps depend on
   std::vector<char> save() const;
   /// Throws Error(resume_error) when the data is not of this model.
