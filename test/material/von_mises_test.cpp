@@ -41,6 +41,15 @@ TEST(VonMises, RotationCarriesNoStressAndTurnsIt) {
   EXPECT_LT((R * sigma * R.transpose() - turned).norm(), 1e-12 * sigma.norm());
 }
 
+// A small shear stores mu gamma^2 / 2: nothing is lost beside the terms of order 1.
+TEST(VonMises, EnergyOfASmallShear) {
+  const double mu = 26e9, K = 70e9, gamma = 1e-7;
+  MaterialPoint point{solid_of(9 * K * mu / (3 * K + mu), (3 * K - 2 * mu) / (2 * (3 * K + mu)), perfect(200e6))};
+  Mat3 F = Mat3::Identity();
+  F(0, 1) = gamma;
+  EXPECT_NEAR(point.at(F).energy, 0.5 * mu * gamma * gamma, 1e-5 * 0.5 * mu * gamma * gamma);
+}
+
 TEST(VonMises, UniaxialCycleOfPerfectPlasticity) {  // the paper's Fig. 3
   const double E = 100e9, Y = 1e9;
   MaterialPoint point{solid_of(E, 0.45, perfect(Y))};

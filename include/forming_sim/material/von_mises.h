@@ -87,11 +87,17 @@ PointResult<T, D> update_point(const SolidConstants& m, const Symmetric<T, D>& B
 
 /// Stored energy per initial volume, J/m3, of the deviatoric part:
 /// mu/2 J^(-2/3) (tr B - 3 (det B)^(1/3)), which is zero where B is spherical.
+/// Without the difference of near numbers: with B = s I + B_D,
+///   det B = s^3 (1 - e),  e = B_D:B_D / (2 s^2) - det B_D / s^3,
+///   1 - (1 - e)^(1/3) = e / (1 + y + y^2),  y = (1 - e)^(1/3).
 template <class T, int D> T deviatoric_energy(const SolidConstants& m, const Symmetric<T, D>& B, const T& J) {
-  const T det = determinant(B, cofactor(B));
-  const T d13 = inverse_cube_root(det);
+  const T s = trace(B) * T(1.0 / 3);
+  const Symmetric<T, D> B_D = deviator(B);
+  const T e = (T(0.5) * contract(B_D, B_D) - determinant(B_D, cofactor(B_D)) / s) / (s * s);
+  const T root = inverse_cube_root(T(1) - e);
+  const T y = (T(1) - e) * root * root;
   const T j13 = inverse_cube_root(J);
-  return T(0.5 * m.mu) * j13 * j13 * (trace(B) - T(3) * det * d13 * d13);
+  return T(1.5 * m.mu) * j13 * j13 * s * e / (T(1) + y + y * y);
 }
 
 }  // namespace forming_sim
