@@ -155,12 +155,14 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   }
 }
 
-/// Calls work(group, first, last) over chunks of blocks, in parallel where each
-/// thread gets 512 packs or more: below that, waiting for each other costs more.
+/// A thread gets 512 packs or more: below that, waiting for each other costs more.
+long Elements::blocks_of_a_thread(const Group& g) { return 512 / g.cell_simplices; }
+
+/// Calls work(group, first, last) over chunks of blocks, shared by the team.
 template <class Work> void Elements::over_blocks(Work&& work) const {
   for (const Group& g : groups_) {
     const int per_chunk = std::max(1, 64 / (g.cell_simplices * kLanes / 8));
-    team_->share(g.blocks, 512 / g.cell_simplices, [&](long begin, long end) {
+    team_->share(g.blocks, blocks_of_a_thread(g), [&](long begin, long end) {
       for (long b = begin; b < end; b += per_chunk) work(g, static_cast<int>(b), static_cast<int>(std::min(end, b + per_chunk)));
     });
   }
@@ -208,7 +210,7 @@ void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, i
   element = -1;
   for (const Group& g : groups_) {
     std::vector<BlockStep> steps(g.blocks);
-    team_->share(g.blocks, 512 / g.cell_simplices, [&](long first, long last) {
+    team_->share(g.blocks, blocks_of_a_thread(g), [&](long first, long last) {
       kernels_.time_step(g, view, static_cast<int>(first), static_cast<int>(last), steps.data());
     });
     for (int b = 0; b < g.blocks; ++b)
@@ -254,7 +256,7 @@ ElementFields Elements::observe(const NodeField& x) const {
     std::vector<Lane> stress(static_cast<std::size_t>(g.blocks) * g.cell_simplices * 6);
     std::vector<Lane> ratio(static_cast<std::size_t>(g.blocks) * g.cell_simplices);
     std::vector<double> energy(g.blocks);
-    team_->share(g.blocks, 512 / g.cell_simplices, [&](long first, long last) {
+    team_->share(g.blocks, blocks_of_a_thread(g), [&](long first, long last) {
       kernels_.observe(g, view, static_cast<int>(first), static_cast<int>(last), stress.data()->value, ratio.data()->value, energy.data());
     });
     for (double e : energy) fields.stored_energy += e;

@@ -88,13 +88,11 @@ void pressures(const CellGroup& g, const NodalView& view, long block, const Pack
   for (int s = 0; s < Cell::simplices; ++s) p[s] = mean + theta * K * (V[s] / V0[s] - Pack(1.0));
 }
 
-/// Bulk viscosity of the cell: q = rho l (b1 c D + b2^2 l D |D| where D < 0),
-/// D = (dV/dt)/V, l = V^(1/d), added to p; returns q D V, the power it takes.
+/// V and dV/dt of the cell whose nodes stand at x and move with v.
 template <class Cell>
-Pack viscous_pressure(const CellGroup& g, const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v,
-                      Pack& q) {
+void volume_and_rate(const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v, Pack& V, Pack& rate) {
   constexpr int D = kD<Cell>;
-  Pack V(0.0), rate(0.0);
+  V = rate = Pack(0.0);
   for (int s = 0; s < Cell::simplices; ++s) {
     Edges<Pack, D> e;
     edges_of<Cell>(x, s, e.x);
@@ -106,6 +104,16 @@ Pack viscous_pressure(const CellGroup& g, const Vector<Pack, kD<Cell>>* x, const
     V += e.volume;
     rate += e.volume * divergence;
   }
+}
+
+/// Bulk viscosity of the cell: q = rho l (b1 c D + b2^2 l D |D| where D < 0),
+/// D = (dV/dt)/V, l = V^(1/d), added to p; returns q D V, the power it takes.
+template <class Cell>
+Pack viscous_pressure(const CellGroup& g, const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v,
+                      Pack& q) {
+  constexpr int D = kD<Cell>;
+  Pack V, rate;
+  volume_and_rate<Cell>(x, v, V, rate);
   const Pack D_v = rate / V;
   const Pack l = lanewise([](double volume) { return D == 2 ? __builtin_sqrt(volume) : __builtin_cbrt(volume); }, V);
   const Pack c(__builtin_sqrt((g.solid.K + 4.0 / 3 * g.solid.mu) / g.density));
@@ -214,16 +222,8 @@ template <class Cell>
   if (g.quadratic_viscosity > 0) {
     Vector<Pack, D> v[Cell::nodes];
     gather<Cell>(nodes, view.v, v);
-    Pack V(0.0);
-    for (int s = 0; s < Cell::simplices; ++s) {
-      Edges<Pack, D> e;
-      edges_of<Cell>(x, s, e.x);
-      find_reciprocal(e);
-      Vector<Pack, D> w[D];
-      edges_of<Cell>(v, s, w);
-      for (int m = 0; m < D; ++m) rate += e.volume * dot(w[m], e.up[m]);
-      V += e.volume;
-    }
+    Pack V;
+    volume_and_rate<Cell>(x, v, V, rate);
     rate = absolute(rate / V);
   }
   const Pack dt = bound.step(rate);

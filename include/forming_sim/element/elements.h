@@ -63,6 +63,7 @@ class Elements {
   Location locate(int element) const;
   [[noreturn]] void report_inversion(const NodeField& x) const;
   void nodal_pressure(const NodalView& view) const;
+  static long blocks_of_a_thread(const Group& group);
   template <class Work> void over_blocks(Work&& work) const;
 
   const Kernels& kernels_;
