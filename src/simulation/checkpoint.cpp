@@ -23,7 +23,6 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.number(rests);
   a.number(settled);
   a.number(pressed);
-  contact_pressure.resize(x.size(), 0.0);
   a.numbers(contact_pressure.data(), contact_pressure.size());
   for (ToolStatus& tool : tools)
     for (Vec3* value : {&tool.force, &tool.moment, &tool.impulse, &tool.peak_force}) a.numbers(value->data(), 3);

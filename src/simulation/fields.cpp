@@ -85,11 +85,7 @@ std::vector<double> Simulation::plastic_strain() const { return impl_->elements.
 std::vector<Sym> Simulation::stress() const { return impl_->elements.observe(impl_->x).stress; }
 std::vector<double> Simulation::volume_ratio() const { return impl_->elements.observe(impl_->x).volume_ratio; }
 
-std::vector<double> Simulation::contact_pressure() const {
-  std::vector<double> pressure = impl_->contact_pressure;
-  pressure.resize(impl_->x.size(), 0.0);
-  return pressure;
-}
+const std::vector<double>& Simulation::contact_pressure() const { return impl_->contact_pressure; }
 
 std::vector<double> Simulation::surface_strain() const {
   const Impl& s = *impl_;

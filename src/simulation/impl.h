@@ -28,6 +28,9 @@ struct Simulation::Impl {
   PressureSet pressures;
   StageRunner stages;
   std::optional<Contact> contact;
+  std::vector<double> contact_pressure, node_impulse;  ///< per node: running mean, Pa; of a step, N s
+  std::vector<int> touchable;                          ///< nodes that contact can press on
+  bool pressed = false;                                ///< some contact pressure is not zero
   std::vector<ToolStatus> tools;
   std::vector<std::string> warnings;
   std::vector<Observer*> observers;
@@ -45,8 +48,6 @@ struct Simulation::Impl {
   double wall = 0;
 
   // the ledger's running sums, J
-  std::vector<double> contact_pressure, node_impulse;  ///< per node: running mean, Pa; of a step, N s
-  bool pressed = false;                                ///< some contact pressure is not zero
   double work = 0, damping = 0, settled_away = 0, friction = 0, contact_dissipated = 0, contact_potential = 0, initial = 0, most = 0;
   long halvings = 0;
   double min_gap = 1;

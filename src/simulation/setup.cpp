@@ -41,7 +41,7 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
       v(X.size(), Node::Zero()), v_before(v), f(v),
       elements(model.bodies, model.dimension, X,
                {p.time_step.mass_scaling, p.time_step.linear_viscosity, p.time_step.quadratic_viscosity}, n),
-      stages(plan.stages, model) {
+      stages(plan.stages, model), contact_pressure(X.size(), 0.0), node_impulse(contact_pressure) {
   set_up_loads();
   set_up_contact();
   double kinetic = 0;
@@ -113,6 +113,8 @@ void Simulation::Impl::set_up_contact() {
     setup.tool_meshes.push_back(&tool.mesh);
   }
   contact.emplace(setup, x, tool_motions(0, 0));
+  for (std::size_t n = 0; n < x.size(); ++n)
+    if (contact->nodal_area()[n] > 0) touchable.push_back(static_cast<int>(n));
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     const Node shift = node(contact->body_shifts()[b]);

@@ -95,17 +95,16 @@ void Simulation::Impl::book(const ContactStep& done) {
 
 void Simulation::Impl::mean_contact_pressure(double step_dt) {
   const std::vector<double>& area = contact->nodal_area();
-  contact_pressure.resize(area.size(), 0.0);
-  node_impulse.assign(area.size(), 0.0);
+  for (int n : touchable) node_impulse[n] = 0;
   contact->add_normal_impulses(node_impulse);
   double most_now = 0;
-  for (std::size_t n = 0; n < area.size(); ++n) {
-    if (area[n] == 0) continue;
+  for (int n : touchable) {
     contact_pressure[n] += (node_impulse[n] / (step_dt * area[n]) - contact_pressure[n]) / kForceMeanSteps;
     most_now = std::max(most_now, contact_pressure[n]);
   }
   pressed = most_now > 1e-12 * contact->stiffness();
-  if (!pressed) contact_pressure.assign(area.size(), 0.0);
+  if (!pressed)
+    for (int n : touchable) contact_pressure[n] = 0;
 }
 
 void Simulation::Impl::book_loads(const NodeField& external) {

@@ -77,7 +77,7 @@ class Simulation {
 
   /// Normal contact pressure on the surface per node, Pa: force over the area that the
   /// node stood for at the start, a running mean as the tool forces are. 0 inside.
-  std::vector<double> contact_pressure() const;
+  const std::vector<double>& contact_pressure() const;
 
   // ---- checkpoint: every number that the next steps depend on
   std::vector<char> save() const;
