@@ -48,6 +48,7 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
   for (std::size_t i = 0; i < v.size(); ++i) kinetic += 0.5 * elements.nodal_mass()[i] * v[i].squaredNorm();
   initial = most = kinetic;
   begin_stage();
+  choose_dt();
 }
 
 void Simulation::Impl::set_up_loads() {

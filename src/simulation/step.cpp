@@ -18,7 +18,6 @@ void Simulation::Impl::choose_dt() {
     elements.stable_step(x, v, stable, element);
     control.update(stable, element);
   }
-  --control.until_next;
   const TimeStepConfig& config = plan.time_step;
   dt = config.safety * control.element_dt;
   limit = {dt, control.element, {}};
@@ -43,6 +42,7 @@ void Simulation::Impl::take_step() {
   const bool loaded = !pressures.empty() || !plan.gravity.isZero();
   v_before = v;
   choose_dt();
+  --control.until_next;
   elements.forces(x, v, dt, f);
   NodeField external;
   if (loaded) {

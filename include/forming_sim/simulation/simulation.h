@@ -49,7 +49,7 @@ class Simulation {
   // ---- state
   double time() const;
   long steps() const;
-  double dt() const;
+  double dt() const;                 ///< of the last step; before the first, of that to come
   int stage() const;                 ///< index of the running stage; number of stages at the end
   double progress() const;           ///< 0..1, by simulated time; a settle stage counts by its limit
   double wall_time() const;          ///< s spent stepping, observers excluded
