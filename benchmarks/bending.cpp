@@ -4,7 +4,7 @@
 
 namespace forming_sim::bench {
 
-std::vector<Row> bending() {
+std::vector<Row> bending(const Request&) {
   struct Family {
     const char* name;
     int dimension;

@@ -4,7 +4,7 @@
 
 namespace forming_sim::bench {
 
-std::vector<Row> impact() {
+std::vector<Row> impact(const Request&) {
   std::vector<Row> rows;
   for (int cells : {20, 40, 80, 160}) {
     const Clock clock;

@@ -18,6 +18,7 @@ struct Row {
   double error = kNothing;      ///< found / expected - 1
   double wall_time = 0;         ///< s
   bool holds = true;
+  std::string note;             ///< why a claim does not hold, or what to know
 };
 
 /// A value that should come within `bound` (relative) of `expected`.
@@ -55,8 +56,15 @@ template <class Work> double least_time(Work&& work) {
   return least;
 }
 
-std::vector<Row> costs();    ///< ns per element and step of each stage
-std::vector<Row> bending();  ///< moment, thickness and springback of a bent sheet
-std::vector<Row> impact();   ///< a bar against a plane and against a bar
+/// What a user asks of a command.
+struct Request {
+  std::string directory;             ///< of --output, "": none
+  std::vector<std::string> arguments;  ///< the words after the command's name
+};
+
+std::vector<Row> costs(const Request&);    ///< ns per element and step of each stage
+std::vector<Row> bending(const Request&);  ///< moment, thickness and springback of a bent sheet
+std::vector<Row> impact(const Request&);   ///< a bar against a plane and against a bar
+std::vector<Row> paper(const Request&);    ///< the paper, figure by figure
 
 }  // namespace forming_sim::bench

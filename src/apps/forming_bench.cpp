@@ -1,4 +1,4 @@
-// Figures of the package, each printed by a command: forming_bench COMMAND --output DIR
+// Figures of the package, each printed by a command: forming_bench COMMAND [ARGUMENT...] [--output DIR]
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -7,25 +7,47 @@
 
 #include "rows.h"
 
+namespace {
+
+using namespace forming_sim::bench;
+
+struct Command {
+  std::vector<Row> (*run)(const Request&);
+  std::size_t most_arguments;
+};
+
+const std::map<std::string, Command> kCommands{{"bending", {bending, 0}}, {"costs", {costs, 0}}, {"impact", {impact, 0}}, {"paper", {paper, 1}}};
+
+int usage(std::FILE* to) {
+  std::fprintf(to,
+               "usage: forming_bench COMMAND [ARGUMENT...] [--output DIR]\n"
+               "  costs    ns per element and step of each stage, contact per pair, gain of a second thread\n"
+               "  bending  moment and springback of a bent sheet, by element family and cells\n"
+               "  impact   a bar against a plane and against another bar\n"
+               "  paper [FIGURE]  the figures and claims of the paper: 3, 4, 5, ... or all of them\n"
+               "Prints a table; with --output also DIR/COMMAND.json, and the figures of a command as CSV and PNG.\n");
+  return to == stdout ? 0 : 2;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  using namespace forming_sim::bench;
-  const std::map<std::string, std::vector<Row> (*)()> commands{{"bending", bending}, {"costs", costs}, {"impact", impact}};
-  const auto command = argc > 1 ? commands.find(argv[1]) : commands.end();
-  const bool into = argc == 4 && std::strcmp(argv[2], "--output") == 0;
-  if (command == commands.end() || (argc != 2 && !into)) {
-    const bool help = argc == 2 && (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0);
-    std::fprintf(help ? stdout : stderr,
-                 "usage: forming_bench COMMAND [--output DIR]\n"
-                 "  costs    ns per element and step of each stage, contact per pair, gain of a second thread\n"
-                 "  bending  moment and springback of a bent sheet, by element family and cells\n"
-                 "  impact   a bar against a plane and against another bar\n"
-                 "Prints a table; with --output also DIR/COMMAND.json.\n");
-    return help ? 0 : 2;
+  if (argc == 2 && (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0)) return usage(stdout);
+  const auto command = argc > 1 ? kCommands.find(argv[1]) : kCommands.end();
+  if (command == kCommands.end()) return usage(stderr);
+  Request request;
+  for (int i = 2; i < argc; ++i) {
+    const bool output = std::strcmp(argv[i], "--output") == 0;
+    if (output && i + 1 == argc) return usage(stderr);
+    if (output) request.directory = argv[++i];
+    else if (argv[i][0] == '-') return usage(stderr);
+    else request.arguments.emplace_back(argv[i]);
   }
+  if (request.arguments.size() > command->second.most_arguments) return usage(stderr);
   try {
-    const std::vector<Row> rows = command->second();
+    const std::vector<Row> rows = command->second.run(request);
     print(rows);
-    if (into) write(argv[3], command->first, rows);
+    if (!request.directory.empty()) write(request.directory, command->first, rows);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "forming_bench %s: %s\n", command->first.c_str(), error.what());
     return 1;

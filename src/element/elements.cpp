@@ -5,13 +5,14 @@
 #include <sstream>
 
 #include "forming_sim/config/fault.h"
-#include "forming_sim/material/constants.h"
+#include "forming_sim/material/law.h"
 
 namespace forming_sim {
 
 struct Elements::Group : CellGroup {
   std::vector<int> node_storage;
-  std::vector<double> strain_table, stress_table, plastic, viscous, lowest;
+  std::vector<double> plastic, viscous, lowest;
+  CurveTables curves;
   std::vector<Lane> memory_storage;
   int first_element = 0;
   long first_record = 0;
@@ -20,10 +21,12 @@ struct Elements::Group : CellGroup {
 
 namespace {
 
+/// The classical pressure is a memory of each simplex, which no node has.
 PressureMode mode_of(const BodyModel& body, CellKind kind) {
   if (body.pressure_average == "element") return PressureMode::element;
   if (body.pressure_average == "node") return PressureMode::node;
-  return kind == CellKind::triangle || kind == CellKind::tetrahedron ? PressureMode::node : PressureMode::cell;
+  if (kind != CellKind::triangle && kind != CellKind::tetrahedron) return PressureMode::cell;
+  return body.material.law == "classical" ? PressureMode::element : PressureMode::node;
 }
 
 /// Cells with a node of their own (the centre of a crossed quadrilateral, centre
@@ -66,7 +69,8 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.pressure = mode_of(body, cells.kind);
       g.element_share = element_share_of(cells.kind);
       any_nodal_ |= g.pressure == PressureMode::node;
-      g.solid = solid_constants(body.material, g.strain_table, g.stress_table);
+      g.solid = solid_constants(body.material, g.curves);
+      g.items = D == 2 ? memory_items<2>(g.solid) : memory_items<3>(g.solid);
       g.density = body.material.density * options.mass_scaling;
       g.linear_viscosity = options.linear_viscosity;
       g.quadratic_viscosity = options.quadratic_viscosity;
@@ -77,8 +81,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.viscous.assign(g.blocks, 0.0);
       g.lowest.assign(g.blocks, 1.0);
       g.node_storage.resize(static_cast<std::size_t>(g.blocks) * shape.nodes * kLanes);
-      const int items = D == 2 ? kMemory<2> : kMemory<3>;
-      g.memory_storage.resize(static_cast<std::size_t>(g.blocks) * shape.simplices * items);
+      g.memory_storage.resize(static_cast<std::size_t>(g.blocks) * shape.simplices * g.items);
       for (int b = 0; b < g.blocks; ++b) {
         for (int l = 0; l < kLanes; ++l) {
           const int cell = std::min(b * kLanes + l, g.cells - 1);
@@ -100,13 +103,11 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
             }
             const Eigen::Matrix3d up = X.inverse();  // rows: X^m
             const Eigen::Matrix3d G = up * up.transpose();
-            auto* memory = g.memory_storage.data() + (static_cast<std::size_t>(b) * shape.simplices + s) * items;
-            memory[0][l] = G(0, 0);
-            memory[1][l] = G(1, 1);
-            memory[2][l] = D == 2 ? 1.0 : G(2, 2);
-            memory[3][l] = G(0, 1);
-            if (D == 3) memory[4][l] = G(1, 2), memory[5][l] = G(2, 0);
-            memory[items - 1][l] = V0;
+            Lane* memory = g.memory_storage.data() + (static_cast<std::size_t>(b) * shape.simplices + s) * g.items;
+            const auto start = [&](int item, double value) { memory[item][l] = value; };
+            if (D == 2) start_memory<2>(g.solid, {{G(0, 0), G(1, 1), 1, G(0, 1)}}, start);
+            else start_memory<3>(g.solid, {{G(0, 0), G(1, 1), G(2, 2), G(0, 1), G(1, 2), G(2, 0)}}, start);
+            memory[g.items - 1][l] = V0;
             if (b * kLanes + l != cell) continue;
             simplices_.push_back(corner);
             ++element;
@@ -150,8 +151,6 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
     g.plastic_work = g.plastic.data();
     g.viscous_work = g.viscous.data();
     g.lowest_ratio = g.lowest.data();
-    g.solid.hardening.strain = g.strain_table.data();
-    g.solid.hardening.stress = g.stress_table.data();
   }
 }
 
@@ -183,8 +182,8 @@ void Elements::nodal_pressure(const NodalView& view) const {
   });
 }
 
-void Elements::forces(const NodeField& x, const NodeField& v, double dt, NodeField& f) {
-  NodalView view{x.data()->data(), v.data()->data(), pressure_.data(), dt};
+void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, double dt, NodeField& f) {
+  NodalView view{x.data()->data(), v.data()->data(), pressure_.data(), dt, last_dt};
   if (any_nodal_) nodal_pressure(view);
   over_blocks([&](const Group& g, int first, int last) { kernels_.forces(g, view, first, last); });
   for (const Group& g : groups_)
@@ -205,7 +204,7 @@ void Elements::forces(const NodeField& x, const NodeField& v, double dt, NodeFie
 }
 
 void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const {
-  const NodalView view{x.data()->data(), v.data()->data(), nullptr, 0};
+  const NodalView view{x.data()->data(), v.data()->data(), nullptr, 0, 0};
   dt = 1e300;
   element = -1;
   for (const Group& g : groups_) {
@@ -237,17 +236,18 @@ double Elements::viscous_work() const {
 
 std::vector<double> Elements::plastic_strain() const {
   std::vector<double> p(simplices_.size());
-  const int items = dimension_ == 2 ? kMemory<2> : kMemory<3>;
   for (const Group& g : groups_)
     for (int cell = 0; cell < g.cells; ++cell)
-      for (int s = 0; s < g.cell_simplices; ++s)
-        p[g.first_element + cell * g.cell_simplices + s] =
-            g.memory_storage[(static_cast<std::size_t>(cell / kLanes) * g.cell_simplices + s) * items + items - 2][cell % kLanes];
+      for (int s = 0; s < g.cell_simplices; ++s) {
+        const Lane* memory = g.memory_storage.data() + (static_cast<std::size_t>(cell / kLanes) * g.cell_simplices + s) * g.items;
+        const auto at = [&](int item) { return memory[item][cell % kLanes]; };
+        p[g.first_element + cell * g.cell_simplices + s] = dimension_ == 2 ? plastic_strain_of<2>(g.solid, at) : plastic_strain_of<3>(g.solid, at);
+      }
   return p;
 }
 
 ElementFields Elements::observe(const NodeField& x) const {
-  const NodalView view{x.data()->data(), nullptr, pressure_.data(), 0};
+  const NodalView view{x.data()->data(), nullptr, pressure_.data(), 0, 0};
   if (any_nodal_) nodal_pressure(view);
   ElementFields fields;
   fields.stress.resize(simplices_.size());
@@ -297,9 +297,7 @@ void Elements::report_inversion(const NodeField& x) const {
     if (V > 0) continue;
     const Location where = locate(static_cast<int>(e));
     const Group& g = groups_[where.group];
-    const int items = dimension_ == 2 ? kMemory<2> : kMemory<3>;
-    const double V0 = g.memory_storage[(static_cast<std::size_t>(where.cell / kLanes) * g.cell_simplices + where.simplex) * items +
-                                       items - 1][where.cell % kLanes];
+    const double V0 = g.memory_storage[(static_cast<std::size_t>(where.cell / kLanes) * g.cell_simplices + where.simplex + 1) * g.items - 1][where.cell % kLanes];
     std::ostringstream what;
     what << "element " << e << " of body " << g.body << " (nodes";
     for (int a = 0; a <= dimension_; ++a) what << ' ' << simplices_[e][a];

@@ -4,6 +4,7 @@
 #include "forming_sim/element/cell_group.h"
 #include "forming_sim/element/time_step.h"
 #include "forming_sim/element/cell_types.h"
+#include "forming_sim/material/law.h"
 
 namespace forming_sim {
 namespace FORMING_SIM_ISA {
@@ -37,23 +38,42 @@ template <class Cell> void simplex_volumes(const Vector<Pack, kD<Cell>>* x, Pack
   }
 }
 
-/// Memory of simplex s: G, p, V0.
-template <int D> struct Memory {
-  Symmetric<Pack, D> G;
-  Pack p, V0;
-  explicit Memory(const double* from) {
-    for (int i = 0; i < Symmetric<Pack, D>::size; ++i) G[i] = Pack::load(from + i * kLanes);
-    p = Pack::load(from + Symmetric<Pack, D>::size * kLanes);
-    V0 = Pack::load(from + (Symmetric<Pack, D>::size + 1) * kLanes);
-  }
-  void store(double* to) const {
-    for (int i = 0; i < Symmetric<Pack, D>::size; ++i) G[i].store(to + i * kLanes);
-    p.store(to + Symmetric<Pack, D>::size * kLanes);
-  }
-};
-
 template <class Cell> double* memory_of(const CellGroup& g, long block, int s) {
-  return g.memory + (block * Cell::simplices + s) * kMemory<kD<Cell>> * kLanes;
+  return g.memory + (block * Cell::simplices + s) * g.items * kLanes;
+}
+inline Pack initial_volume(const CellGroup& g, const double* memory) { return Pack::load(memory + (g.items - 1) * kLanes); }
+
+/// The ways of the edges of simplex s in the last step; in: velocities of the cell's nodes.
+template <class Cell>
+void moved_edges(const NodalView& view, const Vector<Pack, kD<Cell>>* v, int s, Vector<Pack, kD<Cell>>* w) {
+  edges_of<Cell>(v, s, w);
+  for (int m = 0; m < kD<Cell>; ++m) w[m] = Pack(view.last_dt) * w[m];
+}
+
+/// Incremental pressure (2.11) of the classical method, p + K tr D dt, with the
+/// mean rate of the cell or that of the element.
+template <class Cell>
+void classical_pressures(const CellGroup& g, const NodalView& view, long block, const Vector<Pack, kD<Cell>>* x,
+                         const Vector<Pack, kD<Cell>>* v, Pack* p) {
+  constexpr int D = kD<Cell>;
+  Pack rate[Cell::simplices], sum_V(0.0), sum_rate(0.0);
+  for (int s = 0; s < Cell::simplices; ++s) {
+    Edges<Pack, D> e;
+    edges_of<Cell>(x, s, e.x);
+    find_reciprocal(e);
+    Vector<Pack, D> w[D];
+    moved_edges<Cell>(view, v, s, w);
+    rate[s] = Increment<Pack, D>(e, w).divergence();
+    sum_V += e.volume;
+    sum_rate += e.volume * rate[s];
+  }
+  const Pack mean = sum_rate / sum_V, theta(g.pressure == PressureMode::element ? 1 : g.element_share);
+  for (int s = 0; s < Cell::simplices; ++s) {
+    double* at = memory_of<Cell>(g, block, s);
+    load(at, kClassicalPressure<D>, p[s]);
+    p[s] += Pack(g.solid.K) * ((Pack(1.0) - theta) * mean + theta * rate[s]);
+    store(at, kClassicalPressure<D>, p[s]);
+  }
 }
 
 /// p of every simplex of the block: K (V/V0 - 1) of the cell (with a share of the
@@ -73,9 +93,13 @@ void pressures(const CellGroup& g, const NodalView& view, long block, const Pack
     }
     return;
   }
+  if (g.solid.law == Law::classical) {
+    for (int s = 0; s < Cell::simplices; ++s) load(memory_of<Cell>(g, block, s), kClassicalPressure<D>, p[s]);
+    return;
+  }
   Pack sum_V(0.0), sum_V0(0.0), V0[Cell::simplices];
   for (int s = 0; s < Cell::simplices; ++s) {
-    V0[s] = Pack::load(memory_of<Cell>(g, block, s) + (kMemory<D> - 1) * kLanes);
+    V0[s] = initial_volume(g, memory_of<Cell>(g, block, s));
     sum_V += V[s];
     sum_V0 += V0[s];
   }
@@ -123,7 +147,9 @@ Pack viscous_pressure(const CellGroup& g, const Vector<Pack, kD<Cell>>* x, const
   return q * D_v * V;
 }
 
-template <class Cell>
+/// OneLayer: the law is one of material/von_mises.h with a single layer, for which the
+/// kernel is made as lean as it can be; all others are told apart at run time.
+template <class Cell, bool OneLayer>
 [[gnu::flatten]] void forces_of_block(const CellGroup& g, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
@@ -133,12 +159,17 @@ template <class Cell>
     for (int i = 0; i < D; ++i) f[a][i] = Pack(0.0);
 
   Pack V[Cell::simplices], p[Cell::simplices];
-  simplex_volumes<Cell>(x, V);
-  pressures<Cell>(g, view, block, V, p);
+  Vector<Pack, D> v[Cell::nodes];  // only where something asks for velocities
+  const bool classical = !OneLayer && g.solid.law == Law::classical, viscous = g.linear_viscosity > 0 || g.quadratic_viscosity > 0;
+  if (classical || viscous) gather<Cell>(nodes, view.v, v);
+  if (classical) {
+    classical_pressures<Cell>(g, view, block, x, v, p);
+  } else {
+    simplex_volumes<Cell>(x, V);
+    pressures<Cell>(g, view, block, V, p);
+  }
   const int in_use = block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes;
-  if (g.linear_viscosity > 0 || g.quadratic_viscosity > 0) {
-    Vector<Pack, D> v[Cell::nodes];
-    gather<Cell>(nodes, view.v, v);
+  if (viscous) {
     Pack q;
     const Pack power = viscous_pressure<Cell>(g, x, v, q);
     for (int s = 0; s < Cell::simplices; ++s) p[s] += q;
@@ -151,20 +182,16 @@ template <class Cell>
     Edges<Pack, D> e;
     edges_of<Cell>(x, s, e.x);
     find_reciprocal(e);
-    double* at = memory_of<Cell>(g, block, s);
-    Memory<D> memory(at);
-    const Symmetric<Pack, D> B = push(memory.G, e);  // (3.51)
-    const Pack J = e.volume / memory.V0;
+    double* memory = memory_of<Cell>(g, block, s);
+    const Pack V0 = initial_volume(g, memory);
+    const Pack J = e.volume / V0;
     lowest = smaller(lowest, J);
-    const Pack before = memory.p;
-    PointResult<Pack, D> point = update_point(g.solid, B, J, memory.p);
-    if (any(memory.p > before)) {
-      const Symmetric<Pack, D> Gx = metric(e);
-      for (int i = 0; i < Symmetric<Pack, D>::size; ++i)
-        memory.G[i] = point.a * memory.G[i] + (Pack(1.0) - point.a) * Gx[i];  // (3.54)
-      memory.store(at);
-      dissipated += point.dissipation * memory.V0;
-    }
+    Vector<Pack, D> w[D];
+    if (classical) moved_edges<Cell>(view, v, s, w);
+    PointResponse<Pack, D> point;
+    if constexpr (OneLayer) point = layer_step(g.solid, 0, stress_factor(g.solid, J), e, J, memory, Keep::yes);
+    else point = point_step(g.solid, e, classical ? w : nullptr, J, memory, Keep::yes);
+    dissipated += point.dissipation * V0;
     for (int i = 0; i < 3; ++i) point.S[i] += p[s];  // sigma = p I + S (3.4)
     Vector<Pack, D> rest;
     for (int m = 0; m < D; ++m) {
@@ -215,8 +242,8 @@ template <class Cell>
     Edges<Pack, D> e;
     edges_of<Cell>(x, s, e.x);
     find_reciprocal(e);
-    const Memory<D> memory(memory_of<Cell>(g, block, s));
-    bound.add(e, push(memory.G, e), memory.V0, Cell::table[s]);
+    const double* memory = memory_of<Cell>(g, block, s);
+    bound.add(e, memory, initial_volume(g, memory), Cell::table[s]);
   }
   Pack rate(0.0);
   if (g.quadratic_viscosity > 0) {
@@ -245,19 +272,21 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   pressures<Cell>(g, view, block, V, p);
   Pack stored(0.0), cell_V(0.0), cell_V0(0.0);
   const double own = g.pressure == PressureMode::element ? 1 : g.element_share;
+  const bool classical = g.solid.law == Law::classical;
   for (int s = 0; s < Cell::simplices; ++s) {
     Edges<Pack, D> e;
     edges_of<Cell>(x, s, e.x);
     find_reciprocal(e);
-    Memory<D> memory(memory_of<Cell>(g, block, s));
-    const Symmetric<Pack, D> B = push(memory.G, e);
-    const Pack J = e.volume / memory.V0;
-    stored += memory.V0 * deviatoric_energy(g.solid, B, J);
-    if (g.pressure != PressureMode::node)
-      stored += Pack(0.5 * g.solid.K * own) * memory.V0 * (J - Pack(1.0)) * (J - Pack(1.0));
+    double* memory = memory_of<Cell>(g, block, s);
+    const Pack V0 = initial_volume(g, memory);
+    const Pack J = e.volume / V0;
+    stored += V0 * point_energy(g.solid, e, J, memory);
+    if (classical) stored += e.volume * p[s] * p[s] * Pack(0.5 / g.solid.K);
+    else if (g.pressure != PressureMode::node) stored += Pack(0.5 * g.solid.K * own) * V0 * (J - Pack(1.0)) * (J - Pack(1.0));
     cell_V += e.volume;
-    cell_V0 += memory.V0;
-    const PointResult<Pack, D> point = update_point(g.solid, B, J, memory.p);
+    cell_V0 += V0;
+    const Vector<Pack, D>* at_rest = nullptr;
+    const PointResponse<Pack, D> point = point_step(g.solid, e, at_rest, J, memory, Keep::no);
     double* to = stress + (block * Cell::simplices + s) * 6 * kLanes;
     for (int i = 0; i < 6; ++i) {
       Pack component = i < Symmetric<Pack, D>::size ? point.S[i] : Pack(0.0);
@@ -266,7 +295,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
     }
     J.store(ratio + (block * Cell::simplices + s) * kLanes);
   }
-  if (g.pressure == PressureMode::cell) {
+  if (g.pressure == PressureMode::cell && !classical) {
     const Pack strain = cell_V / cell_V0 - Pack(1.0);
     stored += Pack(0.5 * g.solid.K * (1 - own)) * cell_V0 * strain * strain;
   }
@@ -288,8 +317,12 @@ template <class Work> void with_cell(const CellGroup& g, Work&& work) {
 }
 
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
+  const bool one_layer = (g.solid.law == Law::green_elastic || g.solid.law == Law::paper) && g.solid.layers == 1;
   with_cell(g, [&](auto cell) {
-    for (int b = first; b < last; ++b) forces_of_block<decltype(cell)>(g, view, b);
+    for (int b = first; b < last; ++b) {
+      if (one_layer) forces_of_block<decltype(cell), true>(g, view, b);
+      else forces_of_block<decltype(cell), false>(g, view, b);
+    }
   });
 }
 void volumes(const CellGroup& g, const NodalView& view, int first, int last) {

@@ -3,23 +3,29 @@
 #include "forming_sim/config/fault.h"
 
 namespace forming_sim {
+namespace {
 
-SolidConstants solid_constants(const MaterialConfig& config, std::vector<double>& strain_table,
-                               std::vector<double>& stress_table) {
-  SolidConstants solid;
-  solid.K = config.bulk_modulus();
-  solid.mu = config.shear_modulus();
-  solid.paper = config.law == "paper";
-  if (!config.hardening) return solid;
-  const HardeningConfig& h = *config.hardening;
-  HardeningCurve& curve = solid.hardening;
+Law law_of(const std::string& word) {
+  if (word == "green_elastic") return Law::green_elastic;
+  if (word == "paper") return Law::paper;
+  if (word == "hyperelastic") return Law::hyperelastic;
+  if (word == "classical") return Law::classical;
+  throw Error(Code::invalid_scene, "material.law: given " + word + "; right are green_elastic, paper, hyperelastic, classical");
+}
+
+const double* keep(const std::vector<double>& points, CurveTables& tables) {
+  tables.push_back(points);
+  return tables.back().data();
+}
+
+HardeningCurve curve_of(const HardeningConfig& h, CurveTables& tables) {
+  HardeningCurve curve;
+  curve.a = h.yield_stress;
+  curve.d = h.modulus;
   if (h.curve == "perfect") {
     curve.kind = HardeningCurve::perfect;
-    curve.a = h.yield_stress;
   } else if (h.curve == "linear") {
     curve.kind = HardeningCurve::linear;
-    curve.a = h.yield_stress;
-    curve.b = h.modulus;
   } else if (h.curve == "voce") {
     curve.kind = HardeningCurve::voce;
     curve.a = h.saturation_stress;
@@ -32,14 +38,35 @@ SolidConstants solid_constants(const MaterialConfig& config, std::vector<double>
     curve.c = h.exponent;
   } else if (h.curve == "table") {
     curve.kind = HardeningCurve::table;
-    strain_table = h.plastic_strains;
-    stress_table = h.stresses;
-    curve.strain = strain_table.data();
-    curve.stress = stress_table.data();
-    curve.points = static_cast<int>(strain_table.size());
+    curve.strain = keep(h.plastic_strains, tables);
+    curve.stress = keep(h.stresses, tables);
+    curve.points = static_cast<int>(h.plastic_strains.size());
   } else {
-    throw Error(Code::invalid_scene, "hardening.curve: given " + h.curve +
-                                         "; right are perfect, linear, voce, swift, table");
+    throw Error(Code::invalid_scene, "hardening.curve: given " + h.curve + "; right are perfect, linear, voce, swift, table");
+  }
+  return curve;
+}
+
+}  // namespace
+
+SolidConstants solid_constants(const MaterialConfig& config, CurveTables& tables) {
+  SolidConstants solid;
+  solid.law = law_of(config.law);
+  solid.K = config.K();
+  solid.mu = config.mu();
+  solid.h1 = config.h1;
+  solid.h2 = config.h2;
+  if (config.hardening) solid.layer[0].hardening = curve_of(*config.hardening, tables);
+  if (config.layers.empty()) return solid;
+  if (config.layers.size() > kMaxLayers)
+    throw Error(Code::invalid_scene, "material.layers: given " + std::to_string(config.layers.size()) + "; at most " + std::to_string(kMaxLayers));
+  double sum = 0;
+  for (const LayerConfig& layer : config.layers) sum += layer.weight;
+  solid.layers = 0;
+  for (const LayerConfig& layer : config.layers) {
+    LayerConstants& to = solid.layer[solid.layers++];
+    to.weight = layer.weight / sum;
+    if (layer.hardening) to.hardening = curve_of(*layer.hardening, tables);
   }
   return solid;
 }

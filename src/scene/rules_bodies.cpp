@@ -1,5 +1,9 @@
 #include "rules.h"
 
+#include <cmath>
+
+#include "forming_sim/material/constants.h"
+
 namespace forming_sim {
 
 std::vector<std::string> predefined_sets(const BlankConfig& blank) {
@@ -75,6 +79,27 @@ void check_hardening(const HardeningConfig& hardening, const std::string& path, 
   }
 }
 
+void check_material(const BodyConfig& body, const std::string& path, FaultList& faults) {
+  const MaterialConfig& material = body.material;
+  const std::string here = path + ".material";
+  if (material.hardening) check_hardening(*material.hardening, here + ".hardening", faults);
+  if (material.law == "classical" && body.pressure_average == "node") {
+    faults.add(path + ".pressure_average", given_text(body.pressure_average), "give cell or element: the classical law keeps a pressure in every element, none in nodes");
+  }
+  if (material.layers.empty()) return;
+  if (material.hardening) faults.add(here, "both hardening and layers", "give one of them: each layer has a hardening of its own");
+  if (material.layers.size() > kMaxLayers) {
+    faults.add(here + ".layers", std::to_string(material.layers.size()) + " layers", "give at most " + std::to_string(kMaxLayers));
+  }
+  double sum = 0;
+  for (std::size_t k = 0; k < material.layers.size(); ++k) {
+    const LayerConfig& layer = material.layers[k];
+    sum += layer.weight;
+    if (layer.hardening) check_hardening(*layer.hardening, join_path(here + ".layers", k) + ".hardening", faults);
+  }
+  if (std::abs(sum - 1) > 1e-3) faults.add(here + ".layers", "weights with the sum " + number_text(sum), "let the weights sum to 1: they are the shares of the shear modulus");
+}
+
 }  // namespace
 
 void check_bodies(const Scene& scene, FaultList& faults) {
@@ -82,7 +107,7 @@ void check_bodies(const Scene& scene, FaultList& faults) {
     const BodyConfig& body = scene.bodies[i];
     const std::string path = body_path(i);
     check_source(body, path, scene.dimension, faults);
-    if (body.material.hardening) check_hardening(*body.material.hardening, path + ".material.hardening", faults);
+    check_material(body, path, faults);
     const auto sets = known_sets(body);
     const auto check_set = [&](const std::string& set, const std::string& here) {
       if (!sets || set.empty() || std::find(sets->begin(), sets->end(), set) != sets->end()) return;

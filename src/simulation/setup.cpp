@@ -95,10 +95,10 @@ void Simulation::Impl::set_up_contact() {
     first_facet += count;
     setup.bodies.push_back(std::move(s));
     const MaterialConfig& m = body.material;
-    setup.softest_modulus = std::min(setup.softest_modulus, m.youngs_modulus);
+    setup.softest_modulus = std::min(setup.softest_modulus, m.E());
     setup.thinnest = std::min(setup.thinnest, thickness_of(body));
     setup.wave_speed = std::min(
-        setup.wave_speed, std::sqrt((m.bulk_modulus() + 4. / 3 * m.shear_modulus()) / m.density / plan.time_step.mass_scaling));
+        setup.wave_speed, std::sqrt((m.K() + 4. / 3 * m.mu()) / m.density / plan.time_step.mass_scaling));
   }
   for (const ToolModel& tool : model.tools) {
     ContactSurface s;

@@ -23,7 +23,7 @@ void Simulation::Impl::begin_stage() {
     for (const Vec3& X_i : body.mesh.nodes) box.extend(X_i);
     size = std::max(size, box.diagonal().norm());
     thin = std::min(thin, thickness_of(body));
-    speed = std::min(speed, std::sqrt(body.material.youngs_modulus / body.material.density / plan.time_step.mass_scaling));
+    speed = std::min(speed, std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling));
   }
   settle = Settle(time, size * size / (thin * speed), stages.stage().kinetic_fraction);
 }

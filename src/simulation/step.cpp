@@ -43,7 +43,7 @@ void Simulation::Impl::take_step() {
   v_before = v;
   choose_dt();
   --control.until_next;
-  elements.forces(x, v, dt, f);
+  elements.forces(x, v, previous_dt, dt, f);
   NodeField external;
   if (loaded) {
     external.assign(x.size(), Node::Zero());

@@ -58,7 +58,7 @@ TEST(SceneYaml, TenFaultsAreToldAtOnce) {
   text = replaced(text, "density: 2710", "density: -2710");                              // 2 out of range
   text = replaced(text, "youngs_modulus: 70.5e9", "youngs_modulus: stiff");              // 3 wrong type
   text = replaced(text, "poissons_ratio: 0.34", "poissons_ratio: .nan");                 // 4 not a number
-  text = replaced(text, "curve: voce ", "modulus: 1e9\n        curve: voce ");           // 5 does not apply
+  text = replaced(text, "curve: voce ", "strength: 1e9\n        curve: voce ");           // 5 does not apply
   text = replaced(text, "kind: fixed", "kind: glued");                                   // 6 unknown word
   text = replaced(text, "      thickness: 0.93e-3\n", "");                               // 7 missing
   text = replaced(text, "cells_through: 4", "cells_through: 4\n      cells_along: 20");   // 8 twice
@@ -66,7 +66,7 @@ TEST(SceneYaml, TenFaultsAreToldAtOnce) {
   text = replaced(text, "body: sheet, point: [0.006, 0]", "body: shet, point: [0.006, 0]");  // 10 no such body
   const std::vector<Fault> faults = faults_of(text);
   const char* fields[] = {"dimensions", "bodies[0].material.density", "bodies[0].material.youngs_modulus",
-                          "bodies[0].material.poissons_ratio", "bodies[0].material.hardening.modulus",
+                          "bodies[0].material.poissons_ratio", "bodies[0].material.hardening.strength",
                           "bodies[0].boundaries[0].kind", "bodies[0].blank.thickness", "bodies[0].blank.cells_along",
                           "tools[2].motion.times", "output.probes[0].body"};
   for (const char* field : fields) EXPECT_TRUE(fault_at(faults, field)) << field << " is not among\n" << sentences(faults);

@@ -94,8 +94,8 @@ TEST(ShippedScenes, flange_section_fits_the_sheet) {
 
 TEST(ShippedScenes, impact_has_the_moduli_it_states) {
   const Scene scene = read_valid_scene(kFolder + "impact.yaml");
-  EXPECT_NEAR(scene.bodies[0].material.shear_modulus(), 26.5e9, 1e3);
-  EXPECT_NEAR(scene.bodies[0].material.bulk_modulus(), 65.1e9, 1e4);
+  EXPECT_NEAR(scene.bodies[0].material.mu(), 26.5e9, 1e3);
+  EXPECT_NEAR(scene.bodies[0].material.K(), 65.1e9, 1e4);
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ class Column {
         x_[i] = node(d_ * n + s_[i] * e);
         if (t_ == 2) x_[i][1] = y;
       }
-    elements_->forces(x_, v_, dt_, f_);
+    elements_->forces(x_, v_, dt_, dt_, f_);
     double pull = 0;
     moment_ = 0;
     const double keep = (1 - 0.5 * damping_ * dt_) / (1 + 0.5 * damping_ * dt_), kick = dt_ / (1 + 0.5 * damping_ * dt_);

@@ -3,15 +3,13 @@
 // that run over them. Arrays are structures of arrays within a block:
 // [block][item][lane]. The last block is filled up with copies of its last cell;
 // the copies are computed and never read.
-#include "forming_sim/material/von_mises.h"
+#include "forming_sim/material/constants.h"
+#include "forming_sim/tensor/tensor.h"
 
 namespace forming_sim {
 
 /// Over what the pressure p = K (V/V0 - 1) is averaged.
 enum class PressureMode { cell, element, node };
-
-/// Memory of a simplex: G^X (4 or 6 components), plastic strain p, V0.
-template <int D> constexpr int kMemory = D == 2 ? 6 : 8;
 
 /// Doubles of a force record: the last of a record in 3D is zero.
 template <int D> constexpr int kRecord = D == 2 ? 2 : 4;
@@ -31,11 +29,12 @@ struct CellGroup {
   PressureMode pressure = PressureMode::cell;
   double element_share = 0;        ///< theta: share of the element's own volume in a cell's pressure
   SolidConstants solid;
+  int items = 0;                   ///< numbers of memory of a simplex (material/law.h), V0 the last
   double density = 0;              ///< kg/m3, scaled
   double linear_viscosity = 0, quadratic_viscosity = 0;
 
   const int* nodes = nullptr;      ///< [block][cell node][lane] joined node index
-  double* memory = nullptr;        ///< [block][simplex][kMemory][lane]
+  double* memory = nullptr;        ///< [block][simplex][items][lane]
   double* records = nullptr;       ///< [block][cell node][lane][kRecord]: forces, N; or volumes for nodal pressure
   double* plastic_work = nullptr;  ///< [block] dissipated so far, J
   double* viscous_work = nullptr;  ///< [block] dissipated so far by bulk viscosity, J
@@ -45,9 +44,10 @@ struct CellGroup {
 /// Nodal fields as the kernels read them: four doubles a node.
 struct NodalView {
   const double* x = nullptr;          ///< positions
-  const double* v = nullptr;          ///< velocities, read only with bulk viscosity
+  const double* v = nullptr;          ///< velocities, read only with bulk viscosity or Law::classical
   const double* pressure = nullptr;   ///< [node] nodal pressure, read only in PressureMode::node
   double dt = 0;                      ///< s, for the viscous work
+  double last_dt = 0;                 ///< s, in which v led to x, for Law::classical
 };
 
 /// Result of the time-step pass for one block.

@@ -40,9 +40,10 @@ class Elements {
   const std::vector<double>& nodal_mass() const { return mass_; }  ///< kg, scaled
 
   /// f = internal forces at x (N); updates the memory of what yields.
-  /// v, dt: for bulk viscosity. Throws Error(mesh_error) naming an element whose
-  /// volume is not positive or not a number.
-  void forces(const NodeField& x, const NodeField& v, double dt, NodeField& f);
+  /// v: the velocities that led to x in last_dt (0: nothing has moved yet), for Law::classical
+  /// and bulk viscosity, whose work is booked for the coming dt. Throws Error(mesh_error)
+  /// naming an element whose volume is not positive or not a number.
+  void forces(const NodeField& x, const NodeField& v, double last_dt, double dt, NodeField& f);
   /// Stable time step at x, without a safety factor: dt and the simplex' cell.
   void stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const;
 

@@ -8,8 +8,8 @@
 //     (d+1)/rho mu max( 2 (I1/3 + sqrt(I1^2/9 - I2/3)), s1 + s2 ),
 //   I1, I2 the invariants and s1 >= s2 >= s3 the eigenvalues of S; in plane strain
 //   I1 = s1 + s2, I2 = s1 s2. In 3D s1 + s2 = I1 - s3 with s3 bounded from below by
-//   the iteration s3 <- 4 I3/(I1 - s3)^2. Large elastic strain enters by its
-//   tangent: mu -> mu J^(-2/3) lambda_max(B), lambda_max <= tr B/3 + 2/3 q_B.
+//   the iteration s3 <- 4 I3/(I1 - s3)^2. Large elastic strain enters by the
+//   tangent of the law (point_tangent in material/law.h).
 // * Pressure: one mode per cell, K/V0 grad V grad V^T, whose eigenvalue with the
 //   cell's nodal masses is  omega_vol^2 = K/V0 sum_a |dV/dx_a|^2 / m_a.
 //   With a share theta of the element's own pressure the two add up. With p per element it is the element's own; with p per node the element's
@@ -18,6 +18,7 @@
 //   xi = omega_eta^2 / (2 omega), omega_eta^2 = eta/V sum_a |dV/dx_a|^2 / m_a
 // and the step becomes 2/omega (sqrt(1 + xi^2) - xi).
 #include "forming_sim/element/cell_group.h"
+#include "forming_sim/material/law.h"
 
 namespace forming_sim {
 
@@ -31,7 +32,7 @@ template <class T, int D, int Nodes> class StepBound {
   }
 
   template <class Corners>
-  void add(const Edges<T, D>& e, const Symmetric<T, D>& B, const T& V0, const Corners& corner) {
+  void add(const Edges<T, D>& e, const double* memory, const T& V0, const Corners& corner) {
     Vector<T, D> g[D + 1];
     g[0] = T(-1.0) * e.up[0];
     for (int m = 0; m < D; ++m) {
@@ -65,9 +66,7 @@ template <class T, int D, int Nodes> class StepBound {
     const T root = sqrt(larger(I1 * I1 * T(1.0 / 9) - I2 * T(1.0 / 3), T(0.0)));
     const T largest = larger(T(2.0) * (I1 * T(1.0 / 3) + root), shear);
     const T J = e.volume / V0;
-    const T j13 = g_.solid.paper ? T(1.0) : inverse_cube_root(J);
-    const T tangent = (g_.solid.paper ? J : j13 * j13) *
-                      (trace(B) * T(1.0 / 3) + T(2.0 / 3) * mises(deviator(B)));
+    const T tangent = point_tangent(g_.solid, e, J, memory);
     const T omega2 = T((D + 1) / g_.density * g_.solid.mu) * tangent * largest;
     const T volumetric = T((D + 1) * g_.solid.K / g_.density) * J * J * trace_in_plane(S);
     deviatoric_ = larger(deviatoric_, omega2);
@@ -86,7 +85,8 @@ template <class T, int D, int Nodes> class StepBound {
   T step(const T& rate) const {
     T sum(0.0);
     for (int a = 0; a < Nodes; ++a) sum += dot(gradient_[a], gradient_[a]) / mass_[a];
-    const T cell_volumetric = T(g_.solid.K) / V0_ * sum;
+    // The classical pressure follows the rate of the current volume, not V/V0.
+    const T cell_volumetric = T(g_.solid.K) / (g_.solid.law == Law::classical ? V_ : V0_) * sum;
     const bool per_cell = g_.pressure == PressureMode::cell;
     const double theta = per_cell ? g_.element_share : 0;
     const T omega2 = per_cell ? deviatoric_ + T(1 - theta) * cell_volumetric + T(theta) * own_ : element_;

@@ -12,7 +12,7 @@ namespace forming_sim {
 struct HardeningConfig {
   std::string curve;                 ///< perfect | linear | voce | swift | table
   double yield_stress = 0;           ///< sigma_s(0)
-  double modulus = 0;                ///< linear: d sigma_s / d p
+  double modulus = 0;                ///< linear, voce: the part of d sigma_s / d p that stays
   double saturation_stress = 0;      ///< voce: sigma_s(infinity)
   double rate = 0;                   ///< voce: exponent per unit p
   double strength = 0;               ///< swift: K of K (e0 + p)^n
@@ -23,9 +23,9 @@ struct HardeningConfig {
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(curve), Field().required().choices({"perfect", "linear", "voce", "swift", "table"})
-          .doc("shape of the hardening curve sigma_s(p): perfect: Y; linear: Y + modulus p; voce: saturation - (saturation - Y) exp(-rate p); swift: strength (prestrain + p)^exponent; table: straight lines between points, level after the last"));
+          .doc("shape of the hardening curve sigma_s(p): perfect: Y; linear: Y + modulus p; voce: saturation - (saturation - Y) exp(-rate p) + modulus p; swift: strength (prestrain + p)^exponent; table: straight lines between points, level after the last"));
     visit(FORMING_SIM_FIELD(yield_stress), Field().unit("Pa").above(0).required().when("curve", {"perfect", "linear", "voce"}).doc("yield stress Y of the virgin material"));
-    visit(FORMING_SIM_FIELD(modulus), Field().unit("Pa").at_least(0).when("curve", {"linear"}).doc("plastic hardening modulus d sigma_s / d p"));
+    visit(FORMING_SIM_FIELD(modulus), Field().unit("Pa").at_least(0).when("curve", {"linear", "voce"}).doc("plastic hardening modulus d sigma_s / d p; of voce the part that stays when the exponential has died away"));
     visit(FORMING_SIM_FIELD(saturation_stress), Field().unit("Pa").above(0).required().when("curve", {"voce"}).doc("stress that the Voce curve approaches"));
     visit(FORMING_SIM_FIELD(rate), Field().unit("1").above(0).required().when("curve", {"voce"}).doc("exponent of the Voce curve per unit plastic strain"));
     visit(FORMING_SIM_FIELD(strength), Field().unit("Pa").above(0).required().when("curve", {"swift"}).doc("K of K (e0 + p)^n"));
@@ -36,24 +36,42 @@ struct HardeningConfig {
   }
 };
 
-/// An isotropic elastic or elastic-plastic solid.
+/// One of the levels (3.68)-(3.70): all deform together, each has its own memory and yields by itself.
+struct LayerConfig {
+  double weight = 0;
+  std::optional<HardeningConfig> hardening;  ///< absent: the layer stays elastic
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(weight), Field().above(0).at_most(1).required().doc("share of the shear modulus, mu_i / mu (3.68); the weights of all layers sum to 1"));
+    visit(FORMING_SIM_FIELD(hardening), Field().doc("yield stress of the layer, as if the whole body were made of it, over the layer's own plastic strain; absent: the layer stays elastic"));
+  }
+};
+
+/// An isotropic elastic, elastic-plastic or hyperelastic solid.
 struct MaterialConfig {
   double density = 0;
   double youngs_modulus = 0;
   double poissons_ratio = 0;
   std::string law = "green_elastic";
-  std::optional<HardeningConfig> hardening;  ///< absent: elastic
+  std::optional<HardeningConfig> hardening;  ///< absent, and no layers: elastic
+  std::vector<LayerConfig> layers;
+  double h1 = 0, h2 = 0, bulk_modulus = 0;   ///< hyperelastic
 
-  double shear_modulus() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
-  double bulk_modulus() const { return youngs_modulus / (3 * (1 - 2 * poissons_ratio)); }
+  double mu() const { return law == "hyperelastic" ? h1 + 2 * h2 : youngs_modulus / (2 * (1 + poissons_ratio)); }
+  double K() const { return law == "hyperelastic" ? bulk_modulus : youngs_modulus / (3 * (1 - 2 * poissons_ratio)); }
+  double E() const { return law == "hyperelastic" ? 9 * K() * mu() / (3 * K() + mu()) : youngs_modulus; }
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(density), Field().unit("kg/m3").above(0).at_most(1e5).required().doc("mass density"));
-    visit(FORMING_SIM_FIELD(youngs_modulus), Field().unit("Pa").above(0).required().doc("Young's modulus E"));
-    visit(FORMING_SIM_FIELD(poissons_ratio), Field().unit("1").above(-1).below(0.5).doc("Poisson's ratio nu"));
-    visit(FORMING_SIM_FIELD(law), Field().choices({"green_elastic", "paper"})
-          .doc("deviatoric stress: green_elastic: mu J^(-5/3) dev B, which has a stored energy; paper: mu dev B as printed in (3.5)"));
-    visit(FORMING_SIM_FIELD(hardening), Field().doc("von Mises plasticity with this isotropic hardening; absent: elastic"));
+    visit(FORMING_SIM_FIELD(youngs_modulus), Field().unit("Pa").above(0).required().when("law", {"green_elastic", "paper", "classical"}).doc("Young's modulus E"));
+    visit(FORMING_SIM_FIELD(poissons_ratio), Field().unit("1").above(-1).below(0.5).when("law", {"green_elastic", "paper", "classical"}).doc("Poisson's ratio nu"));
+    visit(FORMING_SIM_FIELD(law), Field().choices({"green_elastic", "paper", "hyperelastic", "classical"})
+          .doc("stress beside the pressure: green_elastic: mu J^(-5/3) dev B, which has a stored energy; paper: mu dev B as printed in (3.5); hyperelastic: dev(h1 Bbar + h2 Bbar.Bbar)/J (3.74); classical: Wilkins' rate law (2.10) with Jaumann's rotation and radial return, which drifts: the baseline for comparisons"));
+    visit(FORMING_SIM_FIELD(hardening), Field().when("law", {"green_elastic", "paper", "classical"}).doc("von Mises plasticity with this isotropic hardening; absent: elastic"));
+    visit(FORMING_SIM_FIELD(layers), Field().when("law", {"green_elastic", "paper"}).doc("several levels of plasticity instead of hardening: together they follow a measured curve and its reversal (Bauschinger effect)"));
+    visit(FORMING_SIM_FIELD(h1), Field().unit("Pa").above(0).required().when("law", {"hyperelastic"}).doc("h1 of (3.74); the shear modulus at rest is h1 + 2 h2"));
+    visit(FORMING_SIM_FIELD(h2), Field().unit("Pa").at_least(0).when("law", {"hyperelastic"}).doc("h2 of (3.74)"));
+    visit(FORMING_SIM_FIELD(bulk_modulus), Field().unit("Pa").above(0).required().when("law", {"hyperelastic"}).doc("bulk modulus K"));
   }
 };
 

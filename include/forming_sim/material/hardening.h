@@ -7,7 +7,7 @@ namespace forming_sim {
 /// A hardening curve as plain numbers, so that kernels of every vector width share it.
 struct HardeningCurve {
   enum Kind { elastic, perfect, linear, voce, swift, table } kind = elastic;
-  double a = 0, b = 0, c = 0;       ///< perfect: a; linear: a + b p; voce: a - b exp(-c p); swift: a (b + p)^c
+  double a = 0, b = 0, c = 0, d = 0;  ///< perfect: a; linear: a + d p; voce: a - b exp(-c p) + d p; swift: a (b + p)^c
   const double* strain = nullptr;   ///< table
   const double* stress = nullptr;
   int points = 0;
@@ -29,10 +29,10 @@ inline double table_value(const HardeningCurve& h, double p, bool slope) {
 template <class T> YieldStress<T> yield_stress(const HardeningCurve& h, const T& p) {
   switch (h.kind) {
     case HardeningCurve::perfect: return {T(h.a), T(0)};
-    case HardeningCurve::linear: return {T(h.a) + T(h.b) * p, T(h.b)};
+    case HardeningCurve::linear: return {T(h.a) + T(h.d) * p, T(h.d)};
     case HardeningCurve::voce: {
       const T fall = T(h.b) * exp(T(-h.c) * p);
-      return {T(h.a) - fall, T(h.c) * fall};
+      return {T(h.a) - fall + T(h.d) * p, T(h.c) * fall + T(h.d)};
     }
     case HardeningCurve::swift: {
       const T sigma = T(h.a) * lanewise([&](double q) { return std::pow(h.b + q, h.c); }, p);

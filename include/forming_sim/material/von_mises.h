@@ -1,9 +1,10 @@
 #pragma once
 // The law of the package at one point: memory tensor, von Mises yield, isotropic
-// hardening. One file, written once for a double and for a Pack.
+// hardening, in one layer or several. Written once for a double and for a Pack.
 //
-//   S = mu J^(-5/3) B_D                    (own law; (3.5) S = mu B_D as `paper`)
-//   yield: q_S = mu J^(-5/3) q_B <= sigma_s(p),  q_B = sqrt(3/2 B_D : B_D)
+//   S = sum_i w_i S_i (3.68),  S_i = mu J^(-5/3) B_iD   (own law; (3.5) S = mu B_D as `paper`)
+//   B_i = x_m x_k G_i^mk (3.69): every layer has a memory of its own
+//   yield (3.70): q_S = mu J^(-5/3) q_B <= sigma_s(p),  q_B = sqrt(3/2 B_D : B_D)
 //   correction (3.54): G <- a G + (1-a) G^x, so that B = a B' + (1-a) I (3.55)
 //
 // With (1-a) the plastic stretching of the correction is exactly
@@ -11,23 +12,29 @@
 //   d p = sqrt(2/3 D_p : D_p) = (1-a)/3 q(B^-1),
 // and a is solved for together with the hardening (ERRATA to 3.63):
 //   a q_S' = sigma_s(p + (1-a) k),  k = q(B'^-1)/3.
-#include "forming_sim/material/hardening.h"
+//
+// Memory of a point: G^X and p of every layer, one layer after the other.
+#include "forming_sim/material/constants.h"
 #include "forming_sim/tensor/tensor.h"
 
 namespace forming_sim {
 
-/// Constants of an isotropic elastic-plastic solid.
-struct SolidConstants {
-  double K = 0;        ///< bulk modulus, Pa
-  double mu = 0;       ///< shear modulus, Pa
-  bool paper = false;  ///< S = mu B_D as printed
-  HardeningCurve hardening;
+/// What a law answers for one step of a point.
+template <class T, int D> struct PointResponse {
+  Symmetric<T, D> S;  ///< Cauchy stress beside the pressure, Pa
+  T dissipation;      ///< plastic work of the step per initial volume, J/m3
 };
 
-template <class T, int D> struct PointResult {
-  Symmetric<T, D> S;  ///< deviatoric Cauchy stress, Pa
+/// Numbers of memory of one layer: G^X and p.
+template <int D> constexpr int kLayerItems = Symmetric<double, D>::size + 1;
+
+/// Whether a law stores what a step did to its memory.
+enum class Keep { yes, no };
+
+template <class T, int D> struct LayerResult {
+  Symmetric<T, D> S;  ///< of the layer, as if the body were made of it, Pa
   T a;                ///< 1: elastic
-  T dissipation;      ///< plastic work of the step per initial volume, J/m3
+  T dissipation;      ///< J/m3, likewise
 };
 
 /// u = 1 - a of (1-u) q = sigma_s(p + u k): Newton inside a bracket, to round-off.
@@ -48,22 +55,24 @@ template <class T> T solve_correction(const HardeningCurve& h, T q, T p, T k, T 
   return u;
 }
 
+/// S per B_D: mu J^(-5/3), or mu as printed.
+template <class T> T stress_factor(const SolidConstants& m, const T& J) {
+  if (m.law == Law::paper) return T(m.mu);
+  const T j13 = inverse_cube_root(J);
+  const T j23 = j13 * j13;
+  return T(m.mu) * j23 * j23 * j13;
+}
+
 /// B: the trial B' (3.51); J: V/V0 of the element; p: plastic strain, updated.
 template <class T, int D>
-PointResult<T, D> update_point(const SolidConstants& m, const Symmetric<T, D>& B, const T& J, T& p) {
-  PointResult<T, D> r;
-  T factor(m.mu);  // stress per B_D
-  if (!m.paper) {
-    const T j13 = inverse_cube_root(J);
-    const T j23 = j13 * j13;
-    factor = T(m.mu) * j23 * j23 * j13;
-  }
+LayerResult<T, D> update_layer(const HardeningCurve& hardening, T factor, const Symmetric<T, D>& B, const T& J, T& p) {
+  LayerResult<T, D> r;
   r.S = deviator(B);
   r.a = T(1);
   r.dissipation = T(0);
-  if (m.hardening.kind != HardeningCurve::elastic) {
+  if (hardening.kind != HardeningCurve::elastic) {
     const T q = factor * mises(r.S);
-    const T sigma = yield_stress(m.hardening, p).value;
+    const T sigma = yield_stress(hardening, p).value;
     const auto yields = q > sigma;
     if (any(yields)) {
       const Symmetric<T, D> cof = cofactor(B);
@@ -71,7 +80,7 @@ PointResult<T, D> update_point(const SolidConstants& m, const Symmetric<T, D>& B
       const T q_inverse = mises(deviator(cof)) / det;
       const T k = q_inverse * T(1.0 / 3);
       const T safe_q = select(yields, q, sigma);  // lanes that do not yield solve to u = 0
-      const T u = select(yields, solve_correction(m.hardening, safe_q, p, k, sigma), T(0));
+      const T u = select(yields, solve_correction(hardening, safe_q, p, k, sigma), T(0));
       r.a = T(1) - u;
       p += u * k;
       // J S : D_p with the stress after the correction, which is the one that moves the nodes;
@@ -85,19 +94,82 @@ PointResult<T, D> update_point(const SolidConstants& m, const Symmetric<T, D>& B
   return r;
 }
 
+/// G^X of the layer whose memory starts at `from`.
+template <class T, int D> Symmetric<T, D> load_memory(const double* from) {
+  Symmetric<T, D> G;
+  for (int i = 0; i < Symmetric<T, D>::size; ++i) load(from, i, G[i]);
+  return G;
+}
+
+/// One step of layer k, whose memory starts at `memory`; factor: stress_factor(m, J).
+template <class T, int D>
+PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, const Edges<T, D>& e, const T& J, double* memory, Keep keep) {
+  constexpr int size = Symmetric<T, D>::size;
+  const Symmetric<T, D> G = load_memory<T, D>(memory);
+  T p;
+  load(memory, size, p);
+  const T before = p;
+  const LayerResult<T, D> r = update_layer(m.layer[k].hardening, factor, push(G, e), J, p);  // (3.51)
+  if (keep == Keep::yes && any(p > before)) {
+    const Symmetric<T, D> Gx = metric(e);
+    for (int i = 0; i < size; ++i) store(memory, i, r.a * G[i] + (T(1) - r.a) * Gx[i]);  // (3.54)
+    store(memory, size, p);
+  }
+  return {r.S, r.dissipation};
+}
+
+/// One step of all layers.
+template <class T, int D>
+PointResponse<T, D> von_mises_step(const SolidConstants& m, const Edges<T, D>& e, const T& J, double* memory, Keep keep) {
+  const T factor = stress_factor(m, J);
+  if (m.layers == 1) return layer_step(m, 0, factor, e, J, memory, keep);
+  PointResponse<T, D> sum;
+  for (int i = 0; i < Symmetric<T, D>::size; ++i) sum.S[i] = T(0);
+  sum.dissipation = T(0);
+  for (int k = 0; k < m.layers; ++k) {
+    const PointResponse<T, D> r = layer_step(m, k, factor, e, J, memory + k * kLayerItems<D> * lanes_of<T>, keep);
+    const T w(m.layer[k].weight);
+    for (int i = 0; i < Symmetric<T, D>::size; ++i) sum.S[i] += w * r.S[i];
+    sum.dissipation += w * r.dissipation;
+  }
+  return sum;
+}
+
 /// Stored energy per initial volume, J/m3, of the deviatoric part:
 /// mu/2 J^(-2/3) (tr B - 3 (det B)^(1/3)), which is zero where B is spherical.
 /// Without the difference of near numbers: with B = s I + B_D,
 ///   det B = s^3 (1 - e),  e = B_D:B_D / (2 s^2) - det B_D / s^3,
 ///   1 - (1 - e)^(1/3) = e / (1 + y + y^2),  y = (1 - e)^(1/3).
-template <class T, int D> T deviatoric_energy(const SolidConstants& m, const Symmetric<T, D>& B, const T& J) {
+template <class T, int D> T deviatoric_energy(double mu, const Symmetric<T, D>& B, const T& J) {
   const T s = trace(B) * T(1.0 / 3);
   const Symmetric<T, D> B_D = deviator(B);
   const T e = (T(0.5) * contract(B_D, B_D) - determinant(B_D, cofactor(B_D)) / s) / (s * s);
   const T root = inverse_cube_root(T(1) - e);
   const T y = (T(1) - e) * root * root;
   const T j13 = inverse_cube_root(J);
-  return T(1.5 * m.mu) * j13 * j13 * s * e / (T(1) + y + y * y);
+  return T(1.5 * mu) * j13 * j13 * s * e / (T(1) + y + y * y);
+}
+
+template <class T, int D>
+T von_mises_energy(const SolidConstants& m, const Edges<T, D>& e, const T& J, const double* memory) {
+  T sum(0);
+  for (int k = 0; k < m.layers; ++k, memory += kLayerItems<D> * lanes_of<T>)
+    sum += T(m.layer[k].weight) * deviatoric_energy(m.mu, push(load_memory<T, D>(memory), e), J);
+  return sum;
+}
+
+/// Bound on the tangent modulus over mu, for the time step: J^(-2/3) lambda_max(B), with
+/// lambda_max <= tr B/3 + 2/3 q_B; of several layers the mean.
+template <class T, int D>
+T von_mises_tangent(const SolidConstants& m, const Edges<T, D>& e, const T& J, const double* memory) {
+  T sum(0);
+  for (int k = 0; k < m.layers; ++k, memory += kLayerItems<D> * lanes_of<T>) {
+    const Symmetric<T, D> B = push(load_memory<T, D>(memory), e);
+    sum += T(m.layer[k].weight) * (trace(B) * T(1.0 / 3) + T(2.0 / 3) * mises(deviator(B)));
+  }
+  if (m.law == Law::paper) return J * sum;
+  const T j13 = inverse_cube_root(J);
+  return j13 * j13 * sum;
 }
 
 }  // namespace forming_sim

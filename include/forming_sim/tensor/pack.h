@@ -27,6 +27,10 @@ inline double sqrt(double a) { return std::sqrt(a); }
 inline double exp(double a) { return std::exp(a); }
 inline double absolute(double a) { return std::fabs(a); }
 template <class F> double lanewise(F&& f, double a) { return f(a); }
+/// Doubles of one number: 1, or a Pack's lanes. Numbers of a point lie one after the other in memory.
+template <class T> constexpr int lanes_of = 1;
+inline void load(const double* from, int item, double& to) { to = from[item]; }
+inline void store(double* to, int item, double value) { to[item] = value; }
 
 namespace FORMING_SIM_ISA {
 
@@ -69,6 +73,8 @@ inline bool any(Mask m) {
 #endif
 }
 inline Pack select(Mask m, Pack a, Pack b) { return Pack(m.v ? a.v : b.v); }
+inline void load(const double* from, int item, Pack& to) { to = Pack::load(from + item * kLanes); }
+inline void store(double* to, int item, Pack value) { value.store(to + item * kLanes); }
 inline Pack larger(Pack a, Pack b) { return select(a > b, a, b); }
 inline Pack smaller(Pack a, Pack b) { return select(a < b, a, b); }
 inline Pack absolute(Pack a) { return larger(a, -a); }
@@ -141,6 +147,8 @@ inline Pack exp(Pack x) {
 }
 
 }  // namespace FORMING_SIM_ISA
+
+template <> constexpr int lanes_of<FORMING_SIM_ISA::Pack> = kLanes;
 
 /// J^(-1/3) for J > 0, by Newton's method on y^-3 = J from the tangent at J = 1,
 /// which never lies above the root: the iteration rises to it without overshoot.

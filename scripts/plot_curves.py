@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+"""Draws the curves of a figure that forming_bench wrote: a CSV with the columns series, x, y."""
+import argparse
+import csv
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+
+def read_series(path):
+    """Name of a series -> (list of x, list of y), in the order of the file."""
+    series = {}
+    with open(path, newline="") as file:
+        for row in csv.DictReader(file):
+            x, y = series.setdefault(row["series"], ([], []))
+            x.append(float(row["x"]))
+            y.append(float(row["y"]))
+    if not series:
+        sys.exit(f"{path}: holds no rows")
+    return series
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("csv")
+    parser.add_argument("--title", default="")
+    parser.add_argument("--x", default="x", help="label of the x axis")
+    parser.add_argument("--y", default="y", help="label of the y axis")
+    parser.add_argument("--logarithmic", action="store_true", help="both axes in powers of ten")
+    parser.add_argument("--output", required=True, help="PNG to write")
+    options = parser.parse_args()
+
+    figure, axes = plt.subplots(figsize=(8, 5), layout="constrained")
+    for name, (x, y) in read_series(options.csv).items():
+        # The dashed ones are what a curve is compared with.
+        reference = any(word in name for word in ("exact", "measured", "analytic", "expected"))
+        marker = "o" if len(x) < 12 or options.logarithmic else None
+        axes.plot(x, y, "--" if reference else "-", marker=marker, markersize=4, linewidth=1.2, label=name)
+    if options.logarithmic:
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+    axes.set_title(options.title)
+    axes.set_xlabel(options.x)
+    axes.set_ylabel(options.y)
+    axes.grid(True, which="both", alpha=0.3)
+    axes.legend(fontsize=8)
+    figure.savefig(options.output, dpi=130)
+
+
+if __name__ == "__main__":
+    main()
