@@ -78,6 +78,7 @@ void Simulation::Impl::book(const ContactStep& done) {
   halvings += done.halvings;
   active_pairs = done.active;
   min_gap = std::min(min_gap, done.min_gap_over_layer);
+  if (done.stable_dt > 0 && (explicit_stable_dt == 0 || done.stable_dt < explicit_stable_dt)) explicit_stable_dt = done.stable_dt;
   if (done.active > 0 || pressed) mean_contact_pressure(done.dt);
   for (std::size_t k = 0; k < tools.size(); ++k) {
     ToolStatus& tool = tools[k];
