@@ -52,6 +52,7 @@ struct Simulation::Impl {
   long halvings = 0;
   double min_gap = 1;
   double explicit_stable_dt = 0;
+  bool overstepped = false;         ///< a step was longer than the explicit contact is stable, and it has been told
   long active_pairs = 0;
   long crossings = 0;
   double next_crossing_check = 0;

@@ -26,6 +26,7 @@ struct Meeting {
   double restitution = 0;
   double momentum = 0;         ///< of all bodies over that of one
   double balance = 0, stable_dt = 0, dt = 0;
+  std::size_t warnings = 0;
   long crossings = 0, steps = 0;
   std::string error;
 };
@@ -97,6 +98,7 @@ Meeting meet(const ContactConfig& contact, double safety, bool wall = false, int
   found.crossings = sim.contact_status().crossings;
   found.stable_dt = sim.contact_status().explicit_stable_dt;
   found.steps = sim.steps();
+  found.warnings = sim.warnings().size();
   std::cout << "  " << contact.method << " " << contact.pairing << " n " << contact.exponent << ", " << safety << " of the bulk step"
             << (wall ? ", wall" : other == 1 ? "" : ", other mesh") << ": mean " << found.mean / 1e6 << " MPa, peak " << found.peak / 1e6
             << ", duration " << found.duration * 1e3 << " ms, restitution " << found.restitution << ", energy " << found.energy * 100 << " %, balance " << found.balance << ", crossings "
@@ -234,6 +236,7 @@ TEST(ContactExplicit, ThePapersImpactAtASmallStep) {
   EXPECT_LT(small.balance, .02);
   EXPECT_LT(small.momentum, 1e-10);
   EXPECT_EQ(small.crossings, 0);
+  EXPECT_EQ(small.warnings, 0u);
 }
 
 // The same at the step of the elements: what is printed fails, the package's own method does not.
@@ -241,6 +244,7 @@ TEST(ContactExplicit, ThePapersImpactAtTheBulkStepFails) {
   const Meeting fails = meet(printed(), .9);
   EXPECT_TRUE(!fails.error.empty() || fails.crossings > 0 || fails.energy > 1) << "the control must fail";
   EXPECT_LT(fails.stable_dt, .5 * fails.dt);
+  EXPECT_EQ(fails.warnings, 1u);
   const Meeting own = meet(method("implicit", .01), .9);
   EXPECT_TRUE(own.error.empty());
   EXPECT_NEAR(own.mean, 70e6, .02 * 70e6);
