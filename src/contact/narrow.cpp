@@ -173,7 +173,8 @@ class Phase {
   std::vector<Hit> hits_;
 };
 
-// In the order of the keys, each once.
+}  // namespace
+
 void put_in_order(std::vector<ContactPair>& pairs) {
   const auto rising = [](const ContactPair& a, const ContactPair& b) { return a.key < b.key; };
   bool done = true;
@@ -189,13 +190,8 @@ void put_in_order(std::vector<ContactPair>& pairs) {
   pairs.swap(sorted);
 }
 
-}  // namespace
-
-void narrow_phase(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, bool all, double reach,
-                  double travel, NearList& list, Narrow& result) {
-  result.pairs.clear();
-  result.close.clear();
-  Phase phase(features, work, layer, all, result);
+void add_plane_pairs(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, double reach,
+                     const NearList& list, std::vector<ContactPair>& pairs) {
   for (const NearList::PlanePair& p : list.planes) {
     const PlanePose& plane = planes[p.tool];
     const double gap = dot3(work.x[p.node] - plane.point, plane.normal);
@@ -211,8 +207,16 @@ void narrow_phase(const Features& features, const Workspace& work, const std::ve
     pair.gap = gap;
     pair.base = layer;
     pair.normal = plane.normal;
-    result.pairs.push_back(pair);
+    pairs.push_back(pair);
   }
+}
+
+void narrow_phase(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, bool all, double reach,
+                  double travel, NearList& list, Narrow& result) {
+  result.pairs.clear();
+  result.close.clear();
+  Phase phase(features, work, layer, all, result);
+  add_plane_pairs(features, work, planes, layer, reach, list, result.pairs);
   // Distances are computed to rounding; the factor keeps the bound on its safe side.
   const double awake = (travel + reach) * (1 + 1e-12);
   for (size_t i = 0; i < list.groups.size(); ++i)

@@ -4,44 +4,21 @@
 #include <cmath>
 
 #include "forming_sim/contact/closest.h"
+#include "forming_sim/contact/impulse.h"
 #include "forming_sim/contact/law.h"
 
 namespace forming_sim {
-namespace {
 
-inline Node relative(const ContactPair& pair, const NodeField& v) {
-  Node u = pair.weight[0] * v[pair.node[0]];
-  for (int k = 1; k < pair.nodes; ++k) u += pair.weight[k] * v[pair.node[k]];
-  return u;
-}
-
-inline Node project(const Mat3& p, const Node& j) { return node(p * vec3(j)); }
-
-inline void push(const ContactPair& pair, const Node& impulse, Workspace& work) {
+void prepare_pair(const Workspace& work, ContactPair& pair) {
+  pair.w = pair.w_slip = 0;
   for (int k = 0; k < pair.nodes; ++k) {
     const int n = pair.node[k];
-    const double factor = pair.weight[k] * work.inverse_mass[n];
-    if (work.projector[n])
-      work.v[n] += factor * project(*work.projector[n], impulse);
-    else
-      work.v[n] += factor * impulse;
+    const double b2m = pair.weight[k] * pair.weight[k] * work.inverse_mass[n];
+    pair.w_slip += b2m;
+    pair.w += work.projector[n] ? b2m * dot3(pair.normal, project(*work.projector[n], pair.normal)) : b2m;
   }
-}
-
-}  // namespace
-
-void prepare_pairs(const Workspace& work, std::vector<ContactPair>& pairs) {
-  for (ContactPair& pair : pairs) {
-    pair.w = pair.w_slip = 0;
-    for (int k = 0; k < pair.nodes; ++k) {
-      const int n = pair.node[k];
-      const double b2m = pair.weight[k] * pair.weight[k] * work.inverse_mass[n];
-      pair.w_slip += b2m;
-      pair.w += work.projector[n] ? b2m * dot3(pair.normal, project(*work.projector[n], pair.normal)) : b2m;
-    }
-    // Held against the normal up to rounding is held.
-    if (pair.w <= 1e-12 * pair.w_slip) pair.w = pair.stiffness = 0;
-  }
+  // Held against the normal up to rounding is held.
+  if (pair.w <= 1e-12 * pair.w_slip) pair.w = pair.stiffness = 0;
 }
 
 double sweep(double dt, Workspace& work, std::vector<ContactPair>& pairs) {
@@ -68,7 +45,7 @@ double sweep(double dt, Workspace& work, std::vector<ContactPair>& pairs) {
       impulse += difference;
       change = std::max(change, std::sqrt(dot3(difference, difference)) * pair.w_slip * dt);
     }
-    push(pair, impulse, work);
+    push(pair, impulse, work, work.v);
   }
   return change;
 }

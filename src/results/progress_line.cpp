@@ -67,6 +67,7 @@ void EndTable::on_end(const Simulation& simulation, Code, const std::string&) {
   std::printf("plastic strain, max  %.4g\n", strain.empty() ? 0.0 : *std::max_element(strain.begin(), strain.end()));
   std::printf("kinetic / internal   %.3g\nbalance error        %.3g\n", internal > 0 ? energies.kinetic / internal : 0.0, simulation.balance_error());
   std::printf("crossings            %ld\nsmallest gap / layer %.3g\n", contact.crossings, contact.min_gap_over_layer);
+  if (contact.explicit_stable_dt > 0) std::printf("stable contact step  %.3g s\n", contact.explicit_stable_dt);
   for (std::size_t i = 0; i < simulation.tools().size(); ++i) {
     const Vec3& force = simulation.tools()[i].peak_force;
     std::printf("peak force on %-12s [%.4g, %.4g, %.4g] %s\n", simulation.model().tools[i].name.c_str(), force.x(), force.y(), force.z(), flat ? "N/m" : "N");

@@ -155,7 +155,8 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
   j["contact"] = {{"crossings", contact.crossings},
                   {"halvings", contact.halvings},
                   {"min_gap_over_h0", number(contact.min_gap_over_layer)},
-                  {"h0_m", number(contact.layer)}};
+                  {"h0_m", number(contact.layer)},
+                  {"explicit_stable_dt_s", contact.explicit_stable_dt > 0 ? number(contact.explicit_stable_dt) : Json(nullptr)}};
   j["plastic_strain"] = maximum(now.plastic_strain, model);
   const bool higher_now = record.surface_strain.element < 0 || now.surface_strain.value > record.surface_strain.value;
   j["surface_strain"] = maximum(higher_now ? now.surface_strain : record.surface_strain, model);

@@ -89,7 +89,7 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | `sim_time_s`, `wall_time_s`, `ns_per_element_step` | simulated time, time it took, speed |
 | `time_step_s` | `first`, `min`, `limited_by` |
 | `energy_J` | `kinetic`, `elastic`, `plastic`, `contact`, `friction`, `damping`, `work`, `initial`; `balance_error`: the residual of the ledger over the largest work + initial, a fraction |
-| `contact` | `crossings` (must be 0), `halvings`, `min_gap_over_h0` |
+| `contact` | `crossings` (must be 0), `halvings`, `min_gap_over_h0`, `h0_m`; with `contact.method: explicit` `explicit_stable_dt_s`, the smallest step up to which its layer was stable |
 | `plastic_strain` | the largest equivalent plastic strain and where it is |
 | `surface_strain` | the largest principal logarithmic strain on the surface, extrapolated to it |
 | `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom` |

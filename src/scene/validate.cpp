@@ -22,6 +22,7 @@ std::vector<Fault> check_scene(const Scene& scene) {
   check_plane_strain(scene, list);
   check_bodies(scene, list);
   check_tools(scene, list);
+  check_contact(scene, list);
   check_stages(scene, list);
   check_output(scene, list);
   merge_faults(faults, between);

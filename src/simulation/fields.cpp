@@ -74,6 +74,7 @@ ContactStatus Simulation::contact_status() const {
   c.crossings = s.crossings;
   c.min_gap_over_layer = s.min_gap;
   c.active_pairs = s.active_pairs;
+  c.explicit_stable_dt = s.explicit_stable_dt;
   if (s.contact) {
     c.layer = s.contact->layer();
     c.listed_pairs = s.contact->listed_pairs();

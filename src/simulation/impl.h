@@ -51,6 +51,8 @@ struct Simulation::Impl {
   double work = 0, damping = 0, settled_away = 0, friction = 0, contact_dissipated = 0, contact_potential = 0, initial = 0, most = 0;
   long halvings = 0;
   double min_gap = 1;
+  double explicit_stable_dt = 0;
+  bool overstepped = false;         ///< a step was longer than the explicit contact is stable, and it has been told
   long active_pairs = 0;
   long crossings = 0;
   double next_crossing_check = 0;

@@ -1,6 +1,7 @@
 // One step: the stable dt, forces, the kick, contact, and the ledger's sums.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <sstream>
 
 #include "forming_sim/loads/gravity.h"
 #include "simulation/impl.h"
@@ -78,6 +79,14 @@ void Simulation::Impl::book(const ContactStep& done) {
   halvings += done.halvings;
   active_pairs = done.active;
   min_gap = std::min(min_gap, done.min_gap_over_layer);
+  if (done.stable_dt > 0 && (explicit_stable_dt == 0 || done.stable_dt < explicit_stable_dt)) explicit_stable_dt = done.stable_dt;
+  if (done.stable_dt > 0 && done.dt > done.stable_dt && !overstepped) {
+    overstepped = true;
+    std::ostringstream text;
+    text << "from " << time << " s on steps of " << done.dt << " s are longer than the " << done.stable_dt
+         << " s up to which the explicit contact is stable: set time_step.maximum to a fifth of contact.explicit_stable_dt_s, or contact.method to implicit";
+    warnings.push_back(text.str());
+  }
   if (done.active > 0 || pressed) mean_contact_pressure(done.dt);
   for (std::size_t k = 0; k < tools.size(); ++k) {
     ToolStatus& tool = tools[k];

@@ -31,6 +31,17 @@ TEST(SceneRules, BodiesHaveOneSource) {
   EXPECT_TRUE(fault_at(faults, "bodies[0]")) << sentences(faults);
 }
 
+TEST(SceneRules, OptionsOfAnotherContactMethodAreRefused) {
+  const auto with = [](const std::string& contact) { return replaced(flange_example(), "tools:\n", "contact: {" + contact + "}\ntools:\n"); };
+  expect_fault(with("exponent: 2"), "contact.exponent", "where method is explicit");
+  expect_fault(with("method: geometric, pairing: node_node"), "contact.pairing", "where method is explicit");
+  expect_fault(with("method: geometric, stiffness: 1e9"), "contact.stiffness", "where method is implicit or explicit");
+  expect_fault(with("method: explicit, max_halvings: 7"), "contact.max_halvings", "where method is implicit");
+  expect_fault(with("method: explicit, exponent: 4"), "contact.exponent", "at most 3");
+  expect_fault(with("method: penalty"), "contact.method", "implicit, explicit or geometric");
+  expect_fault(with("method: explicit, stiffness: 1e9, coefficient: 7e7"), "contact.stiffness", "leave out coefficient");
+}
+
 TEST(SceneRules, ToolsHaveOneSource) {
   expect_flange_fault("  - name: die\n", "  - name: die\n    normal: [0, 1]\n", "tools[0]", "profile and normal");
   expect_flange_fault("tools:\n", "tools:\n  - name: nothing\n", "tools[0]", "none of mesh");

@@ -1,24 +1,34 @@
 #pragma once
-// What a user may set of the mild contact. Nothing has to be set.
+// What a user may set of the contact. Nothing has to be set.
+#include <string>
+
 #include "forming_sim/config/field.h"
 
 namespace forming_sim {
 
 struct ContactConfig {
-  double layer = 0;        ///< h0
-  double stiffness = 0;    ///< kappa per area
-  double push_speed = 0;   ///< v_push
-  double friction = 0;     ///< of bodies against each other and themselves
+  std::string method = "implicit";      ///< implicit | explicit | geometric
+  double layer = 0;                     ///< h0
+  double stiffness = 0;                 ///< kappa per area
+  double coefficient = 0;               ///< c of (3.71)
+  int exponent = 1;                     ///< n of c (1/h^n - 1/h0^n)
+  std::string pairing = "node_side";    ///< node_side | node_node
+  double push_speed = 0;                ///< v_push
+  double friction = 0;                  ///< of bodies against each other and themselves
   int max_sweeps = 50;
   int max_halvings = 30;
 
   template <class Visitor> static void declare(Visitor&& visit) {
-    visit(FORMING_SIM_FIELD(layer), Field().unit("m").at_least(0).computed("min(0.05 smallest surface edge, 1e-3 thickness), raised to 0.1 of the closing motion of a step").doc("thickness h0 of the mild layer in which the repulsion p = E (h0/h - 1) acts"));
-    visit(FORMING_SIM_FIELD(stiffness), Field().unit("Pa").at_least(0).computed("Young's modulus of the softer body").doc("modulus E of the mild layer"));
-    visit(FORMING_SIM_FIELD(push_speed), Field().unit("m/s").at_least(0).computed("the smaller of 0.1 m/s and 1e-3 of the wave speed").doc("speed at which the soft start lets the layer of a pair that is born close grow"));
+    visit(FORMING_SIM_FIELD(method), Field().choices({"implicit", "explicit", "geometric"}).doc("implicit: mild contact at the end of the step, which never lets a node through; the others are baselines to compare with, and may: explicit: mild contact as printed in (3.71), at the start of the step, stable only for a time step that the summary names and time_step.maximum sets; geometric: a node found inside is put back onto the surface and slides"));
+    visit(FORMING_SIM_FIELD(layer), Field().unit("m").at_least(0).computed("min(0.05 smallest surface edge, 1e-3 thickness), raised by method implicit to 0.1 of the closing motion of a step").doc("thickness h0 of the mild layer in which the repulsion p = E (h0/h - 1) acts; with method geometric the distance at which surfaces are kept"));
+    visit(FORMING_SIM_FIELD(stiffness), Field().unit("Pa").at_least(0).when("method", {"implicit", "explicit"}).computed("Young's modulus of the softer body").doc("modulus E of the mild layer"));
+    visit(FORMING_SIM_FIELD(coefficient), Field().unit("N m^n").at_least(0).when("method", {"explicit"}).computed("E A h0^n / n, with E the stiffness and A the area of the node").doc("c of the force c (1/h^n - 1/h0^n), the same for every node; in plane strain per metre of width"));
+    visit(FORMING_SIM_FIELD(exponent), Field().at_least(1).at_most(3).when("method", {"explicit"}).doc("n of the force c (1/h^n - 1/h0^n)"));
+    visit(FORMING_SIM_FIELD(pairing), Field().choices({"node_side", "node_node"}).when("method", {"explicit"}).doc("what repels a node: node_side: the nearest points of the other surface's sides; node_node: its nearest node, so that meshes have to match"));
+    visit(FORMING_SIM_FIELD(push_speed), Field().unit("m/s").at_least(0).when("method", {"implicit"}).computed("the smaller of 0.1 m/s and 1e-3 of the wave speed").doc("speed at which the soft start lets the layer of a pair that is born close grow"));
     visit(FORMING_SIM_FIELD(friction), Field().at_least(0).at_most(10).doc("Coulomb friction of bodies against each other and against themselves; that of tools is theirs"));
-    visit(FORMING_SIM_FIELD(max_sweeps), Field().at_least(1).at_most(1000).doc("most Gauss-Seidel sweeps in a step"));
-    visit(FORMING_SIM_FIELD(max_halvings), Field().at_least(1).at_most(60).doc("most halvings of one step before the run ends with a named error"));
+    visit(FORMING_SIM_FIELD(max_sweeps), Field().at_least(1).at_most(1000).when("method", {"implicit"}).doc("most Gauss-Seidel sweeps in a step"));
+    visit(FORMING_SIM_FIELD(max_halvings), Field().at_least(1).at_most(60).when("method", {"implicit"}).doc("most halvings of one step before the run ends with a named error"));
   }
 };
 

@@ -3,6 +3,11 @@
 // and with themselves: what the time loop sees of it. The loop predicts, contact corrects the velocities so that
 // no pair of features ends the step closer than zero, and moves the nodes.
 //
+// The method below is the package's own (ContactConfig::method implicit); two
+// baselines to compare with stand beside it: the plain explicit form of the
+// same law (src/contact/explicit_mild.cpp) and the correction of places alone
+// (src/contact/geometric.cpp). They promise nothing: nodes may get through.
+//
 // Law of a pair: f = E A h0 (1/h - 1/h0) for a gap h < h0 (contact/law.h), taken
 // at the end of the step. A is the mean of the areas that the pair's deformable
 // nodes stand for; E, A and h0 are fixed at
@@ -73,8 +78,10 @@ struct ContactStep {
   double soft_start_work = 0;     ///< of layers that grew (or shrank back) at a fixed gap
   double tool_work = 0;           ///< of the tools on the bodies
   double held_work = 0;           ///< of contact against prescribed motion of held nodes (taken up by what drives them)
-  double dissipated = 0;          ///< by the implicit step and the change of features
-  double potential = 0;           ///< of the mild layer at the end of the step (a level, not a change)
+  double dissipated = 0;          ///< by the implicit step and the change of features; geometric: by the velocity taken from nodes found inside; explicit: none, so that
+                                  ///< the sum above does not close, by what the explicit form makes or loses
+  double potential = 0;           ///< of the mild layer at the end of the step (a level, not a change); explicit: at its middle, where energies are read
+  double stable_dt = 0;           ///< explicit only: the step up to which the layer as it stands is stable, s; 0: nothing is in it
   std::vector<Vec3> tool_impulse;          ///< on each tool by the bodies, N s
   std::vector<Vec3> tool_angular_impulse;  ///< about the world's origin, N m s
 };

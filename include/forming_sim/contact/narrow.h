@@ -37,4 +37,11 @@ struct Narrow {
 void narrow_phase(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, bool all, double reach,
                   double travel, NearList& list, Narrow& result);
 
+/// Adds the pairs of vertices with the planes that they are nearer to than `reach`, or behind.
+void add_plane_pairs(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, double reach,
+                     const NearList& list, std::vector<ContactPair>& pairs);
+
+/// In the order of their keys, each once.
+void put_in_order(std::vector<ContactPair>& pairs);
+
 }  // namespace forming_sim

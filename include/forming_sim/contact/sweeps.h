@@ -9,7 +9,7 @@
 namespace forming_sim {
 
 /// Sets w and w_slip. A pair that nothing can move gets stiffness 0 and w 0.
-void prepare_pairs(const Workspace& work, std::vector<ContactPair>& pairs);
+void prepare_pair(const Workspace& work, ContactPair& pair);
 
 /// One visit of every pair, in their order; changes work.v. Returns the largest
 /// change of a gap or of a slip distance, m.

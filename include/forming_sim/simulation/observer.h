@@ -38,6 +38,7 @@ struct ContactStatus {
   double min_gap_over_layer = 1;  ///< smallest gap / h0 so far; 1 where nothing ever touched
   double layer = 0;       ///< h0, m
   long active_pairs = 0, listed_pairs = 0;
+  double explicit_stable_dt = 0;  ///< contact.method explicit: smallest step so far up to which its layer was stable, s; 0: it never was in use
 };
 
 /// Where a rigid tool stands and what it feels.

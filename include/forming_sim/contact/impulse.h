@@ -1,0 +1,42 @@
+#pragma once
+// Relative motion at a pair, and what an impulse on it does to its nodes.
+#include "forming_sim/contact/pair.h"
+
+namespace forming_sim {
+
+inline Node relative(const ContactPair& pair, const NodeField& v) {
+  Node u = pair.weight[0] * v[pair.node[0]];
+  for (int k = 1; k < pair.nodes; ++k) u += pair.weight[k] * v[pair.node[k]];
+  return u;
+}
+
+inline Node project(const Mat3& p, const Node& j) { return node(p * vec3(j)); }
+
+/// Adds to `field` of every node of the pair its weight over its mass times the
+/// impulse, held directions removed: to velocities an impulse, to places one
+/// times a time.
+inline void push(const ContactPair& pair, const Node& impulse, const Workspace& work, NodeField& field) {
+  for (int k = 0; k < pair.nodes; ++k) {
+    const int n = pair.node[k];
+    const double factor = pair.weight[k] * work.inverse_mass[n];
+    if (work.projector[n])
+      field[n] += factor * project(*work.projector[n], impulse);
+    else
+      field[n] += factor * impulse;
+  }
+}
+
+/// The impulse by which friction comes nearest to ending the slip of the pair
+/// within the Coulomb cone of its normal impulse, N s; added to pair.slip and
+/// to the velocities.
+inline void rub(ContactPair& pair, Workspace& work) {
+  if (!(pair.friction > 0) || pair.impulse == 0) return;
+  const Node u = relative(pair, work.v);
+  Node q = -(u - pair.normal.dot(u) * pair.normal) / pair.w_slip;
+  const double size = q.norm(), most = pair.friction * pair.impulse;
+  if (size > most) q *= most / size;
+  pair.slip = q;
+  push(pair, q, work, work.v);
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,143 @@
+// Plain explicit mild contact, the paper's algorithm 2: the force (3.71) at the
+// gap with which the step begins, like any other nodal force. A baseline: its
+// stiffness n c / h^(n+1) has no bound as h -> 0, nodes may get through, and it
+// may blow up.
+#include <sstream>
+
+#include "contact/impl.h"
+#include "forming_sim/contact/impulse.h"
+#include "forming_sim/contact/power_law.h"
+#include "forming_sim/contact/sweeps.h"
+
+namespace forming_sim {
+namespace {
+
+// Every listed vertex and the nearest vertex of the other surface, each pair once.
+void pair_nearest_nodes(double reach, double travel, NearList& list, const Features& features, const Workspace& work, std::vector<ContactPair>& pairs) {
+  for (NearList::VertexGroup& g : list.groups) {
+    if (g.wake > (travel + reach) * (1 + 1e-12)) continue;
+    int node = -1, vertex = -1;
+    double least = 1e300;
+    for (int i = g.first; i < g.last; ++i)
+      for (int k = 0; k < features.corners(); ++k) {
+        const double squared = (work.x[g.node] - work.x[list.facets[i].node[k]]).squaredNorm();
+        if (squared >= least) continue;
+        least = squared;
+        node = list.facets[i].node[k];
+        vertex = features.facets[list.facets[i].facet][k];
+      }
+    const double distance = std::sqrt(least);
+    g.wake = travel + distance;
+    if (distance > reach || !(distance > 0)) continue;
+    ContactPair pair;
+    const bool swap = vertex < g.vertex;
+    pair.key = PairKey::make(PairKey::vertex_facet, std::min(vertex, g.vertex), Closest::corner, std::max(vertex, g.vertex));
+    pair.surface = swap ? features.vertex_surface[g.vertex] : g.surface;
+    pair.nodes = 2;
+    pair.node[0] = swap ? node : g.node;
+    pair.node[1] = swap ? g.node : node;
+    pair.weight[0] = 1;
+    pair.weight[1] = -1;
+    pair.gap = distance;
+    pair.normal = (work.x[pair.node[0]] - work.x[pair.node[1]]) / distance;
+    pairs.push_back(pair);
+  }
+  put_in_order(pairs);
+}
+
+// 2 / (a bound on the greatest frequency of the layer): the largest row sum of
+// M^-1 sum k (b n)(b n)^T over the directions in which the nodes are free. One
+// pair alone gives 2 / sqrt(k w).
+double stable_step(const PowerLaw& law, const Workspace& work, const std::vector<ContactPair>& pairs, std::vector<double>& sum) {
+  sum.assign(work.x.size(), 0.0);
+  double most = 0;
+  for (const ContactPair& pair : pairs) {
+    if (pair.impulse == 0) continue;
+    double free[4], all = 0;
+    for (int k = 0; k < pair.nodes; ++k) {
+      const int n = pair.node[k];
+      free[k] = work.inverse_mass[n] == 0 ? 0 : std::abs(pair.weight[k]) * (work.projector[n] ? project(*work.projector[n], pair.normal).norm() : 1);
+      all += free[k];
+    }
+    for (int k = 0; k < pair.nodes; ++k) {
+      const int n = pair.node[k];
+      sum[n] += law.stiffness(pair.gap, pair.stiffness) * all * free[k] * work.inverse_mass[n];
+      most = std::max(most, sum[n]);
+    }
+  }
+  return most > 0 ? 2 / std::sqrt(most) : 0;
+}
+
+}  // namespace
+
+ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at) {
+  const std::vector<ToolMotion> motion = tools_at(dt);
+  predict(dt, v_star);
+  const double tool_way = step_way(motion, x), predicted = both * fastest(v_star) * dt + tool_way;
+  const double reach = layer + predicted;  // also those that come into the layer in this step
+  const auto check = [&](double way) {
+    if (way <= both * features.mean_edge + tool_way) return;
+    std::ostringstream text;
+    text << "at time " << time << " s the explicit contact has blown up: nodes move " << way << " m in a step of " << dt
+         << " s. It is stable only below the step that its stiffness allows (contact.explicit_stable_dt_s in the summary): set time_step.maximum to a fifth of that, or contact.method to implicit, which needs none";
+    throw Error(Code::contact_error, text.str());
+  };
+  check(predicted);
+  near.pairs.clear();
+  near.close.clear();
+  ensure_list(x, motion, reach, 2 * predicted);
+  const PowerLaw law{config.exponent, layer};
+  const double kick = 0.5 * (previous_dt + dt);
+  double way = predicted;
+  if (list.size() > 0) {
+    const std::vector<PlanePose> planes = tools.planes(motion);
+    gather(x, v, dt, motion, planes);
+    // ---- pairs; a plane repels from both its sides, as a surface does
+    if (config.pairing == "node_node") {
+      add_plane_pairs(features, work, planes, layer, reach, list, near.pairs);
+      pair_nearest_nodes(reach, travel, list, features, work, near.pairs);
+    } else {
+      narrow_phase(features, work, planes, layer, true, reach, travel, list, near);
+    }
+    const auto left_out = [&](ContactPair& pair) {
+      if (pair.gap < 0) {
+        pair.gap = -pair.gap;
+        pair.normal = -pair.normal;
+      }
+      return pair.key.kind() == PairKey::edge_edge || !(pair.gap > 0) || pair.gap > reach;
+    };
+    near.pairs.erase(std::remove_if(near.pairs.begin(), near.pairs.end(), left_out), near.pairs.end());
+    set_constants();
+    // ---- forces, then friction
+    for (ContactPair& pair : near.pairs) {
+      pair.layer = layer;
+      if (pair.w == 0) continue;
+      pair.stiffness = config.coefficient > 0 ? config.coefficient : law.coefficient(pair.stiffness);
+      pair.impulse = kick * law.force(pair.gap, pair.stiffness);
+      if (pair.impulse > 0) push(pair, pair.impulse * pair.normal, work, work.v);
+    }
+    for (ContactPair& pair : near.pairs) rub(pair, work);
+    double most = 0;
+    for (int i = 0; i < work.body_entries; ++i) {
+      const double squared = dot3(work.v[i], work.v[i]);
+      if (!(squared <= most)) most = squared;
+    }
+    way = std::max(way, both * std::sqrt(most) * dt + tool_way);
+    check(way);
+  }
+  moved_by(way);
+  move(dt, x, v);
+
+  ContactStep step;
+  step.dt = dt;
+  book_impulses(step);
+  for (const ContactPair& pair : near.pairs) {
+    step.min_gap_over_layer = std::min(step.min_gap_over_layer, pair.gap / layer);
+    const double middle = std::abs(pair.gap + 0.5 * dt * dot3(pair.normal, relative(pair, work.v)));
+    step.potential += law.potential(std::max(middle, 1e-12 * layer), pair.stiffness);
+  }
+  step.stable_dt = stable_step(law, work, near.pairs, sum);
+  return step;
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,109 @@
+#pragma once
+// What a Contact holds, and the parts of a step that its methods share.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "forming_sim/contact/closest.h"
+#include "forming_sim/contact/contact.h"
+#include "forming_sim/contact/layers.h"
+#include "forming_sim/contact/list.h"
+#include "forming_sim/contact/narrow.h"
+#include "forming_sim/contact/tools.h"
+
+namespace forming_sim {
+
+struct Contact::Impl {
+  enum class Method { implicit, explicit_mild, geometric };
+  // ---- what does not change
+  ContactConfig config;
+  Method method = Method::implicit;
+  Features features;
+  ToolSet tools;
+  std::vector<double> friction;
+  std::vector<std::string> body_names;
+  std::vector<Vec3> body_shifts;
+  std::vector<int> sides;   ///< of every facet the bodies' side: +1 that of the normal, -1 the other, 0 unknown (see find_sides)
+  std::vector<bool> border; ///< of every vertex: on the border of an open surface
+  double both = 1;          ///< 2 where both sides of a pair can be deformable and move
+  double layer = 0, ceiling = 0, modulus = 0, push_speed = 0;
+  std::vector<std::string> warnings;
+  // ---- masses
+  std::vector<double> inverse_mass;
+  std::vector<HeldNode> held;
+  std::vector<int> held_of;
+  // ---- what the next step depends on
+  std::vector<LayerRecord> records;
+  double potential = 0;
+  double previous_dt = 0;   ///< of the step before, s; 0 at the start
+  // ---- the list and how much of its margin is used
+  NearList list;
+  Workspace work;
+  bool listed = false;
+  long builds = 0;
+  double travel = 0;        ///< bound on relative motion since the list was built (never falls)
+  double used = 0;          ///< of the list's radius
+  std::vector<bool> listed_present;
+  NodeField x_at_build;     ///< of the bodies' surface vertices, in their order
+  std::vector<ToolMotion> motion_at_build;
+  // ---- scratch
+  NodeField v_star, place;
+  Narrow near;
+  std::vector<double> moved;
+  std::vector<LayerRecord> next_records;
+  std::vector<double> sum;  ///< per entry of the workspace
+
+  template <class Each> void each_body_vertex(Each&& each) const {
+    for (int b = 0; b < features.bodies; ++b)
+      for (int v : features.surfaces[b].vertices) each(v);
+  }
+
+  // search.cpp
+  double fastest(const NodeField& v) const;
+  /// Largest way of any point of the present tools in the step, m.
+  double step_way(const std::vector<ToolMotion>& motion, const NodeField& x) const;
+  /// A list that holds every pair of features nearer than `reach`.
+  void ensure_list(const NodeField& x, const std::vector<ToolMotion>& motion, double reach, double step_bound);
+  /// Into the workspace: x at the start, v_star, v before the kick.
+  void gather(const NodeField& x, const NodeField& v, double dt, const std::vector<ToolMotion>& motion, const std::vector<PlanePose>& planes);
+  /// Stiffness E A h0, friction and inverse masses of the pairs.
+  void set_constants();
+  void set_constants(ContactPair& pair) const;
+  /// Counts `way` of relative motion towards the list's margin.
+  void moved_by(double way);
+
+  // contact.cpp
+  /// Velocities back from the workspace, and x + dt v.
+  void move(double dt, NodeField& x, NodeField& v);
+  /// What the pairs' impulses did to the tools, and how many act. Returns the
+  /// work of the impulses along the normals on the relative motion, J.
+  double book_impulses(ContactStep& step) const;
+
+  // one file each
+  ContactStep advance_implicit(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at);
+  ContactStep advance_explicit(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at);
+  ContactStep advance_geometric(double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at);
+
+  // geometric.cpp
+  /// Sides of the bodies' facets, borders of open surfaces.
+  void know_sides();
+  /// The pair of a vertex and the nearest point of a surface, its gap negative
+  /// inside; no nodes where it counts for nothing. Returns the distance.
+  double nearest_side(const NearList::VertexGroup& group, double deepest, ContactPair& pair) const;
+  /// To a gap of h0, with no closing velocity left.
+  void put_back(ContactPair pair);
+
+  // implicit.cpp
+  int first_touch(double dt);
+  std::string name_of_vertex(int v) const;
+  std::string name_of_entry(int entry) const;
+  std::string name_of_other(const ContactPair& pair) const;
+  void check_unmovable(double time) const;
+  [[noreturn]] void give_up(double time, double dt, int touch) const;
+
+ private:
+  template <class From, class To> double farthest(const std::vector<ToolMotion>& motion, const NodeField& x, From&& from, To&& to) const;
+};
+
+}  // namespace forming_sim

@@ -1,0 +1,164 @@
+// The package's own method: the mild law at the end of the step, swept over the
+// pairs; a continuous check, and halving of the step where that finds a touch.
+#include <sstream>
+
+#include "contact/impl.h"
+#include "forming_sim/contact/continuous.h"
+#include "forming_sim/contact/law.h"
+#include "forming_sim/contact/sweeps.h"
+
+namespace forming_sim {
+
+// The first close pair that touches on the way, -1: none.
+int Contact::Impl::first_touch(double dt) {
+  moved.resize(work.v.size());
+  for (size_t i = 0; i < moved.size(); ++i) moved[i] = dt * std::sqrt(dot3(work.v[i], work.v[i]));
+  Node x[4], d[4];
+  for (size_t c = 0; c < near.close.size(); ++c) {
+    const ClosePair& close = near.close[c];
+    int n[4], count, split;
+    if (close.group >= 0) {
+      const NearList::FacetEntry& e = list.facets[close.entry];
+      n[0] = list.groups[close.group].node;
+      for (int k = 0; k < features.corners(); ++k) n[1 + k] = e.node[k];
+      count = 1 + features.corners();
+      split = 1;
+    } else {
+      for (int k = 0; k < 4; ++k) n[k] = list.edges[close.entry].node[k];
+      count = 4;
+      split = 2;
+    }
+    double most[2] = {0, 0};
+    for (int k = 0; k < count; ++k) most[k >= split] = std::max(most[k >= split], moved[n[k]]);
+    if (most[0] + most[1] < 0.999 * close.distance) continue;
+    for (int k = 0; k < count; ++k) {
+      d[k] = dt * work.v[n[k]];
+      x[k] = work.x[n[k]];
+    }
+    const double least = 1e-3 * std::min(close.distance, layer);
+    if (close.group >= 0 ? point_meets_facet(features.corners(), x, d, least) : edges_meet(x, d, least)) return static_cast<int>(c);
+  }
+  return -1;
+}
+
+std::string Contact::Impl::name_of_vertex(int v) const {
+  std::ostringstream text;
+  const int s = features.vertex_surface[v];
+  if (v < features.body_nodes)
+    text << "node " << v << " of body " << body_names[s];
+  else
+    text << "a vertex of tool " << tools.names[s - features.bodies];
+  return text.str();
+}
+std::string Contact::Impl::name_of_entry(int entry) const {
+  const Node& p = work.x[entry];
+  std::ostringstream text;
+  text << (work.vertex[entry] < 0 ? "the plane" : name_of_vertex(work.vertex[entry])) << " at (" << p[0] << ", " << p[1] << ", " << p[2] << ") m";
+  return text.str();
+}
+
+std::string Contact::Impl::name_of_other(const ContactPair& pair) const {
+  return pair.tool >= 0 ? "tool " + tools.names[pair.tool] : "body " + body_names[pair.surface];
+}
+
+void Contact::Impl::check_unmovable(double time) const {
+  for (const ContactPair& pair : near.pairs) {
+    if (pair.w > 0 || pair.end_gap > 0) continue;
+    std::ostringstream text;
+    text << "at time " << time << " s " << name_of_other(pair) << " runs over " << name_of_entry(pair.node[0])
+         << ", which is held or driven against it (gap " << pair.end_gap << " m at the end of the step): let it stop short of it, or free the node";
+    throw Error(Code::contact_error, text.str());
+  }
+}
+
+[[noreturn]] void Contact::Impl::give_up(double time, double dt, int touch) const {
+  std::ostringstream text;
+  text << "at time " << time << " s contact found no step without a crossing, down to " << dt << " s (" << config.max_halvings << " halvings)";
+  if (touch >= 0) {
+    const ClosePair& close = near.close[touch];
+    const int a = close.group >= 0 ? list.groups[close.group].node : list.edges[close.entry].node[0];
+    const int b = close.group >= 0 ? list.facets[close.entry].node[0] : list.edges[close.entry].node[2];
+    text << ": " << (close.group >= 0 ? "" : "an edge from ") << name_of_entry(a) << " and a feature with " << name_of_entry(b) << ", " << close.distance << " m apart";
+  } else {
+    double worst = 1e300;
+    const ContactPair* pair = nullptr;
+    for (const ContactPair& p : near.pairs)
+      if (p.end_gap < worst) {
+        worst = p.end_gap;
+        pair = &p;
+      }
+    if (pair) text << ": " << name_of_entry(pair->node[0]) << " against " << name_of_other(*pair) << " ends at a gap of " << worst << " m";
+  }
+  text << ". The bodies may be squeezed harder than they can yield, or move too fast for the layer of " << layer
+       << " m: check the tools' stroke, refine the mesh there, or set contact.layer larger";
+  throw Error(Code::contact_error, text.str());
+}
+
+ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at) {
+  ContactStep step;
+  bool all = false;  // let pairs that push askew act before they are in their layer
+  for (;;) {
+    const std::vector<ToolMotion> motion = tools_at(dt);
+    predict(dt, v_star);
+    const double tool_way = step_way(motion, x);
+    double bound = 2 * (both * fastest(v_star) * dt + tool_way);
+    double thickest = layer;
+    for (const LayerRecord& r : records) thickest = std::max(thickest, r.layer);
+    const std::vector<PlanePose> planes = tools.planes(motion);
+    SweepResult swept;
+    double way = 0;
+    // The sweeps may make a node faster than was predicted: then look farther.
+    for (;; bound = 1.5 * way) {
+      const double reach = std::max(thickest, std::min(ceiling, 0.1 * bound)) + bound;
+      ensure_list(x, motion, reach, bound);
+      near.pairs.clear();
+      near.close.clear();
+      way = bound / 2;
+      if (list.size() == 0) break;
+      gather(x, v, dt, motion, planes);
+      narrow_phase(features, work, planes, layer, all, reach, travel, list, near);
+      set_constants();
+      assign_layers(records, work, dt, layer, ceiling, near.pairs);
+      swept = SweepResult();
+      if (!near.pairs.empty()) swept = solve_pairs(dt, 1e-3 * layer, config.max_sweeps, work, near.pairs);
+      double most = 0;
+      for (int i = 0; i < work.body_entries; ++i) most = std::max(most, dot3(work.v[i], work.v[i]));
+      way = std::max(bound / 2, both * std::sqrt(most) * dt + tool_way);
+      if (way <= bound) break;
+    }
+    step.sweeps += swept.sweeps;
+    check_unmovable(time + dt);
+    const int touch = swept.open ? first_touch(dt) : -1;
+    if (swept.open && touch < 0) {
+      moved_by(way);
+      break;
+    }
+    if (!all) {
+      all = true;
+      continue;
+    }
+    if (step.halvings >= config.max_halvings) give_up(time, dt, touch);
+    dt /= 2;
+    ++step.halvings;
+  }
+  step.dt = dt;
+
+  move(dt, x, v);
+
+  double start = 0;
+  for (const ContactPair& pair : near.pairs) {
+    start += mild_potential(pair.gap, pair.layer, pair.stiffness);
+    step.min_gap_over_layer = std::min(step.min_gap_over_layer, pair.end_gap / layer);
+  }
+  const double normal_work = book_impulses(step);
+  const RelaxedPotential end = relax_layers(push_speed * dt, near.pairs, next_records);
+  step.soft_start_work = end.after - end.before;
+  step.potential = end.after;
+  records.swap(next_records);
+  // Potential that comes or goes with the change of features counts as dissipation, of either sign.
+  step.dissipated = -normal_work - (end.before - start) - (start - potential);
+  potential = step.potential;
+  return step;
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,131 @@
+// Which features are near: the list and its margin, the workspace, the constants of the pairs.
+#include <Eigen/Geometry>
+
+#include "contact/impl.h"
+#include "forming_sim/contact/sweeps.h"
+
+namespace forming_sim {
+
+double Contact::Impl::fastest(const NodeField& v) const {
+  double most = 0;
+  each_body_vertex([&](int i) { most = std::max(most, dot3(v[i], v[i])); });
+  return std::sqrt(most);
+}
+
+// Largest way of any point of the present tools between two poses, m. The
+// motion is affine, so that a corner of the box moves farthest.
+template <class From, class To>
+double Contact::Impl::farthest(const std::vector<ToolMotion>& motion, const NodeField& x, From&& from, To&& to) const {
+  double most = 0;
+  Box bodies;
+  bool have = false;
+  for (size_t t = 0; t < motion.size(); ++t) {
+    if (!motion[t].present) continue;
+    Box box = tools.frame_box[t];
+    if (tools.is_plane[t]) {
+      if (!have) each_body_vertex([&](int i) { bodies.add(x[i]); });
+      have = true;
+      box = bodies;  // in the world: brought into the tool's frame below
+    }
+    if (box.empty()) continue;
+    for (int corner = 0; corner < 8; ++corner) {
+      Vec3 p;
+      for (int k = 0; k < 3; ++k) p[k] = corner >> k & 1 ? box.high[k] : box.low[k];
+      if (tools.is_plane[t]) p = motion[t].rotation0.transpose() * (p - motion[t].position0);
+      most = std::max(most, (to(t, p) - from(t, p)).norm());
+    }
+  }
+  return most;
+}
+
+double Contact::Impl::step_way(const std::vector<ToolMotion>& motion, const NodeField& x) const {
+  bool rests = true;
+  for (const ToolMotion& m : motion) rests = rests && m.position0 == m.position1 && m.rotation0 == m.rotation1;
+  if (rests) return 0;
+  return farthest(motion, x, [&](size_t t, const Vec3& p) { return pose0(motion[t], p); },
+             [&](size_t t, const Vec3& p) { return pose1(motion[t], p); });
+}
+
+void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion>& motion, double reach, double step_bound) {
+  const std::vector<bool> present = ToolSet::present(motion);
+  if (listed && present == listed_present) {
+    if (used + reach <= list.radius) return;
+    // The bound adds up vibrations; how far has anything really gone?
+    double body = 0;
+    size_t i = 0;
+    each_body_vertex([&](int v) { body = std::max(body, (x[v] - x_at_build[i++]).squaredNorm()); });
+    const double tool = farthest(motion, x, [&](size_t t, const Vec3& p) { return pose0(motion_at_build[t], p); },
+                            [&](size_t t, const Vec3& p) { return pose0(motion[t], p); });
+    used = (both * std::sqrt(body) + tool) * (1 + 1e-12);
+    if (used + reach <= list.radius - std::max(0.1 * features.mean_edge, step_bound)) return;
+  }
+  tools.place_all(features, motion, false, place);
+  const double radius = reach + std::max(0.25 * features.mean_edge, 4 * step_bound);
+  list = build_list(features, x, place, present, tools.is_plane, tools.planes(motion), radius, work);
+  listed = true;
+  listed_present = present;
+  motion_at_build = motion;
+  x_at_build.clear();
+  each_body_vertex([&](int v) { x_at_build.push_back(x[v]); });
+  travel = used = 0;
+  ++builds;
+  for (int i = 0; i < work.body_entries; ++i) {
+    work.inverse_mass[i] = inverse_mass[work.vertex[i]];
+    const int h = held_of[work.vertex[i]];
+    work.projector[i] = h >= 0 ? &held[h].projector : nullptr;
+  }
+}
+
+void Contact::Impl::gather(const NodeField& x, const NodeField& v, double dt, const std::vector<ToolMotion>& motion, const std::vector<PlanePose>& planes) {
+  for (int i = 0; i < work.body_entries; ++i) {
+    const int n = work.vertex[i];
+    work.x[i] = x[n];
+    work.v[i] = v_star[n];
+    work.before[i] = v[n];
+  }
+  const size_t feet = list.planes.size(), last = work.vertex.size() - feet;
+  int surface = features.bodies;
+  for (size_t i = work.body_entries; i < last; ++i) {
+    const int n = work.vertex[i];
+    while (surface + 1 < static_cast<int>(features.surfaces.size()) && n >= features.surfaces[surface + 1].first_vertex) ++surface;
+    const Vec3 p = vec3(features.place[n - features.body_nodes]);
+    const ToolMotion& m = motion[surface - features.bodies];
+    work.x[i] = node(pose0(m, p));
+    work.v[i] = work.before[i] = (node(pose1(m, p)) - work.x[i]) / dt;
+  }
+  for (const NearList::PlanePair& p : list.planes) {
+    const ToolMotion& m = motion[p.tool];
+    const PlanePose& plane = planes[p.tool];
+    const Node foot = work.x[p.node] - dot3(work.x[p.node] - plane.point, plane.normal) * plane.normal;
+    work.x[p.foot] = foot;
+    work.v[p.foot] = work.before[p.foot] = (node(pose1(m, m.rotation0.transpose() * (vec3(foot) - m.position0))) - foot) / dt;
+  }
+}
+
+void Contact::Impl::set_constants() {
+  for (ContactPair& pair : near.pairs) set_constants(pair);
+}
+
+void Contact::Impl::set_constants(ContactPair& pair) const {
+  // The mean area of the deformable nodes.
+  double sum = 0;
+  int count = 0;
+  for (int k = 0; k < pair.nodes; ++k)
+    if (pair.node[k] < work.body_entries) {
+      sum += features.area[work.vertex[pair.node[k]]];
+      ++count;
+    }
+  pair.stiffness = count > 0 ? modulus * layer * sum / count : 0;
+  int rigid = pair.surface;
+  if (rigid < features.bodies) rigid = features.vertex_surface[work.vertex[pair.node[0]]];
+  pair.tool = std::max(-1, rigid - features.bodies);
+  pair.friction = pair.tool >= 0 ? friction[pair.tool] : config.friction;
+  prepare_pair(work, pair);
+}
+
+void Contact::Impl::moved_by(double way) {
+  travel += way * (1 + 1e-12);
+  used += way * (1 + 1e-12);
+}
+
+}  // namespace forming_sim
