@@ -60,6 +60,7 @@ ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v,
     case Impl::Method::geometric: step = m.advance_geometric(dt, x, v, predict, tools_at); break;
   }
   m.previous_dt = step.dt;
+  m.previous_motion = tools_at(step.dt);
   return step;
 }
 
@@ -91,6 +92,7 @@ double Contact::Impl::book_impulses(ContactStep& step) const {
   step.friction_work = done.friction;
   return done.normal;
 }
+
 long Contact::count_crossings(const NodeField& x, const std::vector<ToolMotion>& tools) const {
   const Impl& m = *impl_;
   NodeField place;
@@ -114,20 +116,33 @@ const std::vector<Vec3>& Contact::body_shifts() const { return impl_->body_shift
 const std::vector<std::string>& Contact::warnings() const { return impl_->warnings; }
 
 namespace {
-constexpr std::uint64_t kMagic = 0x32746361746e6f43u;  // "Contact2"
+constexpr std::uint64_t kMagic = 0x33746361746e6f43u;  // "Contact3"
 struct SavedHeader {
-  std::uint64_t magic, vertices, facets, records;
+  std::uint64_t magic, vertices, facets, records, tools;
   double potential, previous_dt;
 };
 static_assert(std::is_trivially_copyable<LayerRecord>::value, "saved byte by byte");
 }  // namespace
 
+/// Position and rotation of a tool as twelve numbers.
+constexpr std::size_t kPose = 12;
+
 std::vector<char> Contact::save() const {
   const Impl& m = *impl_;
-  const SavedHeader header{kMagic, static_cast<std::uint64_t>(m.features.vertex_count), m.features.facets.size(), m.records.size(), m.potential, m.previous_dt};
-  std::vector<char> data(sizeof header + m.records.size() * sizeof(LayerRecord));
-  std::memcpy(data.data(), &header, sizeof header);
-  if (!m.records.empty()) std::memcpy(data.data() + sizeof header, m.records.data(), m.records.size() * sizeof(LayerRecord));
+  const SavedHeader header{kMagic, static_cast<std::uint64_t>(m.features.vertex_count), m.features.facets.size(), m.records.size(), m.previous_motion.size(),
+                           m.potential, m.previous_dt};
+  std::vector<double> poses;
+  for (const ToolMotion& tool : m.previous_motion) {
+    poses.insert(poses.end(), tool.position0.data(), tool.position0.data() + 3);
+    poses.insert(poses.end(), tool.rotation0.data(), tool.rotation0.data() + 9);
+  }
+  std::vector<char> data(sizeof header + m.records.size() * sizeof(LayerRecord) + poses.size() * sizeof(double));
+  char* to = data.data();
+  std::memcpy(to, &header, sizeof header);
+  to += sizeof header;
+  if (!m.records.empty()) std::memcpy(to, m.records.data(), m.records.size() * sizeof(LayerRecord));
+  to += m.records.size() * sizeof(LayerRecord);
+  if (!poses.empty()) std::memcpy(to, poses.data(), poses.size() * sizeof(double));
   return data;
 }
 
@@ -135,12 +150,19 @@ void Contact::restore(const std::vector<char>& data) {
   Impl& m = *impl_;
   SavedHeader header;
   const bool whole = data.size() >= sizeof header && (std::memcpy(&header, data.data(), sizeof header), header.magic == kMagic) &&
-                     data.size() == sizeof header + header.records * sizeof(LayerRecord);
+                     data.size() == sizeof header + header.records * sizeof(LayerRecord) + header.tools * kPose * sizeof(double);
   if (!whole) throw Error(Code::resume_error, "the saved contact is damaged or of another version");
   if (header.vertices != static_cast<std::uint64_t>(m.features.vertex_count) || header.facets != m.features.facets.size())
     throw Error(Code::resume_error, "the saved contact has other surfaces than this scene: resume with the scene that was saved");
   m.records.resize(header.records);
   if (!m.records.empty()) std::memcpy(m.records.data(), data.data() + sizeof header, m.records.size() * sizeof(LayerRecord));
+  std::vector<double> poses(header.tools * kPose);
+  if (!poses.empty()) std::memcpy(poses.data(), data.data() + data.size() - poses.size() * sizeof(double), poses.size() * sizeof(double));
+  m.previous_motion.assign(header.tools, ToolMotion());
+  for (std::size_t t = 0; t < header.tools; ++t) {
+    m.previous_motion[t].position0 = Eigen::Map<const Vec3>(&poses[t * kPose]);
+    m.previous_motion[t].rotation0 = Eigen::Map<const Mat3>(&poses[t * kPose + 3]);
+  }
   m.potential = header.potential;
   m.previous_dt = header.previous_dt;
   m.listed = false;

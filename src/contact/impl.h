@@ -37,6 +37,7 @@ struct Contact::Impl {
   std::vector<LayerRecord> records;
   double potential = 0;
   double previous_dt = 0;   ///< of the step before, s; 0 at the start
+  std::vector<ToolMotion> previous_motion;  ///< of the tools: position0, rotation0 at the start of the step before
   // ---- the list and how much of its margin is used
   NearList list;
   Workspace work;
@@ -65,7 +66,7 @@ struct Contact::Impl {
   double step_way(const std::vector<ToolMotion>& motion, const NodeField& x) const;
   /// A list that holds every pair of features nearer than `reach`.
   void ensure_list(const NodeField& x, const std::vector<ToolMotion>& motion, double reach, double step_bound);
-  /// Into the workspace: x at the start, v_star, v before the kick.
+  /// Into the workspace: x at the start, v_star, v before the kick (of tools: over the step before).
   void gather(const NodeField& x, const NodeField& v, double dt, const std::vector<ToolMotion>& motion, const std::vector<PlanePose>& planes);
   /// Stiffness E A h0, friction and inverse masses of the pairs.
   void set_constants();

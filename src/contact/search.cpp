@@ -91,14 +91,17 @@ void Contact::Impl::gather(const NodeField& x, const NodeField& v, double dt, co
     const Vec3 p = vec3(features.place[n - features.body_nodes]);
     const ToolMotion& m = motion[surface - features.bodies];
     work.x[i] = node(pose0(m, p));
-    work.v[i] = work.before[i] = (node(pose1(m, p)) - work.x[i]) / dt;
+    work.v[i] = (node(pose1(m, p)) - work.x[i]) / dt;
+    work.before[i] = previous_dt > 0 ? (work.x[i] - node(pose0(previous_motion[surface - features.bodies], p))) / previous_dt : work.v[i];
   }
   for (const NearList::PlanePair& p : list.planes) {
     const ToolMotion& m = motion[p.tool];
     const PlanePose& plane = planes[p.tool];
     const Node foot = work.x[p.node] - dot3(work.x[p.node] - plane.point, plane.normal) * plane.normal;
     work.x[p.foot] = foot;
-    work.v[p.foot] = work.before[p.foot] = (node(pose1(m, m.rotation0.transpose() * (vec3(foot) - m.position0))) - foot) / dt;
+    const Vec3 in_tool = m.rotation0.transpose() * (vec3(foot) - m.position0);
+    work.v[p.foot] = (node(pose1(m, in_tool)) - foot) / dt;
+    work.before[p.foot] = previous_dt > 0 ? (foot - node(pose0(previous_motion[p.tool], in_tool))) / previous_dt : work.v[p.foot];
   }
 }
 

@@ -166,13 +166,6 @@ Vec3 BoundarySet::prescribed(const Group& group, double t) const {
 
 Vec3 BoundarySet::prescribed(int k, double t) const { return prescribed(groups_[group_[k]], t); }
 
-void BoundarySet::project_force(NodeField& f) const {
-  for (size_t k = 0; k < nodes_.size(); ++k) {
-    Node& force = f[nodes_[k]];
-    force.head<3>() = projector(static_cast<int>(k)) * vec3(force);
-  }
-}
-
 double BoundarySet::apply_velocity(double t_mid, NodeField& v) const {
   double fastest = 0;
   std::vector<Vec3> velocities;

@@ -17,6 +17,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.number(smallest.element);
   a.text(smallest.reason);
   a.raw(settle);
+  a.raw(unsettled);
   f_before.resize(x.size(), Node::Zero());
   a.numbers(f_before.data()->data(), f_before.size() * 4);
   a.number(f_before_step);

@@ -40,7 +40,7 @@ struct Simulation::Impl {
   StepControl control;
   StepLimit limit, smallest;
   double first_dt = 0;
-  Settle settle;
+  Settle settle, unsettled;         ///< of the running stage; of the last that ran into its limit
   NodeField f_before;               ///< forces of the step before an estimate of the settling frequency
   long f_before_step = -2;
   bool rests = false;               ///< a settling body has come to rest
@@ -81,8 +81,11 @@ struct Simulation::Impl {
   double kinetic() const;
   /// Mass-proportional damping now, 1/s.
   double damping_rate() const;
-  /// Settling: estimates the frequency and sees whether the body rests; f is complete.
+  /// Settling: estimates the frequency; f is complete but for contact.
   void watch_settling();
+  /// Settling: whether the bodies rest, from the force m dv/dt + m alpha v that is left on
+  /// each node when contact and supports have answered; v_before, v and dt are those of the step.
+  void see_rest();
 
   // simulation.cpp
   void begin_stage();

@@ -8,8 +8,9 @@
 // so that fast modes are damped first and the slowest swing decides in the end.
 //
 // The body rests when its kinetic energy and the energy that the forces out of
-// balance could still set free, f . M^-1 f / (2 omega^2), have both stayed below a
-// fraction of the elastic energy for a while.
+// balance could still set free, f . M^-1 f / (2 omega^2), have together stayed below a
+// fraction of the elastic energy for a while. A body that returns to its shape keeps
+// none: then a millionth of all the energy that was put in stands for it.
 #include <algorithm>
 #include <cmath>
 
@@ -31,15 +32,20 @@ class Settle {
   /// alpha, 1/s.
   double damping() const { return 2 * omega_; }
 
-  /// At the same steps: f_Mf = f . M^-1 f, energies in J. True when the body rests.
-  bool at_rest(double t, double f_Mf, double kinetic, double elastic) {
-    const double releasable = omega_ > 0 ? 0.5 * f_Mf / (omega_ * omega_) : 0;
-    if (omega_ == 0 || kinetic + releasable > fraction_ * elastic) quiet_since_ = t;
+  /// f_Mf = f . M^-1 f, energies in J; put_in: the largest work and initial energy so far.
+  /// True when the body rests.
+  bool at_rest(double t, double f_Mf, double kinetic, double elastic, double put_in) {
+    restless_ = kinetic + (omega_ > 0 ? 0.5 * f_Mf / (omega_ * omega_) : 0);
+    quiet_ = fraction_ * std::max(elastic, 1e-6 * put_in);
+    if (omega_ == 0 || restless_ > quiet_) quiet_since_ = t;
     return t - quiet_since_ > shortest_;
   }
+  /// Kinetic and releasable energy when it was last looked at, and what it should be below, J.
+  double restless() const { return restless_; }
+  double quiet() const { return quiet_; }
 
  private:
-  double shortest_ = 0, fraction_ = 0, quiet_since_ = 0, omega_ = 0;
+  double shortest_ = 0, fraction_ = 0, quiet_since_ = 0, omega_ = 0, restless_ = 0, quiet_ = 0;
 };
 
 }  // namespace forming_sim

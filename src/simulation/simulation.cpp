@@ -33,6 +33,7 @@ bool Simulation::Impl::stage_over() {
   if (rests) return true;
   if (stages.remaining(time) > 0) return false;
   settled = false;
+  unsettled = settle;
   return true;
 }
 
@@ -81,8 +82,14 @@ Outcome Simulation::run(const std::atomic<bool>& cancel) {
       step();
     }
     if (outcome.code == Code::none) {
-      outcome = s.settled ? Outcome{Code::success, "completed"}
-                          : Outcome{Code::limit_reached, "a settle stage reached its limit before the kinetic energy fell below stages[].kinetic_fraction of the elastic energy; a longer limit lets it come to rest"};
+      outcome = {Code::success, "completed"};
+      if (!s.settled) {
+        std::ostringstream text;
+        text << "a settle stage reached its limit before the bodies rested: at its end their kinetic energy, and what the forces out of balance could still set free, were "
+             << s.unsettled.restless() << " J, and should stay below stages[].kinetic_fraction of the elastic energy, " << s.unsettled.quiet()
+             << " J; a longer limit lets them come to rest";
+        outcome = {Code::limit_reached, text.str()};
+      }
     }
   } catch (const Error& error) {
     std::ostringstream text;

@@ -64,6 +64,7 @@ void Simulation::Impl::take_step() {
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += dt * v[i];
   }
   book_loads(external);
+  if (stages.settling()) see_rest();
   time += dt;
   previous_dt = dt;
   ++steps;
@@ -152,17 +153,22 @@ void Simulation::Impl::watch_settling() {
   if (phase == Settle::kInterval - 1) f_before = f, f_before_step = steps;
   if (phase != 0 || f_before_step != steps - 1) return;
   const std::vector<double>& mass = elements.nodal_mass();
-  NodeField out_of_balance = f;
-  boundaries.project_force(out_of_balance);
-  double v_df = 0, v_Mv = 0, f_Mf = 0;
+  double v_df = 0, v_Mv = 0;
   for (std::size_t i = 0; i < f.size(); ++i) {
     v_df += v[i].dot(f[i] - f_before[i]);
     v_Mv += mass[i] * v[i].squaredNorm();
-    f_Mf += out_of_balance[i].squaredNorm() / mass[i];
   }
   settle.estimate(v_df, v_Mv, previous_dt);
-  if (steps % (10 * Settle::kInterval) == 0)
-    rests = settle.at_rest(time, f_Mf, 0.5 * v_Mv, elements.observe(x).stored_energy);
+}
+
+void Simulation::Impl::see_rest() {
+  if (steps % (10 * Settle::kInterval) != 0) return;
+  const double kick = 0.5 * (previous_dt + dt), alpha = damping_rate();
+  const std::vector<double>& mass = elements.nodal_mass();
+  double f_Mf = 0;
+  for (std::size_t i = 0; i < v.size(); ++i)
+    f_Mf += mass[i] * ((v[i] - v_before[i]) / kick + 0.5 * alpha * (v[i] + v_before[i])).squaredNorm();
+  rests = settle.at_rest(time, f_Mf, kinetic(), elements.observe(x).stored_energy, most);
 }
 
 }  // namespace forming_sim

@@ -80,6 +80,34 @@ class Features(unittest.TestCase):
         with open(self.path(name + '/history.csv')) as file:
             return list(csv.DictReader(file))
 
+    # ---- rest
+
+    def lifted(self, *more):
+        """A clamped strip that a rounded tool lifts at its end."""
+        strip = {'name': 'strip', 'blank': {'shape': 'strip', 'length': 0.010, 'thickness': 0.001, 'cells_along': 20, 'cells_through': 2},
+                 'material': dict(ALUMINIUM), 'boundaries': [{'set': 'left', 'kind': 'fixed'}]}
+        lifter = {'name': 'lifter', 'profile': {'start': [9.5e-3, -5e-3], 'pieces': [
+            {'to': [9.5e-3, -0.5e-3]}, {'to': [8.5e-3, -0.5e-3], 'radius': 0.5e-3}, {'to': [8.5e-3, -5e-3]}]},
+            'motion': {'kind': 'trajectory', 'times': [0, 3e-4], 'positions': [[0, 0], [0, 0.05e-3]]}}
+        data = scene(strip, tools=[lifter], duration=3e-4)
+        data['stages'] += list(more) + [{'kind': 'settle', 'limit': 2e-3}]
+        return self.run_scene(data)
+
+    def test_a_body_comes_to_rest_on_a_tool_that_stays(self):
+        summary = self.lifted()
+        energy = summary['energy_J']
+        self.assertGreater(energy['elastic'], 0.03)
+        self.assertLess(energy['kinetic'], 1e-5 * energy['elastic'])
+
+    def test_a_body_that_returns_to_its_shape_comes_to_rest_and_contact_gave_it_nothing(self):
+        summary = self.lifted({'kind': 'withdraw', 'displacement': [0, -0.1e-3], 'duration': 3e-4})
+        energy = summary['energy_J']
+        self.assertLess(energy['elastic'], 1e-9)
+        most = max(float(row['work_J_per_m']) for row in self.history())
+        self.assertGreater(most, 0.03)
+        self.assertGreater(energy['contact'], -1e-6 * most)
+        self.assertLess(energy['contact'], 1e-3 * most)
+
     # ---- loads
 
     def test_gravity(self):

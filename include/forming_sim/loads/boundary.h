@@ -43,8 +43,6 @@ class BoundarySet {
   /// u(t) of nodes()[k]: the prescribed velocity, zero along free directions.
   Vec3 prescribed(int k, double t) const;
 
-  /// f <- P f.
-  void project_force(NodeField& f) const;
   /// v <- P v + u(t_mid). Returns the largest prescribed speed, m/s.
   double apply_velocity(double t_mid, NodeField& v) const;
 

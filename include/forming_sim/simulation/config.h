@@ -42,7 +42,7 @@ struct StageConfig {
     visit(FORMING_SIM_FIELD(duration), Field().unit("s").above(0).required().when("kind", {"form", "withdraw"}).doc("length of the stage in simulated time"));
     visit(FORMING_SIM_FIELD(tools), Field().when("kind", {"withdraw"}).computed("all tools").doc("tools that leave"));
     visit(FORMING_SIM_FIELD(displacement), Field().unit("m").when("kind", {"withdraw"}).doc("how far the tools move from where they stand, smoothly; [0, 0, 0]: they are lifted off at once"));
-    visit(FORMING_SIM_FIELD(kinetic_fraction), Field().above(0).below(1).when("kind", {"settle"}).doc("the body rests when its kinetic energy, and the energy its forces out of balance could still set free, stay below this fraction of its elastic energy"));
+    visit(FORMING_SIM_FIELD(kinetic_fraction), Field().above(0).below(1).when("kind", {"settle"}).doc("the bodies rest when their kinetic energy, and the energy that forces out of balance could still set free, stay below this fraction of their elastic energy, or of a millionth of all the energy put in where that is more"));
     visit(FORMING_SIM_FIELD(limit), Field().unit("s").above(0).required().when("kind", {"settle"}).doc("longest time of the stage; when it is reached the result says so"));
   }
 };
