@@ -82,6 +82,7 @@ std::vector<Row> from_curve(const Request& request) {
     if (request.arguments[i].compare(0, 2, "E=") != 0 && request.arguments[i].compare(0, 3, "nu=") != 0)
       throw std::runtime_error("argument " + request.arguments[i] + " is not known; right is CURVE.csv E=70.5e9 nu=0.34");
   const double E = argument(request.arguments, "E"), nu = argument(request.arguments, "nu");
+  if (const auto fault = find_curve_fault(E, nu, {{1 / E, 1}})) throw std::runtime_error("given " + fault->sentence);  // of the moduli alone
   const Table table = read_table(path);
   const std::vector<CurvePoint> curve = read_curve(table);
   if (const auto fault = find_curve_fault(E, nu, curve)) throw std::runtime_error(table.place(fault->point) + ": given " + fault->sentence);

@@ -65,8 +65,8 @@ class Driver {
     check_rows();
   }
 
-  /// To a row of the table.
-  void to(std::size_t row) {
+  /// To a row of the table; see(prescribed components, stress) of every step, of long ways some 200.
+  template <class See> void to(std::size_t row, See&& see) {
     Mat3 to = given_;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
@@ -76,7 +76,12 @@ class Driver {
       throw std::runtime_error(table_.place(row) + ": the strain since the row before is " + csv_number(way) + "; right are rows closer than " + csv_number(kMostSteps * kLargestStep));
     const int n = std::max(1, static_cast<int>(std::ceil(way / kLargestStep - 1e-9)));
     const Mat3 from = given_;
-    for (int k = 1; k <= n; ++k) step(row, from + (to - from) * (double(k) / n));
+    const int every = 1 + n / 200;
+    for (int k = 1; k <= n; ++k) {
+      const Mat3 given = from + (to - from) * (double(k) / n);
+      step(row, given);
+      if (k == n || k % every == 0) see(given, answer_.stress);
+    }
     given_ = to;
     steps_ += n;
   }
@@ -178,8 +183,7 @@ std::vector<Row> drive_history(const Request& request, const std::string& law, c
 
   std::vector<std::string> names;
   if (c.time >= 0) names.push_back("time");
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) names.push_back("F" + std::to_string(i + 1) + std::to_string(j + 1));
+  for (int m = 0; m < 9; ++m) names.push_back("F" + std::to_string(m / 3 + 1) + std::to_string(m % 3 + 1));
   for (const auto& ij : components) names.push_back("stress_" + number(ij) + "_Pa");
   for (const char* name : {"mises_Pa", "plastic_strain", "J", "stored_energy_J_m3", "dissipation_J_m3", "work_J_m3"}) names.push_back(name);
   std::optional<CsvFile> file;
@@ -188,30 +192,32 @@ std::vector<Row> drive_history(const Request& request, const std::string& law, c
     file.emplace(in_directory(request.directory, "material.csv"), names);
   }
 
-  std::vector<Mat3> stresses;
+  const auto [i, j] = leading(table, c);
+  struct Plotted {
+    double over;
+    Mat3 stress;
+  };
+  std::vector<Plotted> way;
   Mat3 largest = Mat3::Zero();
   double most_work = 0, most_mises = 0;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    driver.to(r);
+    driver.to(r, [&, i = i, j = j](const Mat3& given, const Mat3& stress) { way.push_back({given(i, j), stress}); });
     const Mat3 &F = driver.point().deformation(), &s = driver.answer().stress;
     const Mat3 S = s - s.trace() / 3 * Mat3::Identity();
     const double mises = std::sqrt(1.5) * S.norm();
-    stresses.push_back(s);
     largest = largest.cwiseMax(s.cwiseAbs());
     most_mises = std::max(most_mises, mises);
     most_work = std::max({most_work, std::fabs(driver.work()), driver.answer().energy + driver.point().dissipated()});
     if (!file) continue;
     std::vector<std::string> values;
     if (c.time >= 0) values.push_back(csv_number(table.rows[r][c.time]));
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) values.push_back(csv_number(F(i, j)));
+    for (int m = 0; m < 9; ++m) values.push_back(csv_number(F(m / 3, m % 3)));
     for (const auto& ij : components) values.push_back(csv_number(s(ij[0], ij[1])));
     for (double value : {mises, driver.point().plastic_strain(), F.determinant(), driver.answer().energy, driver.point().dissipated(), driver.work()})
       values.push_back(csv_number(value));
     file->append(values);
   }
 
-  const auto [i, j] = leading(table, c);
   const bool stretch = i == j && !c.strains;
   const std::string over = c.strains ? "true strain " + name_of(c, i, j) : stretch ? name_of(c, i, j) + " - 1" : name_of(c, i, j);
   Figure figure("material_stress", law + " through " + history, over, "Cauchy stress, MPa");
@@ -223,10 +229,9 @@ std::vector<Row> drive_history(const Request& request, const std::string& law, c
   rows.back().note = "straight lines between rows, from rest at F = 1, in steps of at most 1e-3 strain; diagonal components without a column are free of stress";
   for (const auto& ij : components) {
     const double most = largest(ij[0], ij[1]);
-    if (most <= 1e-3 * largest.maxCoeff() && ij != components[0]) continue;
-    for (std::size_t r = 0; r < stresses.size(); ++r)
-      figure.add("stress " + number(ij), table.rows[r][c.of[i][j]] - stretch, stresses[r](ij[0], ij[1]) / 1e6);
-    rows.push_back(just(name, "stress " + number(ij) + " at the end, Pa", stresses.back()(ij[0], ij[1]), time));
+    if (most < 1e-3 * largest.maxCoeff()) continue;  // only those that matter
+    for (const Plotted& point : way) figure.add("stress " + number(ij), point.over - stretch, point.stress(ij[0], ij[1]) / 1e6);
+    rows.push_back(just(name, "stress " + number(ij) + " at the end, Pa", driver.answer().stress(ij[0], ij[1]), time));
   }
   figure.write(request.directory);
   rows.push_back(just(name, "largest von Mises stress, Pa", most_mises, time));
