@@ -65,6 +65,8 @@ struct Request {
 std::vector<Row> costs(const Request&);    ///< ns per element and step of each stage
 std::vector<Row> bending(const Request&);  ///< moment, thickness and springback of a bent sheet
 std::vector<Row> impact(const Request&);   ///< a bar against a plane and against a bar
+std::vector<Row> material(const Request&);   ///< a law at a point: a measured loop, or any history
+std::vector<Row> calibrate(const Request&);  ///< layers from a measured curve
 std::vector<Row> paper(const Request&);    ///< the paper, figure by figure
 
 }  // namespace forming_sim::bench

@@ -7,4 +7,9 @@
 
 namespace forming_sim::bench {
 
+std::vector<Row> figure_3(const Request&);   ///< a cylinder, perfect plasticity, one cycle
+std::vector<Row> figure_4(const Request&);   ///< quasi-hardening (3.63)
+std::vector<Row> figure_10(const Request&);  ///< two levels
+std::vector<Row> figure_11(const Request&);  ///< five levels
+
 }  // namespace forming_sim::bench

@@ -16,7 +16,8 @@ struct Command {
   std::size_t most_arguments;
 };
 
-const std::map<std::string, Command> kCommands{{"bending", {bending, 0}}, {"costs", {costs, 0}}, {"impact", {impact, 0}}, {"paper", {paper, 1}}};
+const std::map<std::string, Command> kCommands{{"bending", {bending, 0}},     {"calibrate", {calibrate, 3}}, {"costs", {costs, 0}},
+                                               {"impact", {impact, 0}},       {"material", {material, 2}},   {"paper", {paper, 1}}};
 
 int usage(std::FILE* to) {
   std::fprintf(to,
@@ -24,6 +25,12 @@ int usage(std::FILE* to) {
                "  costs    ns per element and step of each stage, contact per pair, gain of a second thread\n"
                "  bending  moment and springback of a bent sheet, by element family and cells\n"
                "  impact   a bar against a plane and against another bar\n"
+               "  material  layered laws against a measured tension-compression-tension curve\n"
+               "  material LAW.yaml HISTORY.csv  a law (the fields of a scene's material) at a point, driven by the\n"
+               "           columns F11, F12, ... F33 or e11, e22, e33 (true strain), and time; a diagonal component\n"
+               "           without a column is free of stress; writes DIR/material.csv\n"
+               "  calibrate [CURVE.csv E=70.5e9 nu=0.34]  layers from a measured curve, columns true_strain and\n"
+               "           true_stress_Pa or true_stress_MPa from the elastic limit on; writes DIR/layers.yaml\n"
                "  paper [FIGURE]  the figures and claims of the paper: 3, 4, 5, ... or all of them\n"
                "Prints a table; with --output also DIR/COMMAND.json, and the figures of a command as CSV and PNG.\n");
   return to == stdout ? 0 : 2;
