@@ -123,10 +123,8 @@ void volume_and_rate(const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell
     find_reciprocal(e);
     Vector<Pack, D> w[D];
     edges_of<Cell>(v, s, w);
-    Pack divergence = dot(w[0], e.up[0]);  // nabla . v = v_m . x^m (3.26)
-    for (int m = 1; m < D; ++m) divergence += dot(w[m], e.up[m]);
     V += e.volume;
-    rate += e.volume * divergence;
+    rate += e.volume * Increment<Pack, D>(e, w).divergence();
   }
 }
 

@@ -23,6 +23,7 @@ template <class T, int D> struct Increment {
         for (int m = 1; m < D; ++m) L[i][j] += w[m][i] * e.up[m][j];
       }
   }
+  /// tr L dt: nabla . v = v_m . x^m (3.26)
   T divergence() const {
     T sum = L[0][0] + L[1][1];
     if constexpr (D == 3) sum += L[2][2];
