@@ -9,16 +9,12 @@
 #include <stdexcept>
 
 namespace forming_sim::bench {
-namespace {
-
-/// The script beside this program: where catkin puts and installs both.
-std::filesystem::path script() {
-  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "plot_curves.py";
-}
-
-void run(const std::vector<std::string>& words) {
+void run_script(const std::string& name, const std::vector<std::string>& words) {
+  // catkin puts and installs programs and scripts into one directory.
+  std::vector<std::string> line{"/usr/bin/python3", (std::filesystem::read_symlink("/proc/self/exe").parent_path() / name).string()};
+  line.insert(line.end(), words.begin(), words.end());
   std::vector<char*> argv;
-  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+  for (std::string& word : line) argv.push_back(word.data());
   argv.push_back(nullptr);
   const pid_t child = fork();
   if (child == 0) {
@@ -27,10 +23,8 @@ void run(const std::vector<std::string>& words) {
   }
   int status = 0;
   if (child < 0 || waitpid(child, &status, 0) < 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw std::runtime_error("no picture: " + words[0] + " " + words[1] + " failed; it needs python3-matplotlib");
+    throw std::runtime_error("no picture: " + line[0] + " " + line[1] + " failed; it needs python3-matplotlib");
 }
-
-}  // namespace
 
 void Figure::add(const std::string& series, double x, double y) {
   if (series_.empty() || series_.back().name != series) {
@@ -59,10 +53,10 @@ void Figure::write(const std::string& directory) const {
       for (std::size_t i = 0; i < s.x.size(); ++i) out << '"' << s.name << "\"," << s.x[i] << ',' << s.y[i] << '\n';
     if (!out.flush()) throw std::runtime_error(csv + " cannot be written");
   }
-  std::vector<std::string> words{"/usr/bin/python3", script().string(), csv, "--title", title_, "--x", x_, "--y", y_,
+  std::vector<std::string> words{csv, "--title", title_, "--x", x_, "--y", y_,
                                  "--output", directory + "/" + name_ + ".png"};
   if (logarithmic_) words.push_back("--logarithmic");
-  run(words);
+  run_script("plot_curves.py", words);
 }
 
 }  // namespace forming_sim::bench

@@ -6,6 +6,9 @@
 
 namespace forming_sim::bench {
 
+/// Runs a script that lies beside this program with these words. Throws std::runtime_error where it fails.
+void run_script(const std::string& name, const std::vector<std::string>& words);
+
 class Figure {
  public:
   /// x, y: what the axes show, with units.

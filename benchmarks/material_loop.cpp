@@ -25,7 +25,7 @@ struct Path {
 };
 
 Path read_path() {
-  const Table table = read_table(data_file("aa6xxx_t4.csv"));
+  const Table table = read_table(share_file("benchmarks/data/aa6xxx_t4.csv"));
   Path path;
   for (const auto& row : table.rows) {
     path.strain.push_back(row[table.at("true_strain")]);

@@ -8,7 +8,7 @@ namespace forming_sim::bench {
 
 std::vector<Row> paper(const Request& request) {
   using Run = std::vector<Row> (*)(const Request&);
-  static const std::vector<std::pair<std::string, Run>> figures{{"3", figure_3}, {"4", figure_4}, {"10", figure_10}, {"11", figure_11}};
+  static const std::vector<std::pair<std::string, Run>> figures{{"3", figure_3}, {"4", figure_4}, {"10", figure_10}, {"11", figure_11}, {"19", figure_19}, {"20", figure_20}};
   std::vector<Row> rows;
   std::string known;
   for (const auto& [name, run] : figures) {

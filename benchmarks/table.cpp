@@ -88,16 +88,12 @@ Table read_table(const std::string& path) {
   return table;
 }
 
-std::string data_file(const std::string& name) {
+std::string share_file(const std::string& name) {
   namespace fs = std::filesystem;
-  // catkin installs programs into PREFIX/lib/forming_sim and data into PREFIX/share/forming_sim.
+  // catkin installs programs into PREFIX/lib/forming_sim and the rest into PREFIX/share/forming_sim.
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
-  std::vector<fs::path> places{program / "../../share/forming_sim/benchmarks/data"};
-#ifdef FORMING_SIM_BENCHMARK_DATA
-  places.emplace_back(FORMING_SIM_BENCHMARK_DATA);
-#endif
   std::string tried;
-  for (const fs::path& place : places) {
+  for (const fs::path& place : {program / "../../share/forming_sim", fs::path(FORMING_SIM_SOURCE_DIR)}) {
     const fs::path path = (place / name).lexically_normal();
     if (fs::exists(path)) return path.string();
     tried += (tried.empty() ? "" : ", ") + path.string();

@@ -24,8 +24,8 @@ struct Table {
 /// name or of the same name, rows that are too short or too long, cells that are no finite number.
 Table read_table(const std::string& path);
 
-/// Path of a file of benchmarks/data: in the installed share folder beside this program, else
+/// Path of a file of the package, "scenes/hem.yaml": in the installed share folder beside this program, else
 /// in the source folder it was built from. Throws std::runtime_error with the places tried.
-std::string data_file(const std::string& name);
+std::string share_file(const std::string& name);
 
 }  // namespace forming_sim::bench

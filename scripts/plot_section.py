@@ -20,10 +20,12 @@ LABELS = {"plastic_strain": ("equivalent plastic strain", 1.0), "mises": ("von M
           "volume_ratio": ("volume ratio V/V0", 1.0)}
 
 
-def pick_frame(result, wanted):
+def pick_frame(result, wanted, time):
     names = sorted(result["frames"])
     if not names:
         sys.exit("the result holds no frames yet")
+    if time is not None:
+        return min(result["frames"].values(), key=lambda frame: abs(frame.attrs["time"] - time))
     if not -len(names) <= wanted < len(names):
         sys.exit(f"--frame: given {wanted}; the result holds the frames 0 to {len(names) - 1}")
     return result["frames"][names[wanted]]
@@ -80,6 +82,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("result", help="result.h5 of a run")
     parser.add_argument("--frame", type=int, default=-1, help="number of the frame, negative: from the end; default: the last")
+    parser.add_argument("--time", type=float, help="instead of --frame: the frame nearest to this time, in seconds")
     parser.add_argument("--field", choices=list(LABELS), default="plastic_strain")
     parser.add_argument("--axis", choices=list("xyz"), default="y", help="3D: the cut is normal to this axis")
     parser.add_argument("--at", type=float, help="3D: where to cut, in metres; default: half way through the blank")
@@ -87,7 +90,7 @@ def main():
     options = parser.parse_args()
 
     with h5py.File(options.result, "r") as result:
-        frame = pick_frame(result, options.frame)
+        frame = pick_frame(result, options.frame, options.time)
         points, elements = frame["positions"][:], result["topology/elements"][:]
         label, scale = LABELS[options.field]
         values = scale * frame[options.field][:].astype(float)

@@ -11,5 +11,7 @@ std::vector<Row> figure_3(const Request&);   ///< a cylinder, perfect plasticity
 std::vector<Row> figure_4(const Request&);   ///< quasi-hardening (3.63)
 std::vector<Row> figure_10(const Request&);  ///< two levels
 std::vector<Row> figure_11(const Request&);  ///< five levels
+std::vector<Row> figure_19(const Request&);  ///< the hem
+std::vector<Row> figure_20(const Request&);  ///< folded rubber
 
 }  // namespace forming_sim::bench
