@@ -8,14 +8,14 @@ namespace forming_sim::bench {
 
 std::vector<Row> paper(const Request& request) {
   using Run = std::vector<Row> (*)(const Request&);
-  static const std::vector<std::pair<std::string, Run>> figures{{"5", figure_5},
+  static const std::vector<std::pair<std::string, Run>> figures{{"section-2.2", diagonals},
+                                                                {"section-3.1", rotation_cost},
+                                                                {"5", figure_5},
                                                                 {"6", figure_6},
                                                                 {"7", figure_7},
                                                                 {"8", figure_8},
+                                                                {"section-3.3", viscosity},
                                                                 {"9", figure_9},
-                                                                {"diagonals", diagonals},
-                                                                {"rotation-cost", rotation_cost},
-                                                                {"viscosity", viscosity},
                                                                 {"long-runs", long_runs}};
   std::vector<Row> rows;
   std::string known;

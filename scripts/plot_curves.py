@@ -49,7 +49,10 @@ def main():
     axes.set_xlabel(options.x)
     axes.set_ylabel(options.y)
     axes.grid(True, which="both", alpha=0.3)
-    axes.legend(fontsize=8)
+    if options.equal:  # shapes fill their axes
+        axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.01, 1))
+    else:
+        axes.legend(fontsize=8)
     figure.savefig(options.output, dpi=130)
 
 

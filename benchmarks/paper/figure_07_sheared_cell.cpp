@@ -2,8 +2,8 @@
 //
 // The mean angle of 27 degrees that the paper prints is a plastic one, so the material
 // is that of its figure 3 (perfect, eps_s = .01). Chosen: the corners are led into simple
-// shear of .52, from rest to rest, and let go; constant forces that reach 27 degrees are
-// past the limit load of the cell. dt 2.5e-5 s and half of it; `new` is the law as printed.
+// shear of .52, from rest to rest, and let go (under constant forces the angle runs away soon after 10
+// degrees, as the loaded shape weakens). dt 2.5e-5 s, its half and quarter; `new` is the law as printed.
 #include "paper/figures.h"
 #include "paper/single_cell.h"
 
@@ -11,6 +11,7 @@ namespace forming_sim::bench {
 namespace {
 
 constexpr double kShear = 0.52, kStep = 2.5e-5, kEnd = 6;
+constexpr int kWindows = 30;
 constexpr const char* kChoices = "chosen: side 1 m, 2800 kg/m3, yield 1 GPa, led to shear .52 by .01 s, dt 2.5e-5 s";
 
 struct ShearedCell : VibratingCell {
@@ -36,14 +37,14 @@ std::vector<Row> figure_7(const Request& request) {
     double right = 0;
     for (double t : {0., kUnloading, 3., kEnd}) {
       step_until(cell, t);
-      outline(figure, name + (t == 0 ? ", start" : ""), cell, right, up);
+      outline(figure, name, cell, right, up);
       right += 2;
     }
     const double change = ((cell.at(1) - cell.at(0)) - (cell.at(2) - cell.at(3))).norm();
     rows.push_back(at_most("figure 7", name + ": unlike a parallelogram, m", change, 1e-6, clock.seconds()));
     rows.push_back(law == "paper" ? near("figure 7", "new: S/S0 at 6 s", cell.body.volume_ratio(), 1, 0.002, clock.seconds())
                                   : just("figure 7", "classical: S/S0 at 6 s", cell.body.volume_ratio(), clock.seconds()));
-    rows.back().note = law == "paper" ? "vibrates within .002" : "the area drifts as in figure 6, faster: the vibration is as large as the yield strain allows";
+    rows.back().note = law == "paper" ? "vibrates within .002" : "the area drifts as in figure 6, faster: the vibration is as large as yielding leaves it";
     up -= 1.8;
   }
   rows.front().note = kChoices;
@@ -78,36 +79,31 @@ std::vector<Row> figure_8(const Request& request) {
     rows.push_back(at_most("figure 8", "new: pressure in the shear / sigma_xy", pressure / amplitude, 1e-6, clock.seconds()));
   }
   Figure figure("figure_8b", "Sheared and released: angle of the side", "time, s", "angle from y, degrees: mean, and range of the vibration");
-  double total[2];
-  for (int half = 0; half < 2; ++half) {
+  const double parts[] = {1, 2, 4};
+  double early[3];
+  for (int k = 0; k < 3; ++k) {
     const Clock clock;
-    const std::string name = half == 0 ? "classical" : "classical, dt/2";
-    ShearedCell cell("classical", kStep / (half + 1));
+    const std::string name = k == 0 ? "classical" : "classical, dt/" + std::to_string(static_cast<int>(parts[k]));
+    ShearedCell cell("classical", kStep / parts[k]);
     step_until(cell, kUnloading);
-    const auto found = windows(cell, kEnd, 30, angle);
-    for (const Window& w : found) figure.add(name + ", mean", w.time, w.mean);
-    if (half == 0) {
-      for (const Window& w : found) figure.add(name + ", range", w.time, w.least);
-      for (auto w = found.rbegin(); w != found.rend(); ++w) figure.add(name + ", range", w->time, w->greatest);
-    }
-    total[half] = found.back().mean - found.front().mean;
-    rows.push_back(just("figure 8", name + ": mean angle drifts, deg/s", slope(found), clock.seconds()));
-    rows.push_back(just("figure 8", name + ": the same a step, deg", slope(found) * cell.dt(), clock.seconds()));
-    rows.push_back(near("figure 8", name + ": last half / first half", slope(found, 15, 30) / slope(found, 0, 15), 1, 0.15, clock.seconds()));
-    if (std::abs(rows.back().error) > 0.15) rows.back().note = "slower as the cell swells: its vibrations slow down with its size";
+    const auto found = windows(cell, kEnd, kWindows, angle);
+    draw(figure, name, found, k == 0);
+    early[k] = slope(found, 0, kWindows / 6);
+    rows.push_back(just("figure 8", name + ": angle, first second, deg/s", early[k], clock.seconds()));
+    rows.push_back(just("figure 8", name + ": the same a step, deg", early[k] * cell.dt(), clock.seconds()));
+    rows.push_back(just("figure 8", name + ": last second / first", slope(found, kWindows - kWindows / 6, kWindows) / early[k], clock.seconds()));
+    if (k == 0) rows.back().note = "grows for ever, slower as the cell swells (figure 7): its vibrations slow down with its size";
   }
-  rows.push_back(near("figure 8", "classical: drift until 6 s, dt over dt/2", total[0] / total[1], 2, 0.15, 0));
-  if (!rows.back().holds) rows.back().note = "in proportion to dt while S/S0 is near 1; the larger step has swollen the cell more by 6 s";
+  rows.push_back(near("figure 8", "classical: first second, dt over dt/2", early[0] / early[1], 2, 0.1, 0));
+  rows.push_back(near("figure 8", "classical: first second, dt/2 over dt/4", early[1] / early[2], 2, 0.1, 0));
   {
     const Clock clock;
     ShearedCell cell("paper", kStep);
     step_until(cell, kUnloading);
-    const auto found = windows(cell, kEnd, 30, angle);
+    const auto found = windows(cell, kEnd, kWindows, angle);
+    draw(figure, "new", found, true);
     double moved = 0;
-    for (const Window& w : found) {
-      figure.add("new, mean", w.time, w.mean);
-      moved = std::max(moved, std::abs(w.mean - found.front().mean));
-    }
+    for (const Window& w : found) moved = std::max(moved, std::abs(w.mean - found.front().mean));
     rows.push_back(near("figure 8", "new: mean angle, degrees", found.back().mean, 27, 0.02, clock.seconds()));
     rows.push_back(at_most("figure 8", "new: mean angle, largest change, degrees", moved, 0.002, clock.seconds()));
   }

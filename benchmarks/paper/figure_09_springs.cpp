@@ -97,12 +97,12 @@ std::vector<Row> figure_9(const Request& request) {
     if (++steps > n) return;
     double expected = 0;
     for (double yield : yields) expected += E / 3 * std::min(strain, yield);
-    envelope = std::max(envelope, std::abs(springs.force(1 + strain) / expected - 1));
+    envelope = std::max(envelope, std::abs(springs.force(1 + strain) - expected) / (E / 3 * 0.055));
     first.push_back(springs.force(1 + strain));
     if (steps % 70 == 0) figure.add("piecewise linear (exact)", strain, 1e-6 * expected);
     if (steps == n) loaded = springs;
   });
-  add(at_most("figure 9", "three springs: off the piecewise lines", envelope, 1e-12, 0));
+  add(at_most("figure 9", "three springs: off the lines / plateau", envelope, 1e-12, 0));
   std::size_t kink = 0;
   const double step = most / n;
   for (std::size_t i = 1; i + 1 < first.size(); ++i)

@@ -1,7 +1,7 @@
 // Section 3.3: viscosity damps the vibration; does the classical method still drift?
 //
-// The cell of figure 6 (150 MPa until .01 s) three times: vibrating freely, with bulk
-// viscosity and damping of the nodes, and with both while a load of 20 MPa along x goes
+// The cell of figure 6 (300 MPa by .01 s) three times: vibrating freely, with bulk
+// viscosity and damping of the nodes, and with both while a load of 40 MPa along x goes
 // to and fro for ever, as the load of a running process does.
 #include "paper/figures.h"
 #include "paper/single_cell.h"
@@ -9,7 +9,7 @@
 namespace forming_sim::bench {
 namespace {
 
-constexpr double kStress = 150e6, kDriving = 20e6, kStep = 2.5e-5, kEnd = 5;
+constexpr double kStress = 300e6, kDriving = 40e6, kStep = 2.5e-5, kEnd = 5;
 constexpr double kBulk = 0.1, kDamping = 5;  // linear bulk viscosity; 1/s
 constexpr int kWindows = 20;
 
@@ -36,8 +36,8 @@ Found run(const std::string& law, bool viscous, bool driven) {
 
 std::vector<Row> viscosity(const Request& request) {
   std::vector<Row> rows;
-  Figure figure("viscosity", "Viscosity and the drift of the area", "time, s", "mean S/S0");
-  Figure range("viscosity_range", "Viscosity and the vibration (classical method)", "time, s", "range of S/S0 in .25 s");
+  Figure figure("section_3.3_area", "Viscosity and the drift of the area", "time, s", "mean S/S0");
+  Figure range("section_3.3_vibration", "Viscosity and the vibration (classical method)", "time, s", "range of S/S0 in .25 s");
   const auto add = [&](const std::string& law, const std::string& name, bool viscous, bool driven) {
     const Found found = run(law, viscous, driven);
     const std::string curve = (law == "paper" ? "new, " : "classical, ") + name;
@@ -55,17 +55,15 @@ std::vector<Row> viscosity(const Request& request) {
   const auto width = [](const Window& w) { return w.greatest - w.least; };
 
   rows.push_back(just("section 3.3", "classical, no viscosity: drift, 1/s", slope(free.area), free.time));
-  rows.back().note = "chosen: 150 MPa until .01 s, dt 2.5e-5 s; linear bulk viscosity .1 and damping 5/s; driven: +-20 MPa along x";
+  rows.back().note = "chosen: as figure 6, dt 2.5e-5 s; linear bulk viscosity .1 and damping 5/s; driven: +-40 MPa along x";
   rows.push_back(at_most("section 3.3", "viscous: vibration at 5 s / at the start", width(last(damped)) / width(damped.area.front()), 1e-3, damped.time));
   rows.push_back(just("section 3.3", "classical, viscous: mean S/S0 - 1 at 5 s", last(damped).mean - 1, damped.time));
   rows.back().note = "what has drifted until the vibration dies stays for ever; nothing vibrates any more, so nothing drifts any more";
   rows.push_back(at_most("section 3.3", "new, viscous: |mean S/S0 - 1| at 5 s", std::abs(last(new_damped).mean - 1), 1e-9, new_damped.time));
   const std::size_t half = kWindows / 2;
   rows.push_back(just("section 3.3", "classical, viscous, driven: drift, 1/s", slope(driven.area, half, kWindows), driven.time));
+  rows.back().note = "as long as something vibrates, viscous or not, the classical area drifts: the claim, which says so of any vibration";
   rows.push_back(at_most("section 3.3", "new, viscous, driven: |drift|, 1/s", std::abs(slope(new_driven.area, half, kWindows)), 1e-7, new_driven.time));
-  Row claim = just("section 3.3", "classical drift, viscous / new drift", slope(driven.area, half, kWindows) / std::abs(slope(new_driven.area, half, kWindows)), 0);
-  rows.push_back(claim);
-  rows.back().note = "as long as something vibrates, viscosity or not, the classical area drifts";
   figure.write(request.directory);
   range.write(request.directory);
   return rows;

@@ -10,6 +10,7 @@
 
 #include "figure.h"
 #include "paper/stepped_body.h"
+#include "rows.h"
 
 namespace forming_sim::bench {
 
@@ -45,10 +46,9 @@ class VibratingCell {
   VibratingCell(const MaterialConfig& material, double dt, const ElementOptions& options = {})
       : body(square(1), material, "cell", options), dt_(dt) {}
 
-  /// stress: on the sides x = -1/2 and 1/2, Pa, from t = 0.
-  void stretch(double stress) {
-    for (std::size_t k = 0; k < 4; ++k) body.load[corner(k)][0] = body.X[corner(k)][0] > 0 ? stress / 2 : -stress / 2;
-  }
+  /// stress: on the sides x = -1/2 and 1/2, Pa; it grows smoothly until .01 s and is then
+  /// taken away, so that the vibration does not depend on where a step finds the load.
+  void stretch(double stress) { stress_ = stress; }
   /// The corners are led into simple shear, by an angle whose tangent is gamma at .01 s,
   /// from rest to rest: when they are let go nothing turns.
   void shear(double gamma) { gamma_ = gamma; }
@@ -66,8 +66,8 @@ class VibratingCell {
   void accelerate() {
     const double tau = static_cast<double>(steps_ + 1) * dt_ / kUnloading;
     const bool loaded = tau < 1 + 1e-9;
-    if (!loaded) body.load.assign(body.x.size(), Node::Zero());
-    if (driving_ != 0) stretch(driving_ * std::sin(pulse_ * time()));
+    const double half = std::sin(0.5 * M_PI * tau);
+    pull(loaded ? stress_ * half * half : driving_ * std::sin(pulse_ * time()));
     body.accelerate(dt_);
     if (loaded && gamma_ != 0)
       for (std::size_t k = 0; k < 4; ++k)
@@ -88,7 +88,12 @@ class VibratingCell {
   }
 
  private:
-  double dt_, gamma_ = 0, driving_ = 0, pulse_ = 0;
+  /// The load of a stress on the sides x = -1/2 and 1/2, Pa.
+  void pull(double stress) {
+    for (std::size_t k = 0; k < 4; ++k) body.load[corner(k)][0] = body.X[corner(k)][0] > 0 ? stress / 2 : -stress / 2;
+  }
+
+  double dt_, stress_ = 0, gamma_ = 0, driving_ = 0, pulse_ = 0;
   long steps_ = 0;
 };
 
@@ -100,12 +105,22 @@ inline void step_until(VibratingCell& cell, double time) {
 /// The outline of the cell as a closed curve, moved to the right and up.
 inline void outline(Figure& figure, const std::string& name, const VibratingCell& cell, double right, double up) {
   for (std::size_t k : {0, 1, 2, 3, 0}) figure.add(name, cell.at(k).x() + right, cell.at(k).y() + up);
+  figure.add(name, kNothing, kNothing);  // lifts the pen
 }
 
 /// Mean, least and greatest value in a stretch of time.
 struct Window {
   double time, mean, least, greatest;
 };
+
+/// Means, and least and greatest values, as curves.
+inline void draw(Figure& figure, const std::string& name, const std::vector<Window>& windows, bool range) {
+  for (const Window& w : windows) figure.add(name + ", mean", w.time, w.mean);
+  if (!range) return;
+  for (const Window& w : windows) figure.add(name + ", range", w.time, w.least);
+  figure.add(name + ", range", kNothing, kNothing);
+  for (const Window& w : windows) figure.add(name + ", range", w.time, w.greatest);
+}
 
 /// Steps the cell to `until` and looks at measure(cell) after each step, in windows of
 /// equal length. The mean is weighted by sin^2, which leaves nothing of a vibration
