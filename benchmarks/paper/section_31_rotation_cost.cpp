@@ -87,7 +87,7 @@ std::vector<Row> rotation_cost(const Request&) {
     }
   rows.front().note =
       "least of 60 turns; ratios: median over turns; ~4000 elements, 1 thread. The classical law is a function of its own, called from a kernel that "
-      "tells laws apart at run time (a few percent), and gathers velocities for (2.11) too; the new one is compiled into its kernel";
+      "tells laws apart at run time (a few percent), and gathers velocities and edges once more for (2.11); the new one is compiled into its kernel. Whole steps are compared: what the rotation alone takes is not timed";
   return rows;
 }
 

@@ -62,7 +62,7 @@ std::vector<Row> viscosity(const Request& request) {
   rows.push_back(at_most("section 3.3", "new, viscous: |mean S/S0 - 1| at 5 s", std::abs(last(new_damped).mean - 1), 1e-9, new_damped.time));
   const std::size_t half = kWindows / 2;
   rows.push_back(just("section 3.3", "classical, viscous, driven: drift, 1/s", slope(driven.area, half, kWindows), driven.time));
-  rows.back().note = "as long as something vibrates, viscous or not, the classical area drifts: the claim, which says so of any vibration";
+  rows.back().note = "the claim holds while a load keeps the cell vibrating; without one the drift ends with the vibration (row above)";
   rows.push_back(at_most("section 3.3", "new, viscous, driven: |drift|, 1/s", std::abs(slope(new_driven.area, half, kWindows)), 1e-7, new_driven.time));
   figure.write(request.directory);
   range.write(request.directory);
