@@ -56,6 +56,7 @@ void Figure::write(const std::string& directory) const {
   std::vector<std::string> words{csv, "--title", title_, "--x", x_, "--y", y_,
                                  "--output", directory + "/" + name_ + ".png"};
   if (logarithmic_) words.push_back("--logarithmic");
+  if (equal_) words.push_back("--equal");
   run_script("plot_curves.py", words);
 }
 

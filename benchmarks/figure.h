@@ -19,6 +19,8 @@ class Figure {
   void add(const std::string& series, double x, double y);
   /// Both axes in powers of ten.
   void logarithmic() { logarithmic_ = true; }
+  /// Both axes in the same scale: shapes.
+  void equal_axes() { equal_ = true; }
 
   /// Writes both files; nothing where the directory is "". Throws std::runtime_error
   /// where a file cannot be written or the picture cannot be drawn.
@@ -31,7 +33,7 @@ class Figure {
   };
   std::string name_, title_, x_, y_;
   std::vector<Series> series_;
-  bool logarithmic_ = false;
+  bool logarithmic_ = false, equal_ = false;
 };
 
 }  // namespace forming_sim::bench

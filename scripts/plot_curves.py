@@ -30,6 +30,7 @@ def main():
     parser.add_argument("--x", default="x", help="label of the x axis")
     parser.add_argument("--y", default="y", help="label of the y axis")
     parser.add_argument("--logarithmic", action="store_true", help="both axes in powers of ten")
+    parser.add_argument("--equal", action="store_true", help="both axes in the same scale")
     parser.add_argument("--output", required=True, help="PNG to write")
     options = parser.parse_args()
 
@@ -42,11 +43,16 @@ def main():
     if options.logarithmic:
         axes.set_xscale("log")
         axes.set_yscale("log")
+    if options.equal:
+        axes.set_aspect("equal")
     axes.set_title(options.title)
     axes.set_xlabel(options.x)
     axes.set_ylabel(options.y)
     axes.grid(True, which="both", alpha=0.3)
-    axes.legend(fontsize=8)
+    if options.equal:  # shapes fill their axes
+        axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.01, 1))
+    else:
+        axes.legend(fontsize=8)
     figure.savefig(options.output, dpi=130)
 
 

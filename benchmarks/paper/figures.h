@@ -13,5 +13,14 @@ std::vector<Row> figure_10(const Request&);  ///< two levels
 std::vector<Row> figure_11(const Request&);  ///< five levels
 std::vector<Row> figure_19(const Request&);  ///< the hem
 std::vector<Row> figure_20(const Request&);  ///< folded rubber
+std::vector<Row> figure_5(const Request&);   ///< shapes of the stretched cell
+std::vector<Row> figure_6(const Request&);   ///< its pressure and area
+std::vector<Row> figure_7(const Request&);   ///< shapes of the sheared cell
+std::vector<Row> figure_8(const Request&);   ///< its shear stress and angle
+std::vector<Row> figure_9(const Request&);   ///< the elastic-plastic springs
+std::vector<Row> diagonals(const Request&);  ///< section 2.2
+std::vector<Row> rotation_cost(const Request&);  ///< section 3.1
+std::vector<Row> viscosity(const Request&);  ///< section 3.3
+std::vector<Row> long_runs(const Request&);
 
 }  // namespace forming_sim::bench
