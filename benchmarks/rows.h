@@ -65,6 +65,7 @@ struct Request {
 std::vector<Row> costs(const Request&);    ///< ns per element and step of each stage
 std::vector<Row> bending(const Request&);  ///< moment, thickness and springback of a bent sheet
 std::vector<Row> impact(const Request&);   ///< a bar against a plane and against a bar
+std::vector<Row> contact(const Request&);  ///< blocks that meet, at all speeds, layers and meshes: what crosses
 std::vector<Row> paper(const Request&);    ///< the paper, figure by figure
 
 }  // namespace forming_sim::bench

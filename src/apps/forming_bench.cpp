@@ -16,13 +16,14 @@ struct Command {
   std::size_t most_arguments;
 };
 
-const std::map<std::string, Command> kCommands{{"bending", {bending, 0}}, {"costs", {costs, 0}}, {"impact", {impact, 0}}, {"paper", {paper, 1}}};
+const std::map<std::string, Command> kCommands{{"bending", {bending, 0}}, {"contact", {contact, 0}}, {"costs", {costs, 0}}, {"impact", {impact, 0}}, {"paper", {paper, 1}}};
 
 int usage(std::FILE* to) {
   std::fprintf(to,
                "usage: forming_bench COMMAND [ARGUMENT...] [--output DIR]\n"
                "  costs    ns per element and step of each stage, contact per pair, gain of a second thread\n"
                "  bending  moment and springback of a bent sheet, by element family and cells\n"
+               "  contact  two blocks meet, by speed, layer and mesh: crossings, halvings, momentum, energy, cost\n"
                "  impact   a bar against a plane and against another bar\n"
                "  paper [FIGURE]  the figures and claims of the paper: 3, 4, 5, ... or all of them\n"
                "Prints a table; with --output also DIR/COMMAND.json, and the figures of a command as CSV and PNG.\n");
