@@ -109,7 +109,7 @@ std::vector<Row> figure_16(const Request& request) {
                            same.error.empty() ? std::to_string(same.crossings) + " crossings" : same.error));
     rows.push_back(against("step that it survives / bulk" + with, survives.fraction, 0.9, survives.fraction >= 0.9, clock.seconds(),
                            "nothing crosses and energy within 10 %"));
-    rows.push_back(against("step with energy in 1 % / bulk" + with, sound[k].fraction, 0.9, sound[k].fraction >= 0.9, clock.seconds(),
+    rows.push_back(against("step, energy in 1 % / bulk" + with, sound[k].fraction, 0.9, sound[k].fraction >= 0.9, clock.seconds(),
                            sound[k].fraction > 0 ? "" : "none from .9 to .025: as nodes slide past each other one force between two nodes becomes two of nodes on sides, a jump of the "
                            "potential that no step makes small; energy " + percent(survives.found.energy) + " where it survives"));
     if (k == 0) rows.back().note = "the claim that mild contact costs no time step is false where algorithm 1 runs near its own limit, and true where it runs at this fraction of it or less";
