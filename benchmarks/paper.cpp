@@ -12,6 +12,7 @@ constexpr const char* kOnRequest = "long-runs";
 std::vector<Row> paper(const Request& request) {
   using Run = std::vector<Row> (*)(const Request&);
   static const std::vector<std::pair<std::string, Run>> figures{{"section-2.2", diagonals},
+                                                                 {"section-2.4", section_2_4},
                                                                  {"section-3.1", rotation_cost},
                                                                  {"3", figure_3},
                                                                  {"4", figure_4},
@@ -23,6 +24,11 @@ std::vector<Row> paper(const Request& request) {
                                                                  {"9", figure_9},
                                                                  {"10", figure_10},
                                                                  {"11", figure_11},
+                                                                 {"14", figure_14},
+                                                                 {"15", figure_15},
+                                                                 {"16", figure_16},
+                                                                 {"17", figure_17},
+                                                                 {"18", figure_18},
                                                                  {"19", figure_19},
                                                                  {"20", figure_20},
                                                                  {"long-runs", long_runs}};

@@ -67,6 +67,7 @@ std::vector<Row> bending(const Request&);  ///< moment, thickness and springback
 std::vector<Row> impact(const Request&);   ///< a bar against a plane and against a bar
 std::vector<Row> material(const Request&);   ///< a law at a point: a measured loop, or any history
 std::vector<Row> calibrate(const Request&);  ///< layers from a measured curve
+std::vector<Row> contact(const Request&);  ///< blocks that meet, at all speeds, layers and meshes: what crosses
 std::vector<Row> paper(const Request&);    ///< the paper, figure by figure
 
 }  // namespace forming_sim::bench

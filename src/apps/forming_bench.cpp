@@ -16,14 +16,15 @@ struct Command {
   std::size_t most_arguments;
 };
 
-const std::map<std::string, Command> kCommands{{"bending", {bending, 0}},     {"calibrate", {calibrate, 3}}, {"costs", {costs, 0}},
-                                               {"impact", {impact, 0}},       {"material", {material, 2}},   {"paper", {paper, 1}}};
+const std::map<std::string, Command> kCommands{{"bending", {bending, 0}}, {"calibrate", {calibrate, 3}}, {"contact", {contact, 0}},   {"costs", {costs, 0}},
+                                               {"impact", {impact, 0}},   {"material", {material, 2}},   {"paper", {paper, 1}}};
 
 int usage(std::FILE* to) {
   std::fprintf(to,
                "usage: forming_bench COMMAND [ARGUMENT...] [--output DIR]\n"
                "  costs    ns per element and step of each stage, contact per pair, gain of a second thread\n"
                "  bending  moment and springback of a bent sheet, by element family and cells\n"
+               "  contact  two blocks meet, by speed, layer and mesh: crossings, halvings, momentum, energy, cost\n"
                "  impact   a bar against a plane and against another bar\n"
                "  material  layered laws against a measured tension-compression-tension curve\n"
                "  material LAW.yaml HISTORY.csv  a law (the fields of a scene's material) at a point, driven by the\n"
@@ -31,7 +32,9 @@ int usage(std::FILE* to) {
                "           without a column is free of stress; writes DIR/material.csv\n"
                "  calibrate [CURVE.csv E=70.5e9 nu=0.34]  layers from a measured curve, columns true_strain and\n"
                "           true_stress_Pa or true_stress_MPa from the elastic limit on; writes DIR/layers.yaml\n"
-               "  paper [FIGURE]  the figures and claims of the paper: 3, 4, 5, ... or all of them\n"
+               "  paper [FIGURE]  the figures and claims of the paper: 3 to 11, 14 to 20, section-2.2, section-2.4,\n"
+               "           section-3.1, section-3.3, or all of these (some minutes: 19 and 20 are forming\n"
+               "           runs); and long-runs, a million steps by each method\n"
                "Prints a table; with --output also DIR/COMMAND.json, and the figures of a command as CSV and PNG.\n");
   return to == stdout ? 0 : 2;
 }

@@ -10,7 +10,9 @@ namespace forming_sim {
 namespace {
 
 // Slope up to which facets count as level, when it is asked whether a feature
-// is the nearest of its surface.
+// is the nearest of its surface. Between vertices of one surface a hollow of the
+// layer's own depth counts as level too: a pressed layer is that wavy, and pairs
+// that came and went with the waves would lose their potential each time.
 constexpr double kWedge = 1e-3;
 
 class Phase {
@@ -144,7 +146,7 @@ class Phase {
     const double sense = pair.node[0] == g.node ? 1 : -1;
     for (int i = g.near_first; i < g.near_last; ++i) {
       const Node along = work_.x[list.neighbours[i]] - from;
-      if (-sense * dot3(pair.normal, along) > kWedge * std::sqrt(dot3(along, along))) pair.base = layer_ / 2;
+      if (-sense * dot3(pair.normal, along) > kWedge * std::sqrt(dot3(along, along)) + layer_) pair.base = layer_ / 2;
     }
     offer(pair);
   }
