@@ -66,11 +66,7 @@ Found meet(const Scene& scene, double speed, double layer, int alone = -1) {
     double least = 1e300;
     for (const Vec3& X : body.mesh.nodes) least = std::min(least, side == 0 ? -X.x() : X.x());
     for (Vec3& X : body.mesh.nodes) X.x() += side == 0 ? least - gap / 2 : gap / 2 - least;
-    body.first_node = model.node_count();
-    body.first_element = model.element_count();
-    model.bodies.push_back(std::move(body));
-    plan.bodies.emplace_back();
-    plan.bodies.back().initial_velocity = Vec3(side == 0 ? speed : -speed, 0, 0);
+    add_flying(model, plan, std::move(body), side == 0 ? "left" : "right", Vec3(side == 0 ? speed : -speed, 0, 0));
   }
   Found found;
   Simulation sim(plan, model, 1);

@@ -7,7 +7,7 @@
 namespace forming_sim::bench {
 namespace {
 
-constexpr double kG = 26.5e9, kK = 65.1e9, kDensity = 2800, kSpeed = 5, kLength = 4, kHeight = 2;
+constexpr double kDensity = 2800, kSpeed = 5, kLength = 4, kHeight = 2;
 
 /// The mesh seen in a mirror at x = 0.
 Mesh mirrored(Mesh mesh) {
@@ -20,10 +20,7 @@ Mesh mirrored(Mesh mesh) {
 
 /// Body 0 flies to the left, body 1, if any, to the right.
 Simulation impact(const ImpactCase& c, Model& model) {
-  MaterialConfig m;
-  m.density = kDensity;
-  m.youngs_modulus = 9 * kK * kG / (3 * kK + kG);
-  m.poissons_ratio = (3 * kK - 2 * kG) / (2 * (3 * kK + kG));
+  MaterialConfig m = impact_material();
   m.law = "paper";
   RunPlan plan;
   model.dimension = 2;
@@ -32,19 +29,10 @@ Simulation impact(const ImpactCase& c, Model& model) {
   plan.time_step.safety = c.safety;
   for (int side = 0; side < (c.wall ? 1 : 2); ++side) {
     BodyModel body = body_of(impact_mesh(c, side), m, "element");
-    body.name = side == 0 ? "right" : "left";
-    body.first_node = model.node_count();
-    body.first_element = model.element_count();
-    model.bodies.push_back(std::move(body));
-    plan.bodies.emplace_back();
-    plan.bodies.back().initial_velocity = Vec3(side == 0 ? -kSpeed : kSpeed, 0, 0);
+    add_flying(model, plan, std::move(body), side == 0 ? "right" : "left", Vec3(side == 0 ? -kSpeed : kSpeed, 0, 0));
   }
   if (c.wall) {
-    ToolModel plane;
-    plane.name = "wall";
-    plane.normal = Vec3::UnitX();
-    plane.mesh.dimension = 2;
-    model.tools.push_back(plane);
+    model.tools.push_back(wall_at_zero());
   }
   return Simulation(plan, model, 1);
 }

@@ -32,11 +32,8 @@ struct Meeting {
 };
 
 Meeting meet(const ContactConfig& contact, double safety, bool wall = false, int through = 20, double other = 1) {
-  const double G = 26.5e9, K = 65.1e9, rho = 2800, v = 5, L = 4, height = 2, gap = 0.015;
-  MaterialConfig m;
-  m.density = rho;
-  m.youngs_modulus = 9 * K * G / (3 * K + G);
-  m.poissons_ratio = (3 * K - 2 * G) / (2 * (3 * K + G));
+  const double rho = 2800, v = 5, L = 4, height = 2, gap = 0.015;
+  const MaterialConfig m = impact_material();
   Model model;
   RunPlan plan;
   model.dimension = 2;
@@ -49,19 +46,10 @@ Meeting meet(const ContactConfig& contact, double safety, bool wall = false, int
     blank.pattern = "fine";
     blank.origin = Vec3(side == 0 ? gap / 2 : -L - gap / 2, 0, 0);
     BodyModel body = body_of(generate_blank(blank), m);
-    body.name = side == 0 ? "right" : "left";
-    body.first_node = model.node_count();
-    body.first_element = model.element_count();
-    model.bodies.push_back(std::move(body));
-    plan.bodies.emplace_back();
-    plan.bodies.back().initial_velocity = Vec3(side == 0 ? -v : v, 0, 0);
+    add_flying(model, plan, std::move(body), side == 0 ? "right" : "left", Vec3(side == 0 ? -v : v, 0, 0));
   }
   if (wall) {
-    ToolModel plane;
-    plane.name = "wall";
-    plane.normal = Vec3::UnitX();
-    plane.mesh.dimension = 2;
-    model.tools.push_back(plane);
+    model.tools.push_back(wall_at_zero());
   }
   Simulation sim(plan, model, 1);
   const auto momentum = [&](std::size_t body) {

@@ -14,22 +14,7 @@ Mat3 sample_gradient(double size) {
   return Mat3::Identity() + size * (F - Mat3::Identity());
 }
 
-TEST(VonMises, StressIsTheGradientOfTheEnergy) {
-  MaterialPoint point(solid_of(70e9, 0.34));
-  const Mat3 F = sample_gradient(1);
-  const double J = F.determinant(), h = 1e-6;
-  Mat3 P;  // first Piola-Kirchhoff stress dW/dF
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      Mat3 plus = F, minus = F;
-      plus(i, j) += h;
-      minus(i, j) -= h;
-      P(i, j) = (point.step(plus, false).energy - point.step(minus, false).energy) / (2 * h);
-    }
-  const Mat3 sigma = P * F.transpose() / J;
-  const Mat3 found = point.step(F, false).stress;
-  EXPECT_LT((sigma - found).norm(), 1e-7 * found.norm());
-}
+TEST(VonMises, StressIsTheGradientOfTheEnergy) { EXPECT_LT(distance_from_gradient(solid_of(70e9, 0.34), sample_gradient(1)), 1e-7); }
 
 TEST(VonMises, RotationCarriesNoStressAndTurnsIt) {
   MaterialPoint point(solid_of(70e9, 0.34, perfect(200e6)));

@@ -14,11 +14,8 @@ struct Impact {
 };
 
 inline Impact hit_wall(int cells, double safety) {
-  const double G = 26.5e9, K = 65.1e9, rho = 2800, v = 5, L = 4, height = 0.4;
-  MaterialConfig m;
-  m.density = rho;
-  m.youngs_modulus = 9 * K * G / (3 * K + G);
-  m.poissons_ratio = (3 * K - 2 * G) / (2 * (3 * K + G));
+  const double rho = 2800, v = 5, L = 4, height = 0.4;
+  const MaterialConfig m = impact_material();
   BlankConfig blank = strip_of(L, height, cells, std::max(1, cells / 10));
   blank.origin = Vec3(1e-3, 0, 0);
   OneBody run(body_of(generate_blank(blank), m), 2.2e-3);
@@ -31,11 +28,7 @@ inline Impact hit_wall(int cells, double safety) {
     b.normal = Vec3::UnitY();
     run.plan.bodies[0].boundaries.push_back(b);
   }
-  ToolModel wall;
-  wall.name = "wall";
-  wall.normal = Vec3::UnitX();
-  wall.mesh.dimension = 2;
-  run.model.tools.push_back(wall);
+  run.model.tools.push_back(wall_at_zero());
   auto sim = run.start();
   const double start = 1e-3 / v;
   double early = 0, late = 0, t_early = 0, t_late = 0, first = 0, last = 0, before = 0;
@@ -61,11 +54,8 @@ struct Meeting {
 };
 
 inline Meeting hit_each_other(int cells, int other_cells) {
-  const double G = 26.5e9, K = 65.1e9, rho = 2800, v = 5, L = 4, height = 0.4, gap = 2e-3;
-  MaterialConfig m;
-  m.density = rho;
-  m.youngs_modulus = 9 * K * G / (3 * K + G);
-  m.poissons_ratio = (3 * K - 2 * G) / (2 * (3 * K + G));
+  const double rho = 2800, v = 5, L = 4, height = 0.4, gap = 2e-3;
+  const MaterialConfig m = impact_material();
   Model model;
   RunPlan plan;
   model.dimension = 2;
@@ -75,12 +65,7 @@ inline Meeting hit_each_other(int cells, int other_cells) {
     BlankConfig blank = strip_of(L, height, n, std::max(1, n / 10) + side);
     blank.origin = Vec3(side == 0 ? -L - gap / 2 : gap / 2, 0, 0);
     BodyModel body = body_of(generate_blank(blank), m);
-    body.name = side == 0 ? "left" : "right";
-    body.first_node = model.node_count();
-    body.first_element = model.element_count();
-    model.bodies.push_back(std::move(body));
-    plan.bodies.emplace_back();
-    plan.bodies.back().initial_velocity = Vec3(side == 0 ? v : -v, 0, 0);
+    add_flying(model, plan, std::move(body), side == 0 ? "left" : "right", Vec3(side == 0 ? v : -v, 0, 0));
     for (const char* edge : {"bottom", "top"}) {
       BoundaryConfig b;
       b.set = edge;

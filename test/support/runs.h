@@ -37,6 +37,36 @@ inline BlankConfig strip_of(double length, double thickness, int along, int thro
   return blank;
 }
 
+/// Puts a body that flies with `velocity` behind those of the model.
+inline BodyLoads& add_flying(Model& model, RunPlan& plan, BodyModel body, const std::string& name, const Vec3& velocity) {
+  body.name = name;
+  body.first_node = model.node_count();
+  body.first_element = model.element_count();
+  model.bodies.push_back(std::move(body));
+  plan.bodies.emplace_back();
+  plan.bodies.back().initial_velocity = velocity;
+  return plan.bodies.back();
+}
+
+/// The rigid plane x = 0 with the bodies to its right, in plane strain.
+inline ToolModel wall_at_zero() {
+  ToolModel plane;
+  plane.name = "wall";
+  plane.normal = Vec3::UnitX();
+  plane.mesh.dimension = 2;
+  return plane;
+}
+
+/// What the bodies of the paper's impact are made of: G 26.5, K 65.1 GPa, 2800 kg/m3.
+inline MaterialConfig impact_material() {
+  const double G = 26.5e9, K = 65.1e9;
+  MaterialConfig m;
+  m.density = 2800;
+  m.youngs_modulus = 9 * K * G / (3 * K + G);
+  m.poissons_ratio = (3 * K - 2 * G) / (2 * (3 * K + G));
+  return m;
+}
+
 struct Momenta {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
 };
