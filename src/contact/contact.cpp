@@ -25,14 +25,18 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
     m.tools.point.push_back(tool.point);
     m.tools.normal.push_back(tool.normal);
     m.tools.names.push_back(tool.name);
-    m.friction.push_back(tool.friction);
   }
+  for (const Features::Relation& relation : m.features.relations)
+    if (relation.meet && relation.friction > 0) m.slip.assign(at.size(), 0.0);
   m.both = m.features.bodies_meet() ? 2 : 1;
-  NodeField x = at;
+  NodeField x = at, place;
+  m.tools.place_all(m.features, at_start, false, place);
+  m.ties = find_ties(setup, x, place, m.tools.is_plane, m.tools.planes(at_start), m.features);
   m.body_shifts = part_bodies(m.layer, setup, m.features, x, m.warnings);
   m.sides = find_sides(m.layer, m.features, x, at_start);
   set_back(m.layer, m.sides, setup, m.features, m.tools, m.warnings);
   check_start(m.layer, m.sides, setup, x, at_start, m.features, m.tools, m.warnings);
+  keep_ties(x, at_start, m.ties);
   if (m.method == Impl::Method::geometric) m.know_sides();
   m.tools.frame_box.resize(setup.tools.size());
   for (size_t t = 0; t < setup.tools.size(); ++t)
@@ -65,28 +69,32 @@ ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v,
 }
 
 void Contact::Impl::move(double dt, NodeField& x, NodeField& v) {
-  if (!near.pairs.empty())
+  if (!near.pairs.empty() || !tie_pairs.empty())
     for (int i = 0; i < work.body_entries; ++i) v_star[work.vertex[i]] = work.v[i];
   v.swap(v_star);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] += dt * v[i];
 }
 
-double Contact::Impl::book_impulses(ContactStep& step) const {
+double Contact::Impl::book_impulses(ContactStep& step) {
+  add_slip(step.dt);
   step.tool_impulse.assign(tools.names.size(), Vec3::Zero());
   step.tool_angular_impulse.assign(tools.names.size(), Vec3::Zero());
   step.layer = layer;
+  const auto on_tool = [&](const Link& link, int tool, const Vec3& impulse) {
+    for (int k = 0; k < link.nodes; ++k) {
+      if (link.node[k] < work.body_entries) continue;
+      step.tool_impulse[tool] += link.weight[k] * impulse;
+      step.tool_angular_impulse[tool] += vec3(work.x[link.node[k]]).cross(link.weight[k] * impulse);
+    }
+  };
+  for (const TiePair& tie : tie_pairs) on_tool(tie, tie.tool, vec3(tie.impulse));
   for (const ContactPair& pair : near.pairs) {
     if (pair.impulse == 0) continue;
     ++step.active;
     step.layer = std::max(step.layer, pair.layer);
-    const Vec3 impulse = vec3(pair.impulse * pair.normal + pair.slip);
-    for (int k = 0; k < pair.nodes; ++k) {
-      if (pair.node[k] < work.body_entries) continue;
-      step.tool_impulse[pair.tool] += pair.weight[k] * impulse;
-      step.tool_angular_impulse[pair.tool] += vec3(work.x[pair.node[k]]).cross(pair.weight[k] * impulse);
-    }
+    on_tool(pair, pair.tool, vec3(pair.impulse * pair.normal + pair.slip));
   }
-  const PairWork done = work_of(work, near.pairs);
+  const PairWork done = work_of(work, tie_pairs, near.pairs);
   step.tool_work = done.tool;
   step.held_work = done.held;
   step.friction_work = done.friction;
@@ -116,9 +124,9 @@ const std::vector<Vec3>& Contact::body_shifts() const { return impl_->body_shift
 const std::vector<std::string>& Contact::warnings() const { return impl_->warnings; }
 
 namespace {
-constexpr std::uint64_t kMagic = 0x33746361746e6f43u;  // "Contact3"
+constexpr std::uint64_t kMagic = 0x34746361746e6f43u;  // "Contact4"
 struct SavedHeader {
-  std::uint64_t magic, vertices, facets, records, tools;
+  std::uint64_t magic, vertices, facets, records, tools, slip;
   double potential, previous_dt;
 };
 static_assert(std::is_trivially_copyable<LayerRecord>::value, "saved byte by byte");
@@ -129,20 +137,21 @@ constexpr std::size_t kPose = 12;
 
 std::vector<char> Contact::save() const {
   const Impl& m = *impl_;
-  const SavedHeader header{kMagic, static_cast<std::uint64_t>(m.features.vertex_count), m.features.facets.size(), m.records.size(), m.previous_motion.size(),
+  const SavedHeader header{kMagic, static_cast<std::uint64_t>(m.features.vertex_count), m.features.facets.size(), m.records.size(), m.previous_motion.size(), m.slip.size(),
                            m.potential, m.previous_dt};
-  std::vector<double> poses;
+  std::vector<double> numbers;
   for (const ToolMotion& tool : m.previous_motion) {
-    poses.insert(poses.end(), tool.position0.data(), tool.position0.data() + 3);
-    poses.insert(poses.end(), tool.rotation0.data(), tool.rotation0.data() + 9);
+    numbers.insert(numbers.end(), tool.position0.data(), tool.position0.data() + 3);
+    numbers.insert(numbers.end(), tool.rotation0.data(), tool.rotation0.data() + 9);
   }
-  std::vector<char> data(sizeof header + m.records.size() * sizeof(LayerRecord) + poses.size() * sizeof(double));
+  numbers.insert(numbers.end(), m.slip.begin(), m.slip.end());
+  std::vector<char> data(sizeof header + m.records.size() * sizeof(LayerRecord) + numbers.size() * sizeof(double));
   char* to = data.data();
   std::memcpy(to, &header, sizeof header);
   to += sizeof header;
   if (!m.records.empty()) std::memcpy(to, m.records.data(), m.records.size() * sizeof(LayerRecord));
   to += m.records.size() * sizeof(LayerRecord);
-  if (!poses.empty()) std::memcpy(to, poses.data(), poses.size() * sizeof(double));
+  if (!numbers.empty()) std::memcpy(to, numbers.data(), numbers.size() * sizeof(double));
   return data;
 }
 
@@ -150,19 +159,20 @@ void Contact::restore(const std::vector<char>& data) {
   Impl& m = *impl_;
   SavedHeader header;
   const bool whole = data.size() >= sizeof header && (std::memcpy(&header, data.data(), sizeof header), header.magic == kMagic) &&
-                     data.size() == sizeof header + header.records * sizeof(LayerRecord) + header.tools * kPose * sizeof(double);
+                     data.size() == sizeof header + header.records * sizeof(LayerRecord) + (header.tools * kPose + header.slip) * sizeof(double);
   if (!whole) throw Error(Code::resume_error, "the saved contact is damaged or of another version");
-  if (header.vertices != static_cast<std::uint64_t>(m.features.vertex_count) || header.facets != m.features.facets.size())
+  if (header.vertices != static_cast<std::uint64_t>(m.features.vertex_count) || header.facets != m.features.facets.size() || header.slip != m.slip.size())
     throw Error(Code::resume_error, "the saved contact has other surfaces than this scene: resume with the scene that was saved");
   m.records.resize(header.records);
   if (!m.records.empty()) std::memcpy(m.records.data(), data.data() + sizeof header, m.records.size() * sizeof(LayerRecord));
-  std::vector<double> poses(header.tools * kPose);
-  if (!poses.empty()) std::memcpy(poses.data(), data.data() + data.size() - poses.size() * sizeof(double), poses.size() * sizeof(double));
+  std::vector<double> numbers(header.tools * kPose + header.slip);
+  if (!numbers.empty()) std::memcpy(numbers.data(), data.data() + data.size() - numbers.size() * sizeof(double), numbers.size() * sizeof(double));
   m.previous_motion.assign(header.tools, ToolMotion());
   for (std::size_t t = 0; t < header.tools; ++t) {
-    m.previous_motion[t].position0 = Eigen::Map<const Vec3>(&poses[t * kPose]);
-    m.previous_motion[t].rotation0 = Eigen::Map<const Mat3>(&poses[t * kPose + 3]);
+    m.previous_motion[t].position0 = Eigen::Map<const Vec3>(&numbers[t * kPose]);
+    m.previous_motion[t].rotation0 = Eigen::Map<const Mat3>(&numbers[t * kPose + 3]);
   }
+  std::copy(numbers.end() - header.slip, numbers.end(), m.slip.begin());
   m.potential = header.potential;
   m.previous_dt = header.previous_dt;
   m.listed = false;

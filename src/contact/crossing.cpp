@@ -28,6 +28,7 @@ class Finder {
     Box all = box_of(f_, a, x_, place_);
     if (all.empty()) return;
     Grid grid(boxes, all, std::max(f_.mean_edge, 1e-12));
+    const Features::Relation& relation = f_.relation(a, b);
     for (int e = first; e < last; ++e) {
       const int p = flat ? f_.facets[e][0] : f_.edges[e].node[0], q = flat ? f_.facets[e][1] : f_.edges[e].node[1];
       Box query;
@@ -36,6 +37,7 @@ class Finder {
       grid.query(query, [&](int i) {
         const auto& c = f_.facets[sb.first_facet + i];
         if (a == b && (p == c[0] || p == c[1] || p == c[2] || q == c[0] || q == c[1] || q == c[2])) return;
+        if (f_.tied(relation, std::array<int, 2>{p, q}, c)) return;
         const bool hit = flat ? segments_cross(at(p), at(q), at(c[0]), at(c[1]), true)
                               : pierces(at(p), at(q), at(c[0]), at(c[1]), at(c[2]), true);
         if (hit) found.push_back({std::min(a, b), std::max(a, b), {p, q}, sb.first_facet + i});
@@ -43,13 +45,15 @@ class Finder {
     }
   }
 
-  // One vertex of each part of surface a against the closed parts of surface b.
+  // One vertex of each part of surface a that is not tied against the closed parts of surface b.
   void inside(int a, int b) {
     const Parts pa = find_parts(f_, a), pb = find_parts(f_, b);
     std::vector<int> seen(pa.closed.size(), 0);
     for (size_t i = 0; i < pa.of_facet.size(); ++i) {
-      if (seen[pa.of_facet[i]]++) continue;
       const int v = f_.facets[f_.surfaces[a].first_facet + i][0];
+      const std::array<int, 1> vertex{v};
+      if (seen[pa.of_facet[i]] || f_.tied(f_.relation(a, b), vertex, vertex)) continue;
+      seen[pa.of_facet[i]] = 1;
       for (size_t part = 0; part < pb.closed.size(); ++part)
         if (pb.closed[part] && is_inside(at(v), b, pb, static_cast<int>(part))) found.push_back({std::min(a, b), std::max(a, b), {v, -1}, -1});
     }
@@ -145,15 +149,16 @@ std::vector<Crossing> find_crossings(const Features& f, const NodeField& x, cons
   for (int body = 0; body < f.bodies; ++body) {
     for (size_t t = 0; t < present.size(); ++t) {
       const int surface = f.bodies + static_cast<int>(t);
-      if (!present[t]) continue;
+      if (!present[t] || !f.relation(body, surface).meet) continue;
       if (!is_plane[t]) {
         meet(body, surface);
         continue;
       }
       for (int v : f.surfaces[body].vertices)
-        if (dot3(x[v] - planes[t].point, planes[t].normal) <= 0) finder.found.push_back({body, surface, {v, -1}, -1});
+        if (dot3(x[v] - planes[t].point, planes[t].normal) <= 0 && !f.tied(f.relation(body, surface), std::array<int, 1>{v}, std::array<int, 1>{v})) finder.found.push_back({body, surface, {v, -1}, -1});
     }
-    for (int other = f.meets_itself[body] ? body : body + 1; other < f.bodies; ++other) meet(body, other);
+    for (int other = body; other < f.bodies; ++other)
+      if (f.relation(body, other).meet) meet(body, other);
   }
   return std::move(finder.found);
 }

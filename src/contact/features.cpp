@@ -127,7 +127,34 @@ void measure_bodies(Features& f, const NodeField& x) {
   f.mean_edge = count > 0 ? sum / count : 0;
 }
 
+// Every body meets every tool and other body, and itself where it says so; then what `pairs` says.
+void set_relations(const ContactSetup& setup, Features& f) {
+  const int bodies = f.bodies, surfaces = static_cast<int>(f.surfaces.size());
+  f.relations.assign(surfaces * surfaces, Features::Relation());
+  const auto set = [&](int a, int b, bool meet, double friction) { f.relation(a, b) = f.relation(b, a) = {meet, friction, -1}; };
+  const auto find = [&](const std::string& name) {
+    for (int s = 0; s < surfaces; ++s)
+      if ((s < bodies ? setup.bodies[s] : setup.tools[s - bodies]).name == name) return s;
+    throw Error(Code::invalid_scene, "contact.pairs names " + name + ", which is neither a body nor a tool");
+  };
+  for (int a = 0; a < bodies; ++a) {
+    set(a, a, setup.bodies[a].meets_itself, setup.config.friction);
+    for (int b = a + 1; b < bodies; ++b) set(a, b, true, setup.config.friction);
+    for (int t = bodies; t < surfaces; ++t) set(a, t, true, setup.tools[t - bodies].friction);
+  }
+  for (const PairConfig& pair : setup.config.pairs)
+    set(find(pair.first), find(pair.second), pair.kind != "none",
+        pair.kind == "sticking" ? std::numeric_limits<double>::max() : pair.kind == "frictionless" ? 0 : pair.friction);
+}
+
 }  // namespace
+
+bool Features::bodies_meet() const {
+  for (int a = 0; a < bodies; ++a)
+    for (int b = a; b < bodies; ++b)
+      if (relation(a, b).meet) return true;
+  return false;
+}
 
 Features build_features(const ContactSetup& setup, const NodeField& x) {
   Features f;
@@ -158,7 +185,6 @@ Features build_features(const ContactSetup& setup, const NodeField& x) {
   };
   for (const ContactSurface& body : setup.bodies) {
     add_surface(body.facets, 0, nullptr);
-    f.meets_itself.push_back(body.meets_itself);
   }
   for (size_t t = 0; t < setup.tools.size(); ++t) {
     if (setup.tools[t].plane) {
@@ -169,6 +195,7 @@ Features build_features(const ContactSetup& setup, const NodeField& x) {
     add_surface(setup.tools[t].facets, f.vertex_count, &number);
     f.vertex_count = f.body_nodes + static_cast<int>(f.place.size());
   }
+  set_relations(setup, f);
   f.facet_edges.resize(f.facets.size());
   f.facets_at_vertex.assign(f.vertex_count, 0);
   f.vertex_surface.assign(f.vertex_count, -1);

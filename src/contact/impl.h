@@ -10,6 +10,7 @@
 #include "forming_sim/contact/layers.h"
 #include "forming_sim/contact/list.h"
 #include "forming_sim/contact/narrow.h"
+#include "forming_sim/contact/ties.h"
 #include "forming_sim/contact/tools.h"
 
 namespace forming_sim {
@@ -21,7 +22,7 @@ struct Contact::Impl {
   Method method = Method::implicit;
   Features features;
   ToolSet tools;
-  std::vector<double> friction;
+  std::vector<Tie> ties;
   std::vector<std::string> body_names;
   std::vector<Vec3> body_shifts;
   std::vector<int> sides;   ///< of every facet the bodies' side: +1 that of the normal, -1 the other, 0 unknown (see find_sides)
@@ -36,11 +37,13 @@ struct Contact::Impl {
   // ---- what the next step depends on
   std::vector<LayerRecord> records;
   double potential = 0;
+  std::vector<double> slip; ///< of the bodies' nodes, m; empty where nothing rubs
   double previous_dt = 0;   ///< of the step before, s; 0 at the start
   std::vector<ToolMotion> previous_motion;  ///< of the tools: position0, rotation0 at the start of the step before
   // ---- the list and how much of its margin is used
   NearList list;
   Workspace work;
+  std::vector<TiePair> tie_pairs;
   bool listed = false;
   long builds = 0;
   double travel = 0;        ///< bound on relative motion since the list was built (never falls)
@@ -53,7 +56,7 @@ struct Contact::Impl {
   Narrow near;
   std::vector<double> moved;
   std::vector<LayerRecord> next_records;
-  std::vector<double> sum;  ///< per entry of the workspace
+  std::vector<double> sum, weighted, total;  ///< per entry of the workspace
 
   template <class Each> void each_body_vertex(Each&& each) const {
     for (int b = 0; b < features.bodies; ++b)
@@ -77,9 +80,15 @@ struct Contact::Impl {
   // contact.cpp
   /// Velocities back from the workspace, and x + dt v.
   void move(double dt, NodeField& x, NodeField& v);
-  /// What the pairs' impulses did to the tools, and how many act. Returns the
+  /// What the pairs' impulses did to the tools, how many act, and what slid
+  /// (step.dt: the step taken). Returns the
   /// work of the impulses along the normals on the relative motion, J.
-  double book_impulses(ContactStep& step) const;
+  double book_impulses(ContactStep& step);
+
+  // surface_fields.cpp
+  /// Adds to the slip of every node that rubs what its pairs slid in the step,
+  /// the mean by their normal impulses.
+  void add_slip(double dt);
 
   // one file each
   ContactStep advance_implicit(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at);

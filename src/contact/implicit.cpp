@@ -120,7 +120,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
       set_constants();
       assign_layers(records, work, dt, layer, ceiling, near.pairs);
       swept = SweepResult();
-      if (!near.pairs.empty()) swept = solve_pairs(dt, 1e-3 * layer, config.max_sweeps, work, near.pairs);
+      if (!near.pairs.empty() || !tie_pairs.empty()) swept = solve_pairs(dt, 1e-3 * layer, config.max_sweeps, work, tie_pairs, near.pairs);
       double most = 0;
       for (int i = 0; i < work.body_entries; ++i) most = std::max(most, dot3(work.v[i], work.v[i]));
       way = std::max(bound / 2, both * std::sqrt(most) * dt + tool_way);

@@ -25,6 +25,7 @@ class Builder {
       for (int k = 0; k < f_.corners(); ++k) boxes[i].add(at(f_.facets[sb.first_facet + i][k]));
     Grid grid(boxes, near, cell);
     std::vector<int> found;
+    const Features::Relation& relation = f_.relation(a, b);
     for (int v : f_.surfaces[a].vertices) {
       const Node& p = at(v);
       Box query;
@@ -35,6 +36,7 @@ class Builder {
       grid.query(query, [&](int i) {
         const auto& c = f_.facets[sb.first_facet + i];
         if (a == b && (c[0] == v || c[1] == v || c[2] == v)) return;
+        if (f_.tied(relation, std::array<int, 1>{v}, c)) return;
         const double squared = f_.dimension == 2 ? closest_on_segment_facet(p, at(c[0]), at(c[1])).squared
                                                  : closest_on_triangle(p, at(c[0]), at(c[1]), at(c[2])).squared;
         if (squared <= radius_ * radius_) found.push_back(sb.first_facet + i);
@@ -56,6 +58,7 @@ class Builder {
     for (size_t i = 0; i < boxes.size(); ++i)
       for (int k = 0; k < 2; ++k) boxes[i].add(at(f_.edges[sb.first_edge + i].node[k]));
     Grid grid(boxes, near, cell);
+    const Features::Relation& relation = f_.relation(a, b);
     for (int e = sa.first_edge; e < sa.last_edge; ++e) {
       const auto& p = f_.edges[e].node;
       Box query;
@@ -66,6 +69,7 @@ class Builder {
       grid.query(query, [&](int i) {
         const auto& q = f_.edges[sb.first_edge + i].node;
         if (a == b && (sb.first_edge + i <= e || p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1])) return;
+        if (f_.tied(relation, p, q)) return;
         if (closest_on_edges(at(p[0]), at(p[1]), at(q[0]), at(q[1])).squared > radius_ * radius_) return;
         const auto &op = f_.edges[e].opposite, &oq = f_.edges[sb.first_edge + i].opposite;
         list.edges.push_back({e, sb.first_edge + i, {p[0], p[1], q[0], q[1]}, {op[0], op[1], oq[0], oq[1]}, kAwake});
@@ -74,8 +78,9 @@ class Builder {
   }
 
   void vertices_against_plane(int a, int tool, const PlanePose& plane) {
+    const Features::Relation& relation = f_.relation(a, f_.bodies + tool);
     for (int v : f_.surfaces[a].vertices)
-      if (dot3(at(v) - plane.point, plane.normal) <= radius_) list.planes.push_back({v, v, -1, tool});
+      if (dot3(at(v) - plane.point, plane.normal) <= radius_ && !(relation.tie >= 0 && f_.tied_zones[relation.tie][v])) list.planes.push_back({v, v, -1, tool});
   }
 
   // From feature vertices to places in the workspace.
@@ -92,6 +97,9 @@ class Builder {
         if (o >= 0) used.push_back(o);
     }
     for (const auto& p : list.planes) used.push_back(p.node);
+    for (const auto& t : list.ties)
+      for (int n : t.node)
+        if (n >= 0) used.push_back(n);
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     std::vector<int> place(f_.vertex_count, -1);
@@ -109,6 +117,13 @@ class Builder {
     for (auto& p : list.planes) {
       p.node = place[p.node];
       p.foot = static_cast<int>(used.size());
+      used.push_back(-1);
+    }
+    for (auto& t : list.ties) {
+      for (int& n : t.node)
+        if (n >= 0) n = place[n];
+      if (t.node[1] >= 0) continue;
+      t.node[1] = static_cast<int>(used.size());
       used.push_back(-1);
     }
     work.x.assign(used.size(), Node::Zero());
@@ -134,7 +149,8 @@ Box box_of(const Features& f, int surface, const NodeField& x, const NodeField& 
 }
 
 NearList build_list(const Features& f, const NodeField& x, const NodeField& place, const std::vector<bool>& present,
-                    const std::vector<bool>& is_plane, const std::vector<PlanePose>& planes, double radius, Workspace& work) {
+                    const std::vector<bool>& is_plane, const std::vector<PlanePose>& planes,
+                    const std::vector<Tie>& ties, double radius, Workspace& work) {
   Builder build(f, x, place, radius);
   double clear = std::numeric_limits<double>::infinity();  // of all boxes from one another
   bool any = false;
@@ -157,7 +173,7 @@ NearList build_list(const Features& f, const NodeField& x, const NodeField& plac
   for (int a = 0; a < f.bodies; ++a) {
     const Box body = box_of(f, a, x, place);
     for (size_t t = 0; t < present.size(); ++t) {
-      if (!present[t]) continue;
+      if (!present[t] || !f.relation(a, f.bodies + static_cast<int>(t)).meet) continue;
       if (is_plane[t]) {
         build.vertices_against_plane(a, static_cast<int>(t), planes[t]);
         any = true;
@@ -167,7 +183,8 @@ NearList build_list(const Features& f, const NodeField& x, const NodeField& plac
       const Box tool = box_of(f, b, x, place);
       meet(a, b, body, tool);
     }
-    for (int b = f.meets_itself[a] ? a : a + 1; b < f.bodies; ++b) meet(a, b, body, b == a ? body : box_of(f, b, x, place));
+    for (int b = a; b < f.bodies; ++b)
+      if (f.relation(a, b).meet) meet(a, b, body, b == a ? body : box_of(f, b, x, place));
   }
   std::sort(build.list.groups.begin(), build.list.groups.end(), [](const auto& p, const auto& q) {
     return p.vertex != q.vertex ? p.vertex < q.vertex : p.surface < q.surface;
@@ -178,6 +195,9 @@ NearList build_list(const Features& f, const NodeField& x, const NodeField& plac
   std::sort(build.list.planes.begin(), build.list.planes.end(), [](const auto& p, const auto& q) {
     return p.vertex != q.vertex ? p.vertex < q.vertex : p.tool < q.tool;
   });
+  for (size_t i = 0; i < ties.size(); ++i)
+    if (ties[i].tool < 0 || present[ties[i].tool])
+      build.list.ties.push_back({static_cast<int>(i), {ties[i].vertex, ties[i].corner[0], ties[i].corner[1], ties[i].corner[2]}});
   build.number(work);
   build.list.radius = any ? radius : std::max(radius, clear);
   return std::move(build.list);

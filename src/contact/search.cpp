@@ -61,7 +61,7 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
   }
   tools.place_all(features, motion, false, place);
   const double radius = reach + std::max(0.25 * features.mean_edge, 4 * step_bound);
-  list = build_list(features, x, place, present, tools.is_plane, tools.planes(motion), radius, work);
+  list = build_list(features, x, place, present, tools.is_plane, tools.planes(motion), ties, radius, work);
   listed = true;
   listed_present = present;
   motion_at_build = motion;
@@ -74,6 +74,11 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
     const int h = held_of[work.vertex[i]];
     work.projector[i] = h >= 0 ? &held[h].projector : nullptr;
   }
+  tie_pairs.clear();
+  for (const NearList::TieEntry& entry : list.ties) {
+    tie_pairs.push_back(link_tie(ties[entry.tie], entry.tie, entry.node));
+    prepare_tie(work, tie_pairs.back());
+  }
 }
 
 void Contact::Impl::gather(const NodeField& x, const NodeField& v, double dt, const std::vector<ToolMotion>& motion, const std::vector<PlanePose>& planes) {
@@ -83,26 +88,32 @@ void Contact::Impl::gather(const NodeField& x, const NodeField& v, double dt, co
     work.v[i] = v_star[n];
     work.before[i] = v[n];
   }
-  const size_t feet = list.planes.size(), last = work.vertex.size() - feet;
+  // Where a point of a tool is and how it moves, from its place in the tool's frame.
+  const auto place_on_tool = [&](size_t entry, int tool, const Vec3& p) {
+    const ToolMotion& m = motion[tool];
+    work.x[entry] = node(pose0(m, p));
+    work.v[entry] = (node(pose1(m, p)) - work.x[entry]) / dt;
+    work.before[entry] = previous_dt > 0 ? (work.x[entry] - node(pose0(previous_motion[tool], p))) / previous_dt : work.v[entry];
+  };
+  size_t feet = list.planes.size();
+  for (const TiePair& tie : tie_pairs) feet += tie.tool >= 0;
+  const size_t last = work.vertex.size() - feet;
   int surface = features.bodies;
   for (size_t i = work.body_entries; i < last; ++i) {
     const int n = work.vertex[i];
     while (surface + 1 < static_cast<int>(features.surfaces.size()) && n >= features.surfaces[surface + 1].first_vertex) ++surface;
-    const Vec3 p = vec3(features.place[n - features.body_nodes]);
-    const ToolMotion& m = motion[surface - features.bodies];
-    work.x[i] = node(pose0(m, p));
-    work.v[i] = (node(pose1(m, p)) - work.x[i]) / dt;
-    work.before[i] = previous_dt > 0 ? (work.x[i] - node(pose0(previous_motion[surface - features.bodies], p))) / previous_dt : work.v[i];
+    place_on_tool(i, surface - features.bodies, vec3(features.place[n - features.body_nodes]));
   }
   for (const NearList::PlanePair& p : list.planes) {
     const ToolMotion& m = motion[p.tool];
     const PlanePose& plane = planes[p.tool];
     const Node foot = work.x[p.node] - dot3(work.x[p.node] - plane.point, plane.normal) * plane.normal;
-    work.x[p.foot] = foot;
-    const Vec3 in_tool = m.rotation0.transpose() * (vec3(foot) - m.position0);
-    work.v[p.foot] = (node(pose1(m, in_tool)) - foot) / dt;
-    work.before[p.foot] = previous_dt > 0 ? (foot - node(pose0(previous_motion[p.tool], in_tool))) / previous_dt : work.v[p.foot];
+    place_on_tool(p.foot, p.tool, m.rotation0.transpose() * (vec3(foot) - m.position0));
+    work.x[p.foot] = foot;  // to the last bit
   }
+  for (const TiePair& tie : tie_pairs)
+    if (tie.tool >= 0) place_on_tool(tie.node[1], tie.tool, ties[tie.tie].kept);
+  for (TiePair& tie : tie_pairs) aim_tie(ties[tie.tie], work, tie);
 }
 
 void Contact::Impl::set_constants() {
@@ -119,10 +130,9 @@ void Contact::Impl::set_constants(ContactPair& pair) const {
       ++count;
     }
   pair.stiffness = count > 0 ? modulus * layer * sum / count : 0;
-  int rigid = pair.surface;
-  if (rigid < features.bodies) rigid = features.vertex_surface[work.vertex[pair.node[0]]];
-  pair.tool = std::max(-1, rigid - features.bodies);
-  pair.friction = pair.tool >= 0 ? friction[pair.tool] : config.friction;
+  const int other = features.vertex_surface[work.vertex[pair.node[0]]];
+  pair.tool = std::max(-1, std::max(pair.surface, other) - features.bodies);
+  pair.friction = features.relation(pair.surface, other).friction;
   prepare_pair(work, pair);
 }
 

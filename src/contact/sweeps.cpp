@@ -50,10 +50,12 @@ double sweep(double dt, Workspace& work, std::vector<ContactPair>& pairs) {
   return change;
 }
 
-SweepResult solve_pairs(double dt, double tolerance, int most, Workspace& work, std::vector<ContactPair>& pairs) {
+SweepResult solve_pairs(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, std::vector<ContactPair>& pairs) {
   SweepResult result;
   for (;;) {
-    const double change = sweep(dt, work, pairs);
+    double change = 0;
+    for (TiePair& tie : ties) change = std::max(change, sweep_tie(dt, work, tie));
+    change = std::max(change, sweep(dt, work, pairs));
     ++result.sweeps;
     if (change >= tolerance && result.sweeps < most) continue;
     result.open = true;
@@ -65,21 +67,32 @@ SweepResult solve_pairs(double dt, double tolerance, int most, Workspace& work, 
   }
 }
 
-PairWork work_of(const Workspace& work, const std::vector<ContactPair>& pairs) {
+namespace {
+
+// Books what the impulse of a link does to a tool and against what is held;
+// returns the relative velocity, mean of before and after.
+Node book(const Workspace& work, const Link& link, const Node& impulse, PairWork& sum) {
+  Node mean = Node::Zero();
+  for (int k = 0; k < link.nodes; ++k) {
+    const int n = link.node[k];
+    const Node v = 0.5 * (work.before[n] + work.v[n]);
+    mean += link.weight[k] * v;
+    if (n >= work.body_entries)
+      sum.tool -= link.weight[k] * dot3(impulse, v);
+    else if (work.projector[n])
+      sum.held += link.weight[k] * dot3(impulse - project(*work.projector[n], impulse), v);
+  }
+  return mean;
+}
+
+}  // namespace
+
+PairWork work_of(const Workspace& work, const std::vector<TiePair>& ties, const std::vector<ContactPair>& pairs) {
   PairWork sum;
+  for (const TiePair& tie : ties) sum.normal += dot3(tie.impulse, book(work, tie, tie.impulse, sum));
   for (const ContactPair& pair : pairs) {
     if (pair.impulse == 0) continue;
-    const Node impulse = pair.impulse * pair.normal + pair.slip;
-    Node mean = Node::Zero();  // relative velocity, mean of before and after
-    for (int k = 0; k < pair.nodes; ++k) {
-      const int n = pair.node[k];
-      const Node v = 0.5 * (work.before[n] + work.v[n]);
-      mean += pair.weight[k] * v;
-      if (n >= work.body_entries)
-        sum.tool -= pair.weight[k] * dot3(impulse, v);
-      else if (work.projector[n])
-        sum.held += pair.weight[k] * dot3(impulse - project(*work.projector[n], impulse), v);
-    }
+    const Node mean = book(work, pair, pair.impulse * pair.normal + pair.slip, sum);
     sum.normal += pair.impulse * dot3(pair.normal, mean);
     sum.friction -= dot3(pair.slip, mean);
   }

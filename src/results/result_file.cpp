@@ -28,6 +28,8 @@ void write_fields(Hdf5Group& group, const Frame& frame) {
   group.write("positions", coordinates(frame.positions).data(), {nodes, 3}, "m");
   group.write("velocities", coordinates(frame.velocities).data(), {nodes, 3}, "m/s");
   group.write("contact_pressure", frame.contact_pressure.data(), {frame.contact_pressure.size()}, "Pa");
+  if (!frame.contact_gap.empty()) group.write("contact_gap", frame.contact_gap.data(), {nodes}, "m");
+  if (!frame.contact_slip.empty()) group.write("contact_slip", frame.contact_slip.data(), {nodes}, "m");
   group.write("plastic_strain", frame.plastic_strain.data(), {frame.plastic_strain.size()}, "1");
   group.write("stress", elements ? frame.stress[0].data() : nullptr, {elements, 6}, "Pa");
   std::vector<float> mises(frame.stress.size());
@@ -39,8 +41,8 @@ void write_fields(Hdf5Group& group, const Frame& frame) {
 
 /// At most what a frame takes in the file: its values as they are, and 4 KiB a data set and group for what describes them.
 std::uint64_t most_bytes(const Frame& frame, const ResultHeader& header) {
-  std::uint64_t bytes = 16 * 4096;
-  bytes += frame.positions.size() * (6 * sizeof(double) + sizeof(float)) + frame.stress.size() * 9 * sizeof(float) +
+  std::uint64_t bytes = 18 * 4096;
+  bytes += frame.positions.size() * (6 * sizeof(double) + 3 * sizeof(float)) + frame.stress.size() * 9 * sizeof(float) +
            frame.surface_strain.size() * sizeof(float);
   for (const ToolShape& tool : header.tools) bytes += 5 * 4096 + tool.points.size() * 3 * sizeof(double);
   return bytes;
@@ -92,7 +94,7 @@ void ResultFile::write(const Frame& frame) {
   group.set("interrupted", std::int64_t{frame.interrupted});
   write_fields(group, frame);
   Hdf5Group tools = group.create("tools");
-  FrameEntry entry{name, frame.time, frame.step, frame.interrupted, {}};
+  FrameEntry entry{name, frame.time, frame.step, frame.interrupted, {}, !frame.contact_gap.empty(), !frame.contact_slip.empty()};
   for (std::size_t i = 0; i < frame.tools.size(); ++i) {
     write_tool(tools, frame, i);
     entry.tools_present.push_back(frame.tools[i].present);

@@ -76,7 +76,7 @@ std::vector<FrameEntry> read_entries(const Hdf5Group& root) {
   const Hdf5Group frames = root.group("frames");
   for (const std::string& name : frames.names()) {
     const Hdf5Group frame = frames.group(name), tools = frame.group("tools");
-    FrameEntry entry{name, frame.number("time"), frame.integer("step"), frame.integer("interrupted") != 0, {}};
+    FrameEntry entry{name, frame.number("time"), frame.integer("step"), frame.integer("interrupted") != 0, {}, frame.has("contact_gap"), frame.has("contact_slip")};
     for (std::size_t i = 0; i < member_count(tools); ++i)
       entry.tools_present.push_back(tools.group(std::to_string(i)).integer("present") != 0);
     entries.push_back(std::move(entry));
@@ -88,7 +88,8 @@ ResultReader::ResultReader(const std::string& path)
     : file_(path, Hdf5File::Mode::read), header_(read_header(file_.root())), frames_(read_entries(file_.root())) {}
 
 Frame ResultReader::frame(std::size_t index) const {
-  const Hdf5Group group = file_.root().group("frames").group(frames_.at(index).name);
+  const FrameEntry& entry = frames_.at(index);
+  const Hdf5Group group = file_.root().group("frames").group(entry.name);
   Frame frame;
   frame.time = group.number("time");
   frame.step = group.integer("step");
@@ -102,6 +103,8 @@ Frame ResultReader::frame(std::size_t index) const {
   for (std::size_t e = 0; e < frame.stress.size(); ++e) std::copy_n(&stress[6 * e], 6, frame.stress[e].begin());
   frame.volume_ratio = group.read<float>("volume_ratio");
   frame.contact_pressure = group.read<float>("contact_pressure");
+  if (entry.gap) frame.contact_gap = group.read<float>("contact_gap");
+  if (entry.slip) frame.contact_slip = group.read<float>("contact_slip");
   frame.surface_strain = group.read<float>("surface_strain");
   const Hdf5Group tools = group.group("tools");
   for (std::size_t i = 0; i < member_count(tools); ++i) {

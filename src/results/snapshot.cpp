@@ -53,6 +53,8 @@ Frame take_frame(const Simulation& simulation) {
   frame.volume_ratio = single(simulation.volume_ratio());
   frame.surface_strain = single(simulation.surface_strain());
   frame.contact_pressure = single(simulation.contact_pressure());
+  frame.contact_gap = single(simulation.contact_gap());
+  frame.contact_slip = single(simulation.contact_slip());
   for (const Sym& stress : simulation.stress()) {
     std::array<float, 6> row;
     for (int k = 0; k < 6; ++k) row[k] = static_cast<float>(stress[k]);

@@ -46,6 +46,8 @@ class Writer {
     geometry(nodes, path + "positions");
     attribute("velocities", "Vector", "Node", nodes, 3, 8, path + "velocities");
     attribute("contact_pressure", "Scalar", "Node", nodes, 1, 4, path + "contact_pressure");
+    if (frame.gap) attribute("contact_gap", "Scalar", "Node", nodes, 1, 4, path + "contact_gap");
+    if (frame.slip) attribute("contact_slip", "Scalar", "Node", nodes, 1, 4, path + "contact_slip");
     attribute("plastic_strain", "Scalar", "Cell", elements, 1, 4, path + "plastic_strain");
     attribute("stress", "Matrix", "Cell", elements, 6, 4, path + "stress");
     attribute("mises", "Scalar", "Cell", elements, 1, 4, path + "mises");

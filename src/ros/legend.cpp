@@ -37,7 +37,9 @@ void RunMarkers::add_legend(const RunFrame& frame, const ros::Time& stamp,
   const double range = options_.colour_max > 0 ? options_.colour_max : range_;
   // One line a marker: rviz spaces the lines of one marker for texts of a metre.
   char text[160];
-  write(1, foot + (height + 2.6 * text_height) * up, "plastic strain");
+  const std::string& by = options_.colour_by;
+  const char* title = by == "plastic_strain" ? "plastic strain" : by == "contact_pressure" ? "contact pressure, Pa" : by == "contact_gap" ? "gap, m" : "slip, m";
+  write(1, foot + (height + 2.6 * text_height) * up, title);
   write(2, foot - 1.0 * text_height * up, "0");
   std::snprintf(text, sizeof text, "%.3g", range);
   write(3, foot + (height + 1.0 * text_height) * up, text);

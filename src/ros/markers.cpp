@@ -10,6 +10,11 @@ namespace forming_sim {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
+const std::vector<std::string>& MarkerOptions::colours() {
+  static const std::vector<std::string> words{"plastic_strain", "contact_pressure", "contact_gap", "contact_slip"};
+  return words;
+}
+
 RunMarkers::RunMarkers(const RunShape& shape, const MarkerOptions& options)
     : options_(options), dimension_(shape.dimension), box_(box_of(shape.initial_positions)) {
   // Tools may take up to a third of the budget, the sheet what they leave.
@@ -84,18 +89,29 @@ MarkerArray RunMarkers::at(const RunFrame& frame, const ros::Time& stamp) {
     array.markers.push_back(clear);
     started_ = true;
   }
-  for (const double p : frame.plastic_strain) range_ = std::max(range_, p);
+  const std::vector<double> all = options_.colour_by == "plastic_strain" ? frame.plastic_strain : values(frame);
+  for (const double value : all) range_ = std::max(range_, value);
   add_sheet(frame, stamp, array);
   add_tools(frame, stamp, array);
   add_legend(frame, stamp, array);
   return array;
 }
 
+std::vector<double> RunMarkers::values(const RunFrame& frame) const {
+  if (options_.colour_by == "plastic_strain") return sheet_.node_means(frame.plastic_strain);
+  const std::vector<double>& field = options_.colour_by == "contact_pressure" ? frame.contact_pressure
+                                     : options_.colour_by == "contact_gap"    ? frame.contact_gap
+                                                                              : frame.contact_slip;
+  std::vector<double> drawn;
+  for (const int n : sheet_.drawn_nodes()) drawn.push_back(field.empty() ? 0 : field[n]);
+  return drawn;
+}
+
 void RunMarkers::add_sheet(const RunFrame& frame, const ros::Time& stamp, MarkerArray& array) const {
   Marker m = marker("sheet", 0, Marker::TRIANGLE_LIST, stamp);
   const double range = options_.colour_max > 0 ? options_.colour_max : range_;
   std::vector<std_msgs::ColorRGBA> colours;
-  for (const double p : sheet_.node_means(frame.plastic_strain)) colours.push_back(scale_colour(range > 0 ? p / range : 0));
+  for (const double p : values(frame)) colours.push_back(scale_colour(range > 0 ? p / range : 0));
   m.points.reserve(3 * sheet_.triangles().size());
   m.colors.reserve(3 * sheet_.triangles().size());
   for (std::size_t t = 0; t < sheet_.triangles().size(); ++t) {

@@ -48,7 +48,7 @@ double RosObserver::min_thickness(const Simulation& simulation) const {
 }
 
 void RosObserver::tell(const Simulation& simulation, bool always, Code code, const std::string& message) {
-  const RunFrame frame = frame_of(simulation);
+  const RunFrame frame = frame_of(simulation, always || publisher_.wants_contact());
   RunStatus status = status_of(simulation, frame, scene_, clock_.left(simulation.progress(), now_s()),
                                min_thickness(simulation));
   status.running = code == Code::none;

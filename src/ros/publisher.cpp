@@ -1,12 +1,15 @@
 #include "forming_sim/ros/publisher.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 
 #include <geometry_msgs/WrenchStamped.h>
 
+#include "forming_sim/ContactFields.h"
 #include "forming_sim/PlasticStrain.h"
 #include "forming_sim/PlasticStrainTopology.h"
+#include "forming_sim/config/words.h"
 #include "geometry.h"
 
 namespace forming_sim {
@@ -15,6 +18,7 @@ PublishOptions PublishOptions::read(const ros::NodeHandle& node) {
   PublishOptions options;
   node.param("publish_rate", options.rate, options.rate);
   node.param("triangle_budget", options.markers.triangle_budget, options.markers.triangle_budget);
+  node.param("colour_by", options.markers.colour_by, options.markers.colour_by);
   node.param("colour_max", options.markers.colour_max, options.markers.colour_max);
   node.param("frame", options.markers.frame, options.markers.frame);
   const auto refuse = [&](const std::string& name, const std::string& given, const std::string& remedy) {
@@ -28,7 +32,11 @@ PublishOptions PublishOptions::read(const ros::NodeHandle& node) {
   }
   if (!(options.markers.colour_max >= 0 && std::isfinite(options.markers.colour_max))) {
     refuse("colour_max", std::to_string(options.markers.colour_max),
-           "give a plastic strain above 0, or 0 for the largest of the run so far");
+           "give the value at the upper end of the scale, or 0 for the largest of the run so far");
+  }
+  const std::vector<std::string>& words = MarkerOptions::colours();
+  if (std::find(words.begin(), words.end(), options.markers.colour_by) == words.end()) {
+    refuse("colour_by", options.markers.colour_by, "give one of " + one_of(words));
   }
   return options;
 }
@@ -44,12 +52,17 @@ RunPublisher::RunPublisher(const ros::NodeHandle& node, const PublishOptions& op
   mesh_ = node_.advertise<visualization_msgs::MarkerArray>("deformed_mesh", 2, true);
   strain_ = node_.advertise<PlasticStrain>("plastic_strain", 2);
   topology_ = node_.advertise<PlasticStrainTopology>("plastic_strain_topology", 1, true);
+  contact_ = node_.advertise<ContactFields>("contact", 2, true);
   status_ = node_.advertise<RunStatus>("status", 2, true);
 }
 
 void RunPublisher::start(const RunShape& shape) {
   markers_ = RunMarkers(shape, options_.markers);
   next_ = {};
+  surface_nodes_.clear();
+  for (const Facet& facet : shape.surface) surface_nodes_.insert(surface_nodes_.end(), facet.nodes.begin(), facet.nodes.begin() + shape.dimension);
+  std::sort(surface_nodes_.begin(), surface_nodes_.end());
+  surface_nodes_.erase(std::unique(surface_nodes_.begin(), surface_nodes_.end()), surface_nodes_.end());
   // A tool of the last run keeps its topic, and with it those who listen.
   std::vector<ros::Publisher> forces;
   for (const ToolModel& tool : shape.tools) {
@@ -77,6 +90,7 @@ void RunPublisher::publish(const RunFrame& frame, RunStatus status, bool always)
   if (frame.is_finite()) {
     if (always || mesh_.getNumSubscribers() > 0) mesh_.publish(markers_.at(frame, stamp));
     publish_strain(frame, stamp);
+    publish_contact(frame, stamp, always);
   }
   publish_forces(frame, stamp, always);
   publish(std::move(status));
@@ -97,6 +111,24 @@ void RunPublisher::publish_strain(const RunFrame& frame, const ros::Time& stamp)
   message.step = frame.step;
   message.values = frame.plastic_strain;
   strain_.publish(message);
+}
+
+bool RunPublisher::wants_contact() const { return contact_.getNumSubscribers() > 0 || options_.markers.colour_by != "plastic_strain"; }
+
+void RunPublisher::publish_contact(const RunFrame& frame, const ros::Time& stamp, bool always) {
+  if ((!always && contact_.getNumSubscribers() == 0) || frame.contact_gap.empty()) return;
+  ContactFields message;
+  message.header.stamp = stamp;
+  message.header.frame_id = options_.markers.frame;
+  message.time_s = frame.time;
+  message.step = frame.step;
+  message.nodes.assign(surface_nodes_.begin(), surface_nodes_.end());
+  for (int n : surface_nodes_) {
+    message.pressure.push_back(frame.contact_pressure[n]);
+    message.gap.push_back(frame.contact_gap[n]);
+    if (!frame.contact_slip.empty()) message.slip.push_back(frame.contact_slip[n]);
+  }
+  contact_.publish(message);
 }
 
 void RunPublisher::publish_forces(const RunFrame& frame, const ros::Time& stamp, bool always) {

@@ -41,6 +41,9 @@ RunFrame run_frame(const Frame& stored) {
   frame.stage = stored.stage;
   frame.positions = stored.positions;
   frame.plastic_strain.assign(stored.plastic_strain.begin(), stored.plastic_strain.end());
+  if (!stored.contact_gap.empty()) frame.contact_pressure.assign(stored.contact_pressure.begin(), stored.contact_pressure.end());
+  frame.contact_gap.assign(stored.contact_gap.begin(), stored.contact_gap.end());
+  frame.contact_slip.assign(stored.contact_slip.begin(), stored.contact_slip.end());
   for (const FrameTool& pose : stored.tools) {
     ToolStatus status;
     status.position = pose.position;

@@ -27,7 +27,7 @@ RunShape shape_of(const Simulation& simulation, const std::string& scene) {
   return shape;
 }
 
-RunFrame frame_of(const Simulation& simulation) {
+RunFrame frame_of(const Simulation& simulation, bool contact) {
   RunFrame frame;
   frame.time = simulation.time();
   frame.step = simulation.steps();
@@ -35,6 +35,11 @@ RunFrame frame_of(const Simulation& simulation) {
   frame.positions = simulation.positions();
   frame.plastic_strain = simulation.plastic_strain();
   frame.tools = simulation.tools();
+  if (contact) {
+    frame.contact_gap = simulation.contact_gap();
+    frame.contact_slip = simulation.contact_slip();
+    if (!frame.contact_gap.empty()) frame.contact_pressure = simulation.contact_pressure();
+  }
   return frame;
 }
 

@@ -17,7 +17,7 @@ void check_plane_strain(const Scene& scene, FaultList& faults);
 void check_bodies(const Scene& scene, FaultList& faults);
 /// Where a tool's surface comes from, how it moves.
 void check_tools(const Scene& scene, FaultList& faults);
-/// What says the same thing of the contact twice.
+/// Pairs name bodies and tools, each once; what says the same thing of the contact twice.
 void check_contact(const Scene& scene, FaultList& faults);
 /// Stages that refer to tools, probes that refer to bodies, frames.
 void check_stages(const Scene& scene, FaultList& faults);

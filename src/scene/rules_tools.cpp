@@ -53,10 +53,4 @@ void check_tools(const Scene& scene, FaultList& faults) {
   }
 }
 
-void check_contact(const Scene& scene, FaultList& faults) {
-  const ContactConfig& contact = scene.contact;
-  if (contact.method == "explicit" && contact.coefficient > 0 && contact.stiffness > 0)
-    faults.add("contact.stiffness", given_text(contact.stiffness), "leave it out, or leave out coefficient: the coefficient c of the force already says how stiff the layer is");
-}
-
 }  // namespace forming_sim

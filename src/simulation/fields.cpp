@@ -88,6 +88,16 @@ std::vector<double> Simulation::volume_ratio() const { return impl_->elements.ob
 
 const std::vector<double>& Simulation::contact_pressure() const { return impl_->contact_pressure; }
 
+std::vector<double> Simulation::contact_gap() const {
+  const Impl& s = *impl_;
+  return s.contact ? s.contact->gaps(s.x, s.tool_motions(s.time, s.time)) : std::vector<double>();
+}
+
+const std::vector<double>& Simulation::contact_slip() const {
+  static const std::vector<double> none;
+  return impl_->contact ? impl_->contact->slip() : none;
+}
+
 std::vector<double> Simulation::surface_strain() const {
   const Impl& s = *impl_;
   std::vector<double> strain;

@@ -38,7 +38,7 @@ TEST(Declarations, AreAllReached) {
   std::set<std::string> seen;
   int types = 0;
   for_each_type<Scene>([&](auto&) { ++types; }, seen);
-  EXPECT_EQ(types, 20);  // Scene, Body, Tool, Blank, Mesh, Set, ProfilePiece, Profile, Hardening, Layer, Material, Contact,
+  EXPECT_EQ(types, 21);  // Scene, Body, Tool, Blank, Mesh, Set, ProfilePiece, Profile, Hardening, Layer, Material, Contact, Pair,
                          // Boundary, Pressure, Motion, TimeStep, Stage, Output, Probe, Springback
   EXPECT_GT(check_all([](auto&, const std::string&, const auto&, const Field&) {}), 100);
 }

@@ -142,7 +142,7 @@ TEST(ContactSearch, ListAgainstAllPairs) {
     for (Node& p : place) p += node(world.path[0](0));
     for (double radius : {.02, .1, .4}) {
       Workspace work;
-      const NearList list = build_list(f, world.x, place, {true}, {false}, {PlanePose()}, radius, work);
+      const NearList list = build_list(f, world.x, place, {true}, {false}, {PlanePose()}, {}, radius, work);
       std::set<std::pair<int, int>> listed, expected, edges_listed, edges_expected;
       for (const auto& g : list.groups)
         for (int i = g.first; i < g.last; ++i) EXPECT_TRUE(listed.insert({g.vertex, list.facets[i].facet}).second);

@@ -183,6 +183,42 @@ class Features(unittest.TestCase):
         self.assertAlmostEqual((pressure * area).sum(), force, delta=1e-3 * force)
         self.assertEqual(pressure[start[:, 2] < 0.0019].max(), 0)
 
+    def test_pairs_of_the_contact(self):
+        """Two strips, one on the other: tied they move as one; sliding the upper stays behind, and its slip says by how much."""
+        ends = {}
+        for kind in ('tied', 'frictionless', 'sliding'):
+            upper = body('strip', boundaries=[{'set': 'top', 'kind': 'fixed', 'axes': ['y']}])
+            upper['name'], upper['blank']['origin'] = 'upper', [0.0, 0.002, 0.0]
+            upper['blank']['cells_along'] = 7
+            lower = body('strip', boundaries=[{'set': 'bottom', 'kind': 'velocity', 'axes': ['x', 'y'], 'times': [0.0, 1e-5],
+                                              'velocities': [[0.0, 0.0, 0.0], [10.0, 0.05, 0.0]]}])
+            data = scene(lower, duration=5e-5)
+            data['bodies'].append(upper)
+            pair = {'first': lower['name'], 'second': 'upper', 'kind': kind}
+            if kind == 'sliding':
+                pair['friction'] = 0.2
+            data['contact'] = {'pairs': [pair]}
+            self.run_scene(data, kind)
+            with h5py.File(self.path(kind + '/result.h5')) as result:
+                last = result['frames'][sorted(result['frames'])[-1]]
+                x, start = last['positions'][:], result['topology/initial_positions'][:]
+                half = len(start) - 8 * 3 - 7 * 2
+                on = [n for n in range(half, len(start)) if abs(start[n, 1] - start[half:, 1].min()) < 1e-6 and start[n, 0] > 0.001]
+                ends[kind] = (x - start)[on, 0].mean()
+                gap = last['contact_gap'][:]
+                self.assertEqual(last['contact_gap'].attrs['unit'], 'm')
+                self.assertEqual('contact_slip' in last, kind == 'sliding')
+                if kind == 'sliding':
+                    below = (x - start)[:half][start[:half, 1] > 0.0019, 0].mean()
+                    self.assertAlmostEqual(last['contact_slip'][:][on].mean(), below - ends[kind], delta=0.1 * below)
+                if kind != 'tied':
+                    self.assertLess(gap[on].max(), 1e-5)
+                    self.assertGreater(gap[on].min(), 0)
+        self.assertAlmostEqual(ends['tied'], 4.5e-4, delta=5e-5)
+        self.assertLess(abs(ends['frictionless']), 1e-6)
+        self.assertGreater(ends['sliding'], 10 * abs(ends['frictionless']))
+        self.assertLess(ends['sliding'], ends['tied'])
+
     # ---- materials
 
     def test_hardening_curves(self):

@@ -69,6 +69,8 @@ inline Frame example_frame(const ResultHeader& header, int index) {
     frame.positions[i].y() += example_value(index, i);
     frame.velocities[i] = Node(0, example_value(index, i), 0, 0);
     frame.contact_pressure.push_back(static_cast<float>(1e6 * example_value(index, i)));
+    frame.contact_gap.push_back(static_cast<float>(1e-3 * example_value(index, i)));
+    frame.contact_slip.push_back(static_cast<float>(1e-4 * example_value(index, i)));
   }
   for (std::size_t e = 0; e < header.elements.size(); ++e) {
     const float value = static_cast<float>(example_value(index, e));

@@ -28,6 +28,8 @@ void expect_frame(const Frame& frame, const ResultHeader& header, int index) {
   EXPECT_EQ(frame.stress, expected.stress);
   EXPECT_EQ(frame.volume_ratio, expected.volume_ratio);
   EXPECT_EQ(frame.contact_pressure, expected.contact_pressure);
+  EXPECT_EQ(frame.contact_gap, expected.contact_gap);
+  EXPECT_EQ(frame.contact_slip, expected.contact_slip);
   EXPECT_EQ(frame.surface_strain, expected.surface_strain);
   ASSERT_EQ(frame.tools.size(), 2u);
   EXPECT_EQ(frame.tools[0].position, expected.tools[0].position);

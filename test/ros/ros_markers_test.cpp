@@ -131,6 +131,23 @@ TEST(RosMarkers, LegendNamesTheRange) {
   EXPECT_NEAR(find(array, "sheet", 0).colors[0].g, half.g, 1e-6);
 }
 
+TEST(RosMarkers, ContactCanColour) {
+  const RunShape shape = section(2, 2);
+  RunFrame frame = at_rest(shape);
+  frame.contact_pressure.assign(frame.positions.size(), 0.0);
+  frame.contact_gap = frame.contact_pressure;
+  for (std::size_t n = 0; n < frame.positions.size(); ++n) frame.contact_pressure[n] = n == 4 ? 2e8 : 0;
+  MarkerOptions options;
+  options.colour_by = "contact_pressure";
+  RunMarkers markers(shape, options);
+  const auto array = markers.at(frame, ros::Time(1));
+  EXPECT_EQ(find(array, "legend", 1).text, "contact pressure, Pa");
+  EXPECT_EQ(find(array, "legend", 3).text, "2e+08");
+  const auto most = scale_colour(1);
+  const auto& sheet = find(array, "sheet", 0);
+  EXPECT_TRUE(std::any_of(sheet.colors.begin(), sheet.colors.end(), [&](const auto& c) { return c.r == most.r; }));
+}
+
 TEST(RosMarkers, FramesWithoutNumbersAreKnown) {
   const RunShape shape = section(2, 2);
   RunFrame frame = at_rest(shape);

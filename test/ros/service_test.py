@@ -16,7 +16,7 @@ import numpy
 import rospy
 import yaml
 from actionlib_msgs.msg import GoalID, GoalStatus
-from forming_sim.msg import (PlasticStrainTopology, ResultCode, RunStatus, SimulateFormingAction,
+from forming_sim.msg import (ContactFields, PlasticStrainTopology, ResultCode, RunStatus, SimulateFormingAction,
                              SimulateFormingActionGoal, SimulateFormingActionResult, SimulateFormingGoal)
 from forming_sim.srv import EstimateRun, ValidateScene
 from visualization_msgs.msg import Marker, MarkerArray
@@ -110,6 +110,13 @@ class ServiceTest(unittest.TestCase):
         self.assertEqual(len(topology.elements), 3 * 80)
         status = rospy.wait_for_message('/forming_server/status', RunStatus, 10)
         self.assertFalse(status.running)
+        # Where the press touches: on the top of the strip.
+        contact = rospy.wait_for_message('/forming_server/contact', ContactFields, 10)
+        self.assertEqual(len(contact.nodes), len(contact.pressure))
+        self.assertEqual(len(contact.nodes), len(contact.gap))
+        pressed = [topology.nodes[n].y for n, pressure in zip(contact.nodes, contact.pressure) if pressure > 0]
+        self.assertGreater(len(pressed), 0)
+        self.assertEqual(min(pressed), max(node.y for node in topology.nodes))
         self.assertEqual(status.code, ResultCode.SUCCESS)
 
     def test_server_chooses_a_directory_of_its_own_for_each_run(self):

@@ -1,10 +1,27 @@
 #pragma once
 // What a user may set of the contact. Nothing has to be set.
 #include <string>
+#include <vector>
 
 #include "forming_sim/config/field.h"
 
 namespace forming_sim {
+
+/// What two surfaces are to each other, where it is not the usual.
+struct PairConfig {
+  std::string first, second;            ///< a body; a body or a tool
+  std::string kind = "sliding";         ///< sliding | frictionless | sticking | tied | none
+  double friction = 0;
+  double tie_distance = 0;
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(first), Field().required().doc("name of a body"));
+    visit(FORMING_SIM_FIELD(second), Field().required().doc("name of another body or of a tool, or the same name again for a body and itself"));
+    visit(FORMING_SIM_FIELD(kind), Field().choices({"sliding", "frictionless", "sticking", "tied", "none"}).doc("sliding: with Coulomb friction; frictionless; sticking: no slip while pressed together, free to part; tied: what touches at the start stays together, the rest slides; none: they do not see each other"));
+    visit(FORMING_SIM_FIELD(friction), Field().at_least(0).at_most(10).when("kind", {"sliding", "tied"}).doc("Coulomb friction of the pair, in place of that of the tool or of contact.friction"));
+    visit(FORMING_SIM_FIELD(tie_distance), Field().unit("m").at_least(0).when("kind", {"tied"}).computed("a tenth of the smallest edge of the two surfaces").doc("vertices of one surface up to so far from the other are tied to it"));
+  }
+};
 
 struct ContactConfig {
   std::string method = "implicit";      ///< implicit | explicit | geometric
@@ -15,6 +32,7 @@ struct ContactConfig {
   std::string pairing = "node_side";    ///< node_side | node_node
   double push_speed = 0;                ///< v_push
   double friction = 0;                  ///< of bodies against each other and themselves
+  std::vector<PairConfig> pairs;
   int max_sweeps = 50;
   int max_halvings = 30;
 
@@ -27,6 +45,7 @@ struct ContactConfig {
     visit(FORMING_SIM_FIELD(pairing), Field().choices({"node_side", "node_node"}).when("method", {"explicit"}).doc("what repels a node: node_side: the nearest points of the other surface's sides; node_node: its nearest node, so that meshes have to match"));
     visit(FORMING_SIM_FIELD(push_speed), Field().unit("m/s").at_least(0).when("method", {"implicit"}).computed("the smaller of 0.1 m/s and 1e-3 of the wave speed").doc("speed at which the soft start lets the layer of a pair that is born close grow"));
     visit(FORMING_SIM_FIELD(friction), Field().at_least(0).at_most(10).doc("Coulomb friction of bodies against each other and against themselves; that of tools is theirs"));
+    visit(FORMING_SIM_FIELD(pairs), Field().doc("pairs of surfaces that meet in another way than the rest"));
     visit(FORMING_SIM_FIELD(max_sweeps), Field().at_least(1).at_most(1000).when("method", {"implicit"}).doc("most Gauss-Seidel sweeps in a step"));
     visit(FORMING_SIM_FIELD(max_halvings), Field().at_least(1).at_most(60).when("method", {"implicit"}).doc("most halvings of one step before the run ends with a named error"));
   }

@@ -124,6 +124,15 @@ class Contact {
   void add_normal_impulses(std::vector<double>& sum) const;
   const std::vector<double>& nodal_area() const;      ///< of the bodies' nodes at the start, m^2 (m in plane strain); 0 inside
 
+  /// Distance of every node of the bodies' surfaces from the nearest other surface
+  /// that it can meet, m; at most gap_reach(), also inside. Of tools from the
+  /// surface that was given: 0 where the node lies on it, less where it is pressed in.
+  /// Searched anew at every call.
+  std::vector<double> gaps(const NodeField& x, const std::vector<ToolMotion>& tools) const;
+  double gap_reach() const;                           ///< two mean edges of the bodies' surfaces, m
+  /// How far each node has slid along what it is pressed against, m; empty where nothing rubs.
+  const std::vector<double>& slip() const;
+
   double layer() const;                               ///< h0, m
   double stiffness() const;                           ///< E of the layer, Pa
   double push_speed() const;                          ///< m/s

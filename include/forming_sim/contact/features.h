@@ -20,6 +20,12 @@ struct Features {
     int first_facet = 0, last_facet = 0, first_edge = 0, last_edge = 0;
     std::vector<int> vertices;        ///< used by its facets, rising
   };
+  /// How two surfaces meet; see PairConfig.
+  struct Relation {
+    bool meet = false;
+    double friction = 0;              ///< the largest double: sticking
+    int tie = -1;                     ///< which of `tied_zones`
+  };
   struct Edge {
     int node[2] = {-1, -1};           ///< rising
     int surface = -1;
@@ -30,7 +36,8 @@ struct Features {
   int dimension = 3;
   int body_nodes = 0;
   int bodies = 0;                     ///< surfaces 0 ... bodies - 1; tool t is surface bodies + t
-  std::vector<bool> meets_itself;     ///< per body
+  std::vector<Relation> relations;    ///< of surfaces a and b: [a * surfaces + b], the same both ways
+  std::vector<std::vector<bool>> tied_zones;    ///< per tied pair of surfaces and vertex: features that have such vertices on both sides are tied and do not meet
   int vertex_count = 0;
   std::vector<Surface> surfaces;
   std::vector<std::array<int, 3>> facets;       ///< corners, rising; 2D: 2 used, third -1
@@ -49,7 +56,19 @@ struct Features {
   bool rigid(int vertex) const { return vertex >= body_nodes; }
   int corners() const { return dimension; }
   /// Can deformable meet deformable? Then both sides of a pair move.
-  bool bodies_meet() const { return bodies > 1 || (bodies == 1 && meets_itself[0]); }
+  bool bodies_meet() const;
+  const Relation& relation(int a, int b) const { return relations[a * surfaces.size() + b]; }
+  Relation& relation(int a, int b) { return relations[a * surfaces.size() + b]; }
+  /// Do the features with these vertices (a of one surface, b of the other) belong to what is tied together?
+  template <class VerticesA, class VerticesB> bool tied(const Relation& relation, const VerticesA& a, const VerticesB& b) const {
+    return relation.tie >= 0 && in_zone(relation.tie, a) && in_zone(relation.tie, b);
+  }
+ private:
+  template <class Vertices> bool in_zone(int tie, const Vertices& vertices) const {
+    for (int v : vertices)
+      if (v >= 0 && tied_zones[tie][v]) return true;
+    return false;
+  }
 };
 
 /// x: positions of the bodies' nodes, from which areas and edge lengths are taken.

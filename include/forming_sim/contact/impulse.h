@@ -4,7 +4,7 @@
 
 namespace forming_sim {
 
-inline Node relative(const ContactPair& pair, const NodeField& v) {
+inline Node relative(const Link& pair, const NodeField& v) {
   Node u = pair.weight[0] * v[pair.node[0]];
   for (int k = 1; k < pair.nodes; ++k) u += pair.weight[k] * v[pair.node[k]];
   return u;
@@ -15,7 +15,7 @@ inline Node project(const Mat3& p, const Node& j) { return node(p * vec3(j)); }
 /// Adds to `field` of every node of the pair its weight over its mass times the
 /// impulse, held directions removed: to velocities an impulse, to places one
 /// times a time.
-inline void push(const ContactPair& pair, const Node& impulse, const Workspace& work, NodeField& field) {
+inline void push(const Link& pair, const Node& impulse, const Workspace& work, NodeField& field) {
   for (int k = 0; k < pair.nodes; ++k) {
     const int n = pair.node[k];
     const double factor = pair.weight[k] * work.inverse_mass[n];

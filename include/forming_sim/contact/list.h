@@ -32,14 +32,20 @@ struct NearList {
     int vertex, node, foot;    ///< foot: place in the workspace of the plane's nearest point
     int tool;
   };
+  /// A tie between bodies, or with a tool that is present.
+  struct TieEntry {
+    int tie;
+    int node[4];               ///< the vertex; then the facet's corners, or the foot: the place on the tool
+  };
   std::vector<FacetEntry> facets;
   std::vector<int> neighbours; ///< of the groups' vertices, in the workspace
   std::vector<VertexGroup> groups;
   std::vector<EdgePair> edges;
   std::vector<PlanePair> planes;
+  std::vector<TieEntry> ties;
   double radius = 0;           ///< every pair of features not in here was farther apart, m
 
-  long size() const { return static_cast<long>(facets.size() + edges.size() + planes.size()); }
+  long size() const { return static_cast<long>(facets.size() + edges.size() + planes.size() + ties.size()); }
 };
 
 /// A plane in the world.
@@ -49,11 +55,12 @@ struct PlanePose {
 
 /// Lists all pairs of features within `radius` of a body and a tool, of two
 /// bodies, and of a body and itself where it meets itself and the features share no node;
-/// numbers the workspace (vertex, body_entries; x of all entries but the feet).
+/// numbers the workspace (vertex, body_entries; the feet of planes, then those of ties, stand last).
 /// place: positions of all feature vertices of present tools now, index vertex -
 /// body_nodes. present: per tool. planes: per tool, used where it is a plane.
 NearList build_list(const Features& features, const NodeField& x, const NodeField& place, const std::vector<bool>& present,
-                    const std::vector<bool>& is_plane, const std::vector<PlanePose>& planes, double radius, Workspace& work);
+                    const std::vector<bool>& is_plane, const std::vector<PlanePose>& planes,
+                    const std::vector<Tie>& ties, double radius, Workspace& work);
 
 /// Box of the vertices of a surface at their places now.
 Box box_of(const Features& features, int surface, const NodeField& x, const NodeField& place);

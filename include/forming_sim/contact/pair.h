@@ -25,12 +25,16 @@ struct PairKey {
   bool operator==(const PairKey& o) const { return group == o.group && feature == o.feature; }
 };
 
-struct ContactPair {
-  Node normal = Node::Zero();  ///< from the second feature to the first, length 1
-  Node slip = Node::Zero();    ///< friction impulse, N s
+/// Up to four nodes of the workspace, and how an impulse between them is shared.
+struct Link {
   double weight[4] = {0, 0, 0, 0};  ///< b: positive on the first feature, negative on the second, sum 0
   int node[4] = {-1, -1, -1, -1};   ///< in the workspace
   int nodes = 0;
+};
+
+struct ContactPair : Link {
+  Node normal = Node::Zero();  ///< from the second feature to the first, length 1
+  Node slip = Node::Zero();    ///< friction impulse, N s
   int surface = -1;            ///< the second feature's surface
   int tool = -1;
   double gap = 0;              ///< h at the start of the step, m
@@ -43,6 +47,17 @@ struct ContactPair {
   double impulse = 0;          ///< along the normal, N s
   double end_gap = 0;          ///< h at the end of the step, m
   PairKey key;
+};
+
+/// A vertex that is tied; see ties.h.
+struct Tie {
+  int vertex = -1;
+  int corner[3] = {-1, -1, -1};    ///< feature vertices of the facet it is tied to; unused: -1
+  double weight[3] = {0, 0, 0};
+  int tool = -1;                   ///< tied to this tool instead
+  Vec3 kept = Vec3::Zero();        ///< r in the frame of the facet, or the vertex' place in that of the tool, m
+
+  int corners() const { return corner[0] < 0 ? 0 : corner[2] < 0 ? 2 : 3; }
 };
 
 /// The nodes of all listed pairs, gathered so that pairs address them densely.

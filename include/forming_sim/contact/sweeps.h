@@ -4,7 +4,7 @@
 // impulse by the nearest one within the Coulomb cone.
 #include <vector>
 
-#include "forming_sim/contact/pair.h"
+#include "forming_sim/contact/ties.h"
 
 namespace forming_sim {
 
@@ -20,13 +20,13 @@ struct SweepResult {
   bool open = true;       ///< every pair that can be moved ends with a gap > 0
 };
 /// Sweeps until every pair ends with a gap > 0 and nothing changes by more than
-/// `tolerance`, at most `most` times. Sets end_gap.
-SweepResult solve_pairs(double dt, double tolerance, int most, Workspace& work, std::vector<ContactPair>& pairs);
+/// `tolerance`, at most `most` times; in each sweep ties come before pairs. Sets end_gap.
+SweepResult solve_pairs(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, std::vector<ContactPair>& pairs);
 
 /// Where the energy of a step went, J; see ContactStep.
 struct PairWork {
-  double tool = 0, held = 0, friction = 0, normal = 0;  ///< normal: of the impulses along the normals on the relative motion
+  double tool = 0, held = 0, friction = 0, normal = 0;  ///< normal: of the impulses along the normals, and of ties, on the relative motion
 };
-PairWork work_of(const Workspace& work, const std::vector<ContactPair>& pairs);
+PairWork work_of(const Workspace& work, const std::vector<TiePair>& ties, const std::vector<ContactPair>& pairs);
 
 }  // namespace forming_sim

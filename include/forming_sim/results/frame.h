@@ -52,6 +52,8 @@ struct Frame {
   std::vector<float> volume_ratio;     ///< V/V0, per element
   std::vector<float> surface_strain;   ///< largest in-plane log strain, per surface facet
   std::vector<float> contact_pressure; ///< normal, Pa, per node; 0 inside
+  std::vector<float> contact_gap;      ///< to the nearest other surface, m, per node; empty where nothing can meet
+  std::vector<float> contact_slip;     ///< slid so far, m, per node; empty where nothing rubs
   std::vector<FrameTool> tools;         ///< in the order of ResultHeader::tools
 };
 
@@ -65,6 +67,7 @@ struct FrameEntry {
   long step = 0;
   bool interrupted = false;
   std::vector<bool> tools_present;
+  bool gap = false, slip = false;      ///< has contact_gap, contact_slip
 };
 
 }  // namespace forming_sim

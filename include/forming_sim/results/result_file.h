@@ -10,7 +10,8 @@
 //   /bodies/<index>         attribute name; sets/<index>: attribute name, nodes, int32
 //   /tools/<index>          attribute name; points (m), facets, or plane_point and plane_normal
 //   /frames/NNNNNN          attributes time, step, stage, interrupted; positions, velocities, plastic_strain,
-//                           contact_pressure, stress (xx yy zz xy yz zx), mises, volume_ratio, surface_strain;
+//                           contact_pressure, contact_gap where anything can meet, contact_slip
+//                           where anything rubs, stress (xx yy zz xy yz zx), mises, volume_ratio, surface_strain;
 //                           tools/<index>: points (m, as they stand), position, rotation, force,
 //                           attribute present
 //

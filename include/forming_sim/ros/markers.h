@@ -1,5 +1,5 @@
 #pragma once
-// A run as rviz markers: the sheet coloured by plastic strain, tools, a legend.
+// A run as rviz markers: the sheet coloured by plastic strain or a field of contact, tools, a legend.
 // Namespaces and ids are fixed: sheet 0; tools k, tool_edges k for tool k;
 // legend 0 to 6.
 #include <string>
@@ -15,7 +15,9 @@ namespace forming_sim {
 struct MarkerOptions {
   std::string frame = "forming_world";
   int triangle_budget = 20000;  ///< of sheet and tools together
-  double colour_max = 0;        ///< plastic strain at the upper end of the scale; 0: the largest so far
+  std::string colour_by = "plastic_strain";  ///< one of colours()
+  double colour_max = 0;        ///< value at the upper end of the scale, SI; 0: the largest so far
+  static const std::vector<std::string>& colours();
 };
 
 class RunMarkers {
@@ -31,6 +33,8 @@ class RunMarkers {
 
  private:
   visualization_msgs::Marker marker(const std::string& ns, int id, int type, const ros::Time& stamp) const;
+  /// The field that colours, per drawn node.
+  std::vector<double> values(const RunFrame& frame) const;
   void add_sheet(const RunFrame& frame, const ros::Time& stamp, visualization_msgs::MarkerArray& array) const;
   void add_tools(const RunFrame& frame, const ros::Time& stamp, visualization_msgs::MarkerArray& array) const;
   void add_legend(const RunFrame& frame, const ros::Time& stamp, visualization_msgs::MarkerArray& array) const;

@@ -1,5 +1,5 @@
 #pragma once
-// The topics of a run: deformed_mesh, plastic_strain with its topology,
+// The topics of a run: deformed_mesh, plastic_strain with its topology, contact,
 // tool_forces/<name>, status. Used by the server and by the replay of a result.
 #include <chrono>
 #include <functional>
@@ -16,7 +16,7 @@ namespace forming_sim {
 struct PublishOptions {
   double rate = 10;       ///< Hz of wall clock, at most
   MarkerOptions markers;
-  /// Parameters publish_rate, triangle_budget, colour_max, frame.
+  /// Parameters publish_rate, triangle_budget, colour_by, colour_max, frame.
   /// Throws Error(invalid_scene) naming a parameter out of range.
   static PublishOptions read(const ros::NodeHandle& node);
 };
@@ -29,6 +29,8 @@ class RunPublisher {
   void start(const RunShape& shape);
   /// True once the time to publish again has come; costs a look at the clock.
   bool is_due() const { return std::chrono::steady_clock::now() >= next_; }
+  /// Does anybody look at the fields of contact?
+  bool wants_contact() const;
   /// Sends what somebody listens to; `always`: also to the latched topics that
   /// nobody listens to yet.
   /// Messages are built only here; nothing waits for a subscriber.
@@ -38,13 +40,15 @@ class RunPublisher {
 
  private:
   void publish_strain(const RunFrame& frame, const ros::Time& stamp);
+  void publish_contact(const RunFrame& frame, const ros::Time& stamp, bool always);
   void publish_forces(const RunFrame& frame, const ros::Time& stamp, bool always);
 
   ros::NodeHandle node_;
   PublishOptions options_;
-  ros::Publisher mesh_, strain_, topology_, status_;
+  ros::Publisher mesh_, strain_, topology_, contact_, status_;
   std::vector<ros::Publisher> forces_;
   RunMarkers markers_;
+  std::vector<int> surface_nodes_;
   std::chrono::steady_clock::time_point next_{};
 };
 

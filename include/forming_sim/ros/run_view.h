@@ -30,13 +30,15 @@ struct RunFrame {
   std::string stage;
   NodeField positions;                      ///< m
   std::vector<double> plastic_strain;       ///< per element
+  std::vector<double> contact_pressure, contact_gap, contact_slip;  ///< per node, Pa, m, m; empty where not asked for, and where nothing can meet or rub
   std::vector<ToolStatus> tools;            ///< as RunShape::tools
   /// False where a position or a strain is not a finite number.
   bool is_finite() const;
 };
 
 RunShape shape_of(const Simulation& simulation, const std::string& scene);
-RunFrame frame_of(const Simulation& simulation);
+/// contact: with the fields of contact, which are searched for.
+RunFrame frame_of(const Simulation& simulation, bool contact);
 
 /// Name of the stage that is running, of the last one at the end.
 std::string stage_name(const Simulation& simulation);

@@ -78,6 +78,10 @@ class Simulation {
   /// Normal contact pressure on the surface per node, Pa: force over the area that the
   /// node stood for at the start, a running mean as the tool forces are. 0 inside.
   const std::vector<double>& contact_pressure() const;
+  /// Per node, m, as Contact::gaps and Contact::slip have them; empty where nothing can meet, or rub.
+  /// The gaps are searched at every call.
+  std::vector<double> contact_gap() const;
+  const std::vector<double>& contact_slip() const;
 
   // ---- checkpoint: every number that the next steps depend on
   std::vector<char> save() const;

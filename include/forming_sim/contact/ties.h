@@ -1,0 +1,50 @@
+#pragma once
+// Surfaces that are tied: vertices of one that stay where they were on the other.
+//
+// A tie keeps r = x_vertex - sum w_k x_k (w_k: weights of the nearest point of a
+// facet at the start) at the place it had in the frame of that facet; of a rigid
+// tool in the frame of the tool. Its impulse makes the end of the step exact,
+//   r + dt (v_vertex - sum w_k v_k) = r_kept,
+// in the sweeps of contact, all others held. Nothing drifts, the stable step is
+// not changed (a constraint only removes motion), and no work is done but that
+// of a tool.
+#include <string>
+#include <vector>
+
+#include "forming_sim/contact/list.h"
+
+namespace forming_sim {
+
+/// A tie in a step: nodes of the workspace, as a pair has them.
+struct TiePair : Link {
+  int tie = -1;
+  int tool = -1;
+  Node missing = Node::Zero();     ///< r_kept - r at the start of the step, m
+  Mat3 mass = Mat3::Zero();        ///< inverse of sum b^2 P/m over the directions that can move, kg
+  Node impulse = Node::Zero();     ///< N s
+};
+
+/// Finds what the pairs of kind tied tie, with the bodies at x and the tools'
+/// vertices at `place`, as the user gave them; sets `tie` of the relations and
+/// the tied zones of the features. Of two bodies the vertices of the one with
+/// the shorter edges are tied. Throws Error(invalid_scene) where nothing of a
+/// pair is near enough, with the distance.
+std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const NodeField& place, const std::vector<bool>& is_plane,
+                           const std::vector<PlanePose>& planes, Features& features);
+
+/// Remembers the places at which the ties are kept: x and the tools' poses now.
+void keep_ties(const NodeField& x, const std::vector<ToolMotion>& motion, std::vector<Tie>& ties);
+
+/// Fills nodes and weights from the workspace's numbers, and the masses; called
+/// where the list was built. `entries`: place in the workspace of each tie's
+/// vertex, its corners, or its foot.
+TiePair link_tie(const Tie& tie, int index, const int* entries);
+void prepare_tie(const Workspace& work, TiePair& pair);
+
+/// Sets `missing` for a step that starts at work.x.
+void aim_tie(const Tie& tie, const Workspace& work, TiePair& pair);
+
+/// One visit; changes work.v. Returns the largest change of a place, m.
+double sweep_tie(double dt, Workspace& work, TiePair& pair);
+
+}  // namespace forming_sim

@@ -1,0 +1,45 @@
+#include <algorithm>
+#include <set>
+
+#include "forming_sim/config/words.h"
+#include "rules.h"
+
+namespace forming_sim {
+namespace {
+
+void check_pair(const Scene& scene, const PairConfig& pair, const std::string& path, FaultList& faults) {
+  std::vector<std::string> bodies, all;
+  for (const BodyConfig& body : scene.bodies) bodies.push_back(body.name);
+  all = bodies;
+  for (const ToolConfig& tool : scene.tools) all.push_back(tool.name);
+  const auto knows = [](const std::vector<std::string>& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); };
+  if (!pair.first.empty() && !knows(bodies, pair.first))
+    faults.add(path + ".first", given_text(pair.first), "give one of the bodies " + one_of(bodies, ", ") + did_you_mean(pair.first, bodies));
+  if (!pair.second.empty() && !knows(all, pair.second))
+    faults.add(path + ".second", given_text(pair.second), "give one of the bodies and tools " + one_of(all, ", ") + did_you_mean(pair.second, all));
+  if (pair.kind == "tied" && scene.contact.method != "implicit")
+    faults.add(path + ".kind", given_text(pair.kind), "set contact.method to implicit: the baselines know no ties");
+  if (pair.first != pair.second || pair.first.empty()) return;
+  if (pair.kind == "tied") faults.add(path + ".kind", "tied, of a body and itself", "give two different names");
+  for (const BodyConfig& body : scene.bodies)
+    if (body.name == pair.first && !body.self_contact && pair.kind != "none")
+      faults.add(path, "a pair of " + pair.first + " and itself", "set self_contact of the body to true, or leave the pair out");
+}
+
+}  // namespace
+
+void check_contact(const Scene& scene, FaultList& faults) {
+  const ContactConfig& contact = scene.contact;
+  if (contact.method == "explicit" && contact.coefficient > 0 && contact.stiffness > 0)
+    faults.add("contact.stiffness", given_text(contact.stiffness), "leave it out, or leave out coefficient: the coefficient c of the force already says how stiff the layer is");
+  std::set<std::pair<std::string, std::string>> seen;
+  for (std::size_t i = 0; i < contact.pairs.size(); ++i) {
+    const PairConfig& pair = contact.pairs[i];
+    const std::string path = join_path("contact.pairs", i);
+    check_pair(scene, pair, path, faults);
+    if (!seen.insert(std::minmax(pair.first, pair.second)).second)
+      faults.add(path, pair.first + " and " + pair.second + " again", "give each pair once");
+  }
+}
+
+}  // namespace forming_sim
