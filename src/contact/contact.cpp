@@ -116,7 +116,7 @@ const std::vector<Vec3>& Contact::body_shifts() const { return impl_->body_shift
 const std::vector<std::string>& Contact::warnings() const { return impl_->warnings; }
 
 namespace {
-constexpr std::uint64_t kMagic = 0x33746361746e6f43u;  // "Contact3"
+constexpr std::uint64_t kMagic = 0x34746361746e6f43u;  // "Contact4"
 struct SavedHeader {
   std::uint64_t magic, vertices, facets, records, tools;
   double potential, previous_dt;

@@ -31,7 +31,7 @@ struct ContactPair {
   double weight[4] = {0, 0, 0, 0};  ///< b: positive on the first feature, negative on the second, sum 0
   int node[4] = {-1, -1, -1, -1};   ///< in the workspace
   int nodes = 0;
-  int surface = -1;            ///< the second feature's surface
+  int own = -1, surface = -1;  ///< surfaces of the first and of the second feature
   int tool = -1;
   double gap = 0;              ///< h at the start of the step, m
   double layer = 0;            ///< h0 of this pair, m
