@@ -32,7 +32,9 @@ void pair_nearest_nodes(double reach, double travel, NearList& list, const Featu
     ContactPair pair;
     const bool swap = vertex < g.vertex;
     pair.key = PairKey::make(PairKey::vertex_facet, std::min(vertex, g.vertex), Closest::corner, std::max(vertex, g.vertex));
-    pair.surface = swap ? features.vertex_surface[g.vertex] : g.surface;
+    pair.own = features.vertex_surface[g.vertex];
+    pair.surface = g.surface;
+    if (swap) std::swap(pair.own, pair.surface);
     pair.nodes = 2;
     pair.node[0] = swap ? node : g.node;
     pair.node[1] = swap ? g.node : node;

@@ -60,6 +60,7 @@ double Contact::Impl::nearest_side(const NearList::VertexGroup& g, double deepes
     pair.gap = along < 0 ? -distance : distance;
     pair.normal = distance > 1e-6 * layer ? Node(q.apart / pair.gap) : outward;
     pair.key = PairKey::make(PairKey::vertex_facet, g.vertex, q.feature, e.facet);
+    pair.own = features.vertex_surface[g.vertex];
     pair.surface = g.surface;
     // Unknown inside, or beside the end of an open surface, or lost.
     if (sides[e.facet] == 0 || (along < 0 && on_border) || pair.gap < -deepest) pair.nodes = 0;

@@ -1,6 +1,7 @@
 #include "forming_sim/contact/layers.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/law.h"
@@ -14,45 +15,86 @@ double closing_speed(const ContactPair& pair, const Workspace& work) {
   return std::max(0.0, -vn);
 }
 
+/// A vertex (or, + kEdge, an edge) and the surface that it meets.
+struct Meeting {
+  std::int64_t feature;
+  int surface;
+  bool operator<(const Meeting& o) const { return feature != o.feature ? feature < o.feature : surface < o.surface; }
+};
+constexpr std::int64_t kEdge = std::int64_t{1} << 32;
+
+// The meetings that a pair is: of its first feature with the surface of the
+// second and, between two vertices or two edges, the reverse. Returns their number.
+template <class PairOrRecord> int meetings(const PairOrRecord& pair, Meeting (&all)[2]) {
+  const bool edges = pair.key.kind() == PairKey::edge_edge;
+  const std::int64_t tag = edges ? kEdge : 0;
+  all[0] = {tag + static_cast<std::int64_t>(pair.key.group & 0xffffffffu), pair.surface};
+  all[1] = {tag + static_cast<std::int64_t>(pair.key.feature & 0xffffffffu), pair.own};
+  return edges || (pair.key.kind() == PairKey::vertex_facet && pair.key.feature >> 32 == Closest::corner) ? 2 : 1;
+}
+
+/// The records whose pairs are gone, by their meetings; each may be taken once.
+class Left {
+ public:
+  Left(const std::vector<LayerRecord>& before, const std::vector<ContactPair>& pairs) {
+    size_t p = 0;
+    for (const LayerRecord& record : before) {
+      while (p < pairs.size() && pairs[p].key < record.key) ++p;
+      if (p < pairs.size() && pairs[p].key == record.key) continue;
+      Meeting all[2];
+      const int count = meetings(record, all);
+      for (int k = 0; k < count; ++k) entries_.push_back({all[k], static_cast<int>(records_.size())});
+      records_.push_back(&record);
+    }
+    std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.meeting < b.meeting || (!(b.meeting < a.meeting) && a.record < b.record); });
+  }
+
+  /// Gives the pair the layer of the one from which it is thickest, if there is any.
+  void inherit(ContactPair& pair) {
+    Meeting all[2];
+    const int count = meetings(pair, all);
+    const LayerRecord** taken = nullptr;
+    for (int k = 0; k < count; ++k) {
+      auto e = std::lower_bound(entries_.begin(), entries_.end(), all[k], [](const Entry& a, const Meeting& m) { return a.meeting < m; });
+      for (; e != entries_.end() && !(all[k] < e->meeting); ++e) {
+        const LayerRecord*& parent = records_[e->record];
+        if (!parent) continue;
+        const double layer = std::min(parent->layer, pair.gap * std::max(1.0, parent->layer / parent->gap));
+        if (layer <= pair.layer) continue;
+        pair.layer = layer;
+        taken = &parent;
+      }
+    }
+    if (taken) *taken = nullptr;
+  }
+
+ private:
+  struct Entry {
+    Meeting meeting;
+    int record;
+  };
+  std::vector<const LayerRecord*> records_;
+  std::vector<Entry> entries_;
+};
+
 }  // namespace
 
 void assign_layers(const std::vector<LayerRecord>& before, const Workspace& work, double dt, double full, double ceiling,
                    std::vector<ContactPair>& pairs) {
+  std::unique_ptr<Left> left;
   size_t r = 0;
-  for (size_t first = 0; first < pairs.size();) {
-    size_t last = first;
-    while (last < pairs.size() && pairs[last].key.group == pairs[first].key.group) ++last;
-    while (r < before.size() && before[r].key.group < pairs[first].key.group) ++r;
-    size_t r_last = r;
-    while (r_last < before.size() && before[r_last].key.group == pairs[first].key.group) ++r_last;
-
-    const auto lives = [&](const LayerRecord& record) {
-      for (size_t i = first; i < last; ++i)
-        if (pairs[i].key == record.key) return true;
-      return false;
-    };
-    for (size_t i = first; i < last; ++i) {
-      ContactPair& pair = pairs[i];
-      const LayerRecord* known = nullptr;
-      for (size_t k = r; k < r_last; ++k)
-        if (before[k].key == pair.key) known = &before[k];
-      if (known) {
-        pair.layer = pair.base < full ? std::min(known->layer, pair.base) : known->layer;
-      } else if (pair.gap >= pair.base) {
-        const double raised = std::min(ceiling, 0.1 * closing_speed(pair, work) * dt);
-        pair.layer = std::max(pair.base, std::min(pair.gap, raised));
-      } else {
-        pair.layer = pair.gap;
-        for (size_t k = r; k < r_last; ++k) {
-          const LayerRecord& parent = before[k];
-          if (parent.surface != pair.surface || lives(parent)) continue;
-          const double same_potential = pair.gap * std::max(1.0, parent.layer / parent.gap);
-          pair.layer = std::max(pair.layer, std::min(parent.layer, same_potential));
-        }
-      }
+  for (ContactPair& pair : pairs) {
+    while (r < before.size() && before[r].key < pair.key) ++r;
+    if (r < before.size() && before[r].key == pair.key) {
+      pair.layer = pair.base < full ? std::min(before[r].layer, pair.base) : before[r].layer;
+    } else if (pair.gap >= pair.base) {
+      const double raised = std::min(ceiling, 0.1 * closing_speed(pair, work) * dt);
+      pair.layer = std::max(pair.base, std::min(pair.gap, raised));
+    } else {
+      pair.layer = pair.gap;
+      if (!left) left = std::make_unique<Left>(before, pairs);
+      left->inherit(pair);
     }
-    first = last;
-    r = r_last;
   }
 }
 
@@ -64,7 +106,7 @@ RelaxedPotential relax_layers(double growth, std::vector<ContactPair>& pairs, st
     pair.layer = old < pair.base ? std::min(pair.base, old + growth) : std::max(pair.base, old - growth);
     potential.before += before;
     potential.after += pair.layer == old ? before : mild_potential(pair.end_gap, pair.layer, pair.stiffness);
-    if (pair.end_gap < std::max(pair.layer, pair.base)) after.push_back({pair.key, pair.surface, pair.layer, pair.end_gap});
+    if (pair.end_gap < std::max(pair.layer, pair.base)) after.push_back({pair.key, pair.own, pair.surface, pair.layer, pair.end_gap});
   }
   return potential;
 }

@@ -50,6 +50,7 @@ class Phase {
     if (!c.crossing || !(distance > 0)) return distance;
     ContactPair pair;
     pair.key = PairKey::make(PairKey::edge_edge, e.first, 0, e.second);
+    pair.own = f_.edges[e.first].surface;
     pair.surface = f_.edges[e.second].surface;
     pair.nodes = 4;
     const double weight[4] = {1 - c.s, c.s, c.t - 1, -c.t};
@@ -111,6 +112,7 @@ class Phase {
     const Closest& c = hit.closest;
     ContactPair pair;
     pair.base = layer_;
+    pair.own = f_.vertex_surface[g.vertex];
     pair.surface = g.surface;
     pair.node[0] = g.node;
     pair.weight[0] = 1;
@@ -132,7 +134,7 @@ class Phase {
     if (c.feature == Closest::corner && second < first) {  // the same pair is found from both sides
       std::swap(first, second);
       std::swap(pair.node[0], pair.node[1]);
-      pair.surface = f_.vertex_surface[second];
+      std::swap(pair.own, pair.surface);
     }
     pair.key = PairKey::make(PairKey::vertex_facet, first, c.feature, second);
     Node d = c.apart;
@@ -200,6 +202,7 @@ void add_plane_pairs(const Features& features, const Workspace& work, const std:
     if (gap > reach) continue;
     ContactPair pair;
     pair.key = PairKey::make(PairKey::plane, p.vertex, 0, p.tool);
+    pair.own = features.vertex_surface[p.vertex];
     pair.surface = features.bodies + p.tool;
     pair.nodes = 2;
     pair.node[0] = p.node;

@@ -130,9 +130,8 @@ void Contact::Impl::set_constants(ContactPair& pair) const {
       ++count;
     }
   pair.stiffness = count > 0 ? modulus * layer * sum / count : 0;
-  const int other = features.vertex_surface[work.vertex[pair.node[0]]];
-  pair.tool = std::max(-1, std::max(pair.surface, other) - features.bodies);
-  pair.friction = features.relation(pair.surface, other).friction;
+  pair.tool = std::max(-1, std::max(pair.own, pair.surface) - features.bodies);
+  pair.friction = features.relation(pair.own, pair.surface).friction;
   prepare_pair(work, pair);
 }
 

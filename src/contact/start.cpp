@@ -10,13 +10,16 @@
 namespace forming_sim {
 namespace {
 
-// A vertex near a facet of the other side, with the gap signed by what is inside.
+// A vertex near a facet of the other side, or an edge near an edge, with the gap signed by what is inside.
 struct StartGap {
   int vertex = -1;
-  int surface = -1;            ///< of the facet, or the plane
+  int surface = -1;            ///< of the facet, the second edge or the plane
   double gap = 0;              ///< to the tool set back; negative inside
   Node away = Node::Zero();    ///< from the tool to the body; of two bodies from the facet to the vertex
+  int end = -1;                ///< of an edge from `vertex` on; -1: a vertex alone
 };
+
+constexpr double kWedge = 1e-3;  // slope up to which a direction counts as along a facet
 
 class Start {
  public:
@@ -64,6 +67,11 @@ class Start {
         if (f_.rigid(g.vertex)) gap.away = -gap.away;
       }
       found.push_back(gap);
+    }
+    for (const auto& e : list.edges) {
+      const int other = f_.edges[e.second].surface;
+      if ((other >= f_.bodies) != (tool >= 0) || f_.edges[e.first].surface == other) continue;
+      add_edge_gap(e.first, e.second, at, found);
     }
     return found;
   }
@@ -130,6 +138,44 @@ class Start {
     return least;
   }
 
+  // Two edges meet along the one normal of both that points out of the wedge of
+  // the second and into that of the first; this tells the sign of their gap, also
+  // where they touch or overlap.
+  template <class At> void add_edge_gap(int first, int second, At&& at, std::vector<StartGap>& found) const {
+    const auto &a = f_.edges[first].node, &b = f_.edges[second].node;
+    if (!closest_on_edges(at(a[0]), at(a[1]), at(b[0]), at(b[1])).crossing) return;
+    const Node common = cross3(at(a[1]) - at(a[0]), at(b[1]) - at(b[0])).normalized();
+    for (const double sense : {1., -1.}) {
+      const Node n = sense * common;
+      if (!leaves(second, n, at) || !leaves(first, -n, at)) continue;
+      found.push_back({a[0], f_.edges[second].surface, dot3(n, at(a[0]) - at(b[0])), n, a[1]});
+      return;
+    }
+  }
+
+  // Does n point out of the solid wedge at an edge, beside none of its facets?
+  template <class At> bool leaves(int edge, const Node& n, At&& at) const {
+    const Features::Edge& e = f_.edges[edge];
+    if (e.facets > 2) return false;
+    const Node u = at(e.node[1]) - at(e.node[0]);
+    double outward = 0;
+    for (int k = 0; k < e.facets; ++k) {
+      const Node r = at(e.opposite[k]) - at(e.node[0]), inward = r - dot3(r, u) / dot3(u, u) * u;
+      if (dot3(n, inward) > kWedge * inward.norm()) return false;
+      outward += dot3(n, outward_normal(e, k, at));
+    }
+    return outward > kWedge;
+  }
+
+  template <class At> Node outward_normal(const Features::Edge& e, int k, At&& at) const {
+    std::array<int, 3> c{e.node[0], e.node[1], e.opposite[k]};
+    std::sort(c.begin(), c.end());
+    const Features::Surface& s = f_.surfaces[e.surface];
+    const auto facet = std::find(f_.facets.begin() + s.first_facet, f_.facets.begin() + s.last_facet, c) - f_.facets.begin();
+    const int side = f_.rigid(c[0]) ? sides_[facet] : f_.facet_outward[facet];
+    return side * facet_normal(3, at(c[0]), at(c[1]), at(c[2]));
+  }
+
   double layer_;
   const std::vector<int>& sides_;
   const ContactSetup& setup_;
@@ -180,8 +226,9 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
       if (g.gap >= -1.001 * layer) continue;
       const Node& p = g.vertex < f.body_nodes ? x[g.vertex] : place[g.vertex - f.body_nodes];
       std::ostringstream text;
-      text << start.vertex_name(g.vertex, p) << " lies " << layer - g.gap << " m deep in "
-           << (g.vertex < f.body_nodes ? "tool " + setup.tools[t].name : "a body");
+      text << start.vertex_name(g.vertex, p);
+      if (g.end >= 0) text << " and " << start.vertex_name(g.end, x[g.end]) << " are joined by an edge that";
+      text << " lies " << layer - g.gap << " m deep in " << (g.vertex < f.body_nodes ? "tool " + setup.tools[t].name : "a body");
       refused.push_back(text.str());
       told[t] = true;
     }

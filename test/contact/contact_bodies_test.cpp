@@ -71,15 +71,7 @@ TEST(ContactBodies, AStackThatTouchesIsPartedAndRests) {
       EXPECT_NEAR(contact.body_shifts()[k].y() - contact.body_shifts()[k - 1].y(), 1e-4, 1e-8);
     }
   }
-  for (const ContactSurface& body : world.bodies) {
-    std::vector<int> nodes;
-    for (const Facet& f : body.facets) nodes.insert(nodes.end(), f.nodes.begin(), f.nodes.begin() + 2);
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    const size_t k = static_cast<size_t>(&body - world.bodies.data());
-    const int first = nodes.front(), last = k + 1 < world.bodies.size() ? nodes.back() : static_cast<int>(world.x.size()) - 1;
-    for (int n = first; n <= last; ++n) world.x[n] += node(contact.body_shifts()[k]);
-  }
+  world.take_shifts(contact);
   run(world, contact, 1e-5, 200);
   double fastest = 0;
   for (const Node& v : world.v) fastest = std::max(fastest, v.norm());

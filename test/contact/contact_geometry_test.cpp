@@ -117,6 +117,25 @@ TEST(ContactContinuous, NearlyParallelEdgesThatCross) {
   }
 }
 
+// Features that turn about the point where they nearly touch: their ends move a million gaps, the point does not.
+TEST(ContactContinuous, TurningAboutASmallGapIsNoTouch) {
+  for (double gap : {1e-6, 1e-9, 1e-12}) {
+    const Node edges[4] = {Node(-1, 0, gap, 0), Node(1, 0, gap, 0), Node(0, -1, 0, 0), Node(0, 1, 0, 0)};
+    const Node turn[4] = {Node(0, 0, 1e-2, 0), Node(0, 0, -1e-2, 0), Node(0, 0, -2e-2, 0), Node(0, 0, 2e-2, 0)};
+    EXPECT_FALSE(edges_meet(edges, turn, 1e-3 * gap)) << gap;
+    // The same, and two gaps closer: they touch.
+    Node closer[4];
+    for (int k = 0; k < 4; ++k) closer[k] = turn[k] - (k < 2 ? Node(0, 0, 2 * gap, 0) : Node(Node::Zero()));
+    EXPECT_TRUE(edges_meet(edges, closer, 1e-3 * gap)) << gap;
+
+    const Node flat[3] = {Node(0, gap, 0, 0), Node(-1, 0, 0, 0), Node(1, 0, 0, 0)};
+    const Node rock[3] = {Node::Zero(), Node(0, 1e-2, 0, 0), Node(0, -1e-2, 0, 0)};
+    EXPECT_FALSE(point_meets_facet(2, flat, rock, 1e-3 * gap)) << gap;
+    const Node fall[3] = {Node(0, -2 * gap, 0, 0), rock[1], rock[2]};
+    EXPECT_TRUE(point_meets_facet(2, flat, fall, 1e-3 * gap)) << gap;
+  }
+}
+
 // Every vertex-facet and edge-edge pair within the radius is listed, no other.
 TEST(ContactSearch, ListAgainstAllPairs) {
   for (int dimension : {2, 3}) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/point_bodies.h"
+#include "contact/wedges.h"
 
 using contact_test::polyline;
 using contact_test::sheet;
@@ -111,6 +112,44 @@ TEST(ContactStart, DeepOverlapsAreRefusedWithPairsAndDepths) {
   box.config.layer = h0;
   box.add_tool("die", sheet(3, 1, [](double, double) { return 0.; }), 0, [](double) { return Vec3(.013, .007, 0); });
   refused(box, "pierces");
+}
+
+// Crossed ridges that touch or overlap between their nodes: no vertex is near the other's surface, only edges are.
+TEST(ContactStart, EdgesThatTouchOrOverlapALittleAreParted) {
+  for (double gap : {.5, 0., -.5, -1.9})
+    for (int other_is_tool = 0; other_is_tool < 2; ++other_is_tool) {
+      World world;
+      world.dimension = 3;
+      world.config.layer = h0;
+      contact_test::add_wedge(world, .5, 0, 1e9);
+      if (other_is_tool)
+        world.add_tool("ridge", contact_test::ridge(2, .5, .5, M_PI / 2), 0, [gap](double) { return Vec3(.13, .04, -gap * h0); });
+      else
+        contact_test::add_wedge(world, .5, -gap * h0, 1e9, true);
+      Contact contact = world.make();
+      world.take_shifts(contact);
+      for (int i = 0; i < 100; ++i) EXPECT_LT(force_at_rest(world, contact), 1e-3) << gap << " " << other_is_tool;
+      EXPECT_EQ(world.crossings, 0);
+      EXPECT_EQ(world.halvings, 0);
+    }
+}
+
+TEST(ContactStart, EdgesThatOverlapMoreAreRefused) {
+  World world;
+  world.dimension = 3;
+  world.config.layer = h0;
+  contact_test::add_wedge(world, .5, 0, 1e9);
+  world.add_tool("ridge", contact_test::ridge(2, .5, .5, M_PI / 2), 0, [](double) { return Vec3(.13, .04, 3 * h0); });
+  try {
+    world.make();
+    FAIL() << "not refused";
+  } catch (const Error& e) {
+    const std::string text = e.what();
+    EXPECT_EQ(e.code(), Code::initial_penetration);
+    EXPECT_NE(text.find("node 0 of body wedge0"), std::string::npos) << text;
+    EXPECT_NE(text.find("edge that lies 0.00"), std::string::npos) << text;
+    EXPECT_NE(text.find("tool ridge"), std::string::npos) << text;
+  }
 }
 
 // The surface the user gave is where the layer ends: facets are set back by h0,

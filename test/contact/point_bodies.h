@@ -1,6 +1,7 @@
 #pragma once
 // Bodies of lumped nodes for the tests of contact: a mesh gives the surface,
 // springs (or nothing) hold the nodes together.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -66,6 +67,23 @@ struct World {
     for (double m : mass) inverse.push_back(1 / m);
     contact.set_masses(inverse, held);
     return contact;
+  }
+  /// First and last node of a body, by its surface.
+  std::pair<int, int> nodes_of(const ContactSurface& body) const {
+    std::pair<int, int> range(static_cast<int>(x.size()), -1);
+    for (const Facet& f : body.facets)
+      for (int k = 0; k < dimension; ++k) {
+        range.first = std::min(range.first, f.nodes[k]);
+        range.second = std::max(range.second, f.nodes[k]);
+      }
+    return range;
+  }
+  /// Moves bodies that touched each other at the start, as the contact wants it.
+  void take_shifts(const Contact& contact) {
+    for (size_t b = 0; b < bodies.size(); ++b) {
+      const auto [first, last] = nodes_of(bodies[b]);
+      for (int n = first; n <= last; ++n) x[n] += node(contact.body_shifts()[b]);
+    }
   }
   void spring_forces() {
     force.assign(x.size(), Node::Zero());

@@ -10,7 +10,7 @@ namespace forming_sim {
 /// Kept of a pair that ended a step inside its layer.
 struct LayerRecord {
   PairKey key;
-  std::int64_t surface;  ///< of the second feature; 8 bytes, so that a record has no gaps
+  std::int32_t own, surface;  ///< surfaces of the first and of the second feature
   double layer;  ///< h0 of the pair, m
   double gap;    ///< h at the end of the step, m
 };
@@ -18,8 +18,9 @@ struct LayerRecord {
 /// Sets `layer` of all pairs; both lists in the order of the keys.
 ///  known            as it was; never more than half a layer for edges out of their wedge
 ///  new, h >= base   base, or .1 of the closing motion of the step where that is more, but not above h or `ceiling`
-///  new, h < base    h: no force at first. Where the same vertex has just left another feature of that
-///                   surface, the layer goes over so that the potential, a function of h/h0, does not rise.
+///  new, h < base    h: no force at first. Where the vertex or edge of either side has just left another
+///                   feature of the other surface, that pair's layer goes over, to one new pair, so that
+///                   the potential, a function of h/h0, does not rise.
 /// dt: of the step; work.v: predicted velocities. full: h0.
 void assign_layers(const std::vector<LayerRecord>& before, const Workspace& work, double dt, double full, double ceiling,
                    std::vector<ContactPair>& pairs);

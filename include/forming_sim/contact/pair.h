@@ -35,7 +35,7 @@ struct Link {
 struct ContactPair : Link {
   Node normal = Node::Zero();  ///< from the second feature to the first, length 1
   Node slip = Node::Zero();    ///< friction impulse, N s
-  int surface = -1;            ///< the second feature's surface
+  int own = -1, surface = -1;  ///< surfaces of the first and of the second feature
   int tool = -1;
   double gap = 0;              ///< h at the start of the step, m
   double layer = 0;            ///< h0 of this pair, m

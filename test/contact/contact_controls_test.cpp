@@ -1,0 +1,128 @@
+// Each safeguard of the contact, and what happens without it.
+#include <gtest/gtest.h>
+
+#include "contact/reduced.h"
+#include "contact/wedges.h"
+
+using contact_test::add_wedge;
+using contact_test::polyline;
+using contact_test::Reduced;
+using contact_test::ridge;
+using contact_test::World;
+using namespace forming_sim;
+
+namespace {
+
+/// Crossings in `steps` steps of dt with the pairs that `reduce` leaves.
+struct Count {
+  long crossings, active;
+};
+Count run(World world, const Reduced::Reduce& reduce, double dt, int steps) {
+  Reduced contact(world, reduce);
+  for (int i = 0; i < steps; ++i) contact.step(world, dt);
+  return {contact.crossings, contact.active};
+}
+
+World ridges(double speed, double layer) {
+  World world;
+  world.dimension = 3;
+  add_wedge(world, .5, 0, 1e9);
+  world.config.layer = layer;
+  for (auto& v : world.v) v = Node(.1 * speed, 0, -speed, 0);
+  world.add_tool("ridge", ridge(2, .5, .5, M_PI / 2), 0, [](double) { return Vec3(.13, .04, -.05); });
+  return world;
+}
+
+World knives(double angle, double off) {
+  World world;
+  world.dimension = 3;
+  add_wedge(world, .5, 0, 1e9);
+  world.config.layer = 2e-5;
+  for (auto& v : world.v) v = Node(0, 0, -300, 0);
+  world.add_tool("ridge", ridge(2, .1, .5, angle), 0, [off](double) { return Vec3(.03, off, -.02); });
+  return world;
+}
+
+World groove(double half_angle, double layer) {
+  World world;
+  world.add_strip(Vec3(0, .75, 0), 2, 2, .1, .1, 2700, 3e9, M_PI / 4 + .03);
+  world.config.layer = layer;
+  for (auto& v : world.v) v = Node(13, -500, 0, 0);
+  const double slope = 1 / std::tan(half_angle * M_PI / 180);
+  world.add_tool("groove", polyline({Vec3(-1.5, 1.5 * slope, 0), Vec3(0, 0, 0), Vec3(1.5, 1.5 * slope, 0)}), 0, [](double) { return Vec3::Zero(); });
+  return world;
+}
+
+}  // namespace
+
+// Two crossed ridges touch between their nodes: vertices and faces alone do not see each other.
+TEST(ContactControls, RidgesNeedTheirEdges) {
+  for (double speed : {5., 100., 500.})
+    for (double layer : {2e-3, 2e-5}) {
+      const double dt = 2e-5 * std::min(1., 100 / speed);
+      const int steps = static_cast<int>((.12 / speed + 1e-3) / dt);
+      const Count whole = run(ridges(speed, layer), nullptr, dt, steps), less = run(ridges(speed, layer), contact_test::without_edges, dt, steps);
+      EXPECT_EQ(whole.crossings, 0) << speed << " m/s, layer " << layer;
+      EXPECT_GT(whole.active, 0);
+      EXPECT_GT(less.crossings, 0) << speed << " m/s, layer " << layer;
+    }
+}
+
+// Knife on knife, the pairs of edges left out that are parallel to a hundredth: vertices and edges do not make up for them.
+TEST(ContactControls, KnivesNeedNearlyParallelEdges) {
+  for (double angle : {1e-4, 1e-3, 3e-3})
+    for (double off : {0., 1e-4, 1e-2}) {
+      const Count whole = run(knives(angle, off), nullptr, 1e-6, 300), less = run(knives(angle, off), contact_test::without_parallel_edges(1e-2), 1e-6, 300);
+      EXPECT_EQ(whole.crossings, 0) << angle << " rad, off by " << off;
+      // Where the knives are off by more than the angle makes up for, they slide past each other on their faces.
+      EXPECT_EQ(less.crossings > 0, off <= .5 * angle) << angle << " rad, off by " << off << ": " << less.crossings;
+    }
+}
+
+// The point of a groove: held by both walls, not by the nearer alone.
+TEST(ContactControls, AGrooveNeedsBothWalls) {
+  long less = 0;
+  for (double half : {15., 30., 60.})
+    for (double layer : {1e-2, 1e-3, 1e-5}) {
+      EXPECT_EQ(run(groove(half, layer), nullptr, 5e-6, 400).crossings, 0) << half << " degrees, layer " << layer;
+      less += run(groove(half, layer), contact_test::nearest_only, 5e-6, 400).crossings;
+    }
+  EXPECT_GT(less, 0);
+}
+
+// A wedge sharper than the mesh hits between two nodes: only its own node sees the body.
+TEST(ContactControls, ATipNeedsTheToolsNodes) {
+  for (double speed : {50., 500.}) {
+    World world;
+    world.add_strip(Vec3(-1, 0, 0), 4, 2, .5, .5, 2700, 5e9);
+    world.config.layer = 1e-3;
+    world.add_tool("wedge", polyline({Vec3(-.02, -1, 0), Vec3(0, 0, 0), Vec3(.02, -1, 0)}), 0, [speed](double t) { return Vec3(.23, -.01 + speed * t, 0); });
+    const double dt = 2e-5 * 50 / speed;
+    EXPECT_EQ(run(world, nullptr, dt, 400).crossings, 0);
+    EXPECT_GT(run(world, contact_test::without_tool_nodes, dt, 400).crossings, 0);
+  }
+}
+
+// A row of nodes slides fast off a plate, onto a face that lies half a layer below: the pairs with it are born inside
+// the layer. With a layer that is whole at once a node is thrown up by a part of h0 in one step.
+TEST(ContactControls, ANewFaceNeedsTheSoftStart) {
+  double thrown[2];
+  for (int soft = 0; soft < 2; ++soft) {
+    World world;
+    const double h0 = 1e-3, dt = 1e-6;
+    world.config.layer = h0;
+    world.add_strip(Vec3(-.35, 1.05 * h0, 0), 3, 1, .1, .1, 2700, 0);
+    for (auto& v : world.v) v = Node(300, 0, 0, 0);
+    world.add_tool("plate", polyline({Vec3(-1, 0, 0), Vec3(0, 0, 0)}), 0, [](double) { return Vec3::Zero(); });
+    // Ends behind the plate, out of reach of its end until a node is beside it.
+    world.add_tool("next", polyline({Vec3(2e-3, .5 * h0, 0), Vec3(3, .5 * h0, 0)}), 0, [](double) { return Vec3::Zero(); });
+    Reduced contact(world, nullptr, soft);
+    thrown[soft] = 0;
+    for (int i = 0; i < 2000; ++i) {
+      contact.step(world, dt);
+      for (const Node& v : world.v) thrown[soft] = std::max(thrown[soft], std::abs(v[1]));
+    }
+    EXPECT_EQ(contact.crossings, 0);
+  }
+  std::cout << "  thrown at " << thrown[1] << " m/s, without the soft start " << thrown[0] << " m/s\n";
+}
