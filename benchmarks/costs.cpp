@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "forming_sim/contact/contact.h"
+#include "layer_costs.h"
 #include "rows.h"
 #include "support/bodies.h"
 
@@ -141,6 +142,7 @@ std::vector<Row> costs(const Request&) {
     element_costs(family, 4000, "4k elements", rows);
     element_costs(family, 400000, "400k elements", rows);
   }
+  layer_costs(rows);
   contact_costs(3, "contact, 10k nodes on 20k facets, apart", rows);
   contact_costs(0.9, "contact, 10k nodes on 20k facets, pressed", rows);
   return rows;
