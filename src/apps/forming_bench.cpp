@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <map>
 #include <string>
 
@@ -55,9 +56,11 @@ int main(int argc, char** argv) {
   }
   if (request.arguments.size() > command->second.most_arguments) return usage(stderr);
   try {
+    if (!request.directory.empty()) std::filesystem::create_directories(request.directory);  // what cannot be kept is not begun
     const std::vector<Row> rows = command->second.run(request);
     print(rows);
     if (!request.directory.empty()) write(request.directory, command->first, rows);
+    if (std::fflush(stdout) != 0) throw std::runtime_error("the table could not be written");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "forming_bench %s: %s\n", command->first.c_str(), error.what());
     return 1;

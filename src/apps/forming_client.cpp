@@ -16,6 +16,10 @@ int main(int argc, char** argv) {
     return 64;
   }
   forming_sim::catch_stop_signals();
+  if (!forming_sim::wait_for_master("forming_client", request.wait_s)) {
+    std::fprintf(stderr, "forming_client: no ROS master; start one with `roscore`, or a server with `roslaunch forming_sim forming.launch`\n");
+    return 1;
+  }
   try {
     const ros::NodeHandle node;  // keeps the connection to the master while the client lives
     return forming_sim::run_client(request);

@@ -9,6 +9,7 @@
 #include "forming_sim/results/estimate.h"
 #include "forming_sim/results/progress_line.h"
 #include "forming_sim/results/run_scene.h"
+#include "forming_sim/results/start.h"
 #include "forming_sim/scene/schema.h"
 #include "forming_sim/scene/validate.h"
 
@@ -39,6 +40,10 @@ int perform(const OfflineOptions& options) {
   else {
     const Scene scene = read_valid_scene(options.scene);
     if (options.task == Task::run) return run(options, scene);
+    if (options.task == Task::validate) {
+      const std::vector<Fault> faults = validate_start(scene, {}, options.thread_count());
+      if (!faults.empty()) throw SceneError(faults);
+    }
     text = options.task == Task::estimate ? estimate_text(estimate_run(scene, options.thread_count())) : "The scene has no faults.\n";
   }
   std::fputs(text.c_str(), stdout);

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: forming_replay RESULT.h5 [_duration:=SECONDS] [_loop:=true]\n");
     return 64;
   }
+  if (!forming_sim::wait_for_master("forming_replay")) return 1;
   try {
     ros::NodeHandle node("~");
     forming_sim::ReplayOptions options;

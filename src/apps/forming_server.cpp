@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
     }
   ros::init(argc, argv, "forming_server", ros::init_options::NoSigintHandler);
   forming_sim::catch_stop_signals();
+  if (!forming_sim::wait_for_master("forming_server")) return 1;
   try {
     // Four threads: a service that meshes a large part holds up one of them only.
     ros::AsyncSpinner spinner(4);

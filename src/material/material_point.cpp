@@ -14,12 +14,15 @@ Vector<double, 3> column(const Mat3& F, int m) { return {{F(0, m), F(1, m), F(2,
 
 }  // namespace
 
-MaterialPoint::MaterialPoint(const SolidConstants& solid) : solid_(solid), memory_(memory_items<3>(solid)) {
+MaterialPoint::MaterialPoint(const SolidConstants& solid) : solid_(solid) { start(); }
+
+MaterialPoint::MaterialPoint(const MaterialConfig& config) : solid_(solid_constants(config, *tables_)) { start(); }
+
+void MaterialPoint::start() {
+  memory_.resize(memory_items<3>(solid_));
   start_memory<3>(solid_, {{1, 1, 1, 0, 0, 0}}, [&](int item, double value) { memory_[item] = value; });
   memory_.back() = 1.0 / 6;
 }
-
-MaterialPoint::MaterialPoint(const MaterialConfig& config) : MaterialPoint(solid_constants(config, tables_)) {}
 
 MaterialPoint::Answer MaterialPoint::step(const Mat3& F, bool keep) {
   Edges<double, 3> e;

@@ -121,6 +121,8 @@ std::string resolve_url(const std::string& url, const std::string& base_director
     throw Error(Code::mesh_error, "file \"" + url + "\": " + path.string() + " is a folder; name a file in it");
   if (!fs::exists(path, error))
     throw Error(Code::mesh_error, "file \"" + url + "\": there is no file " + fs::absolute(path, error).string());
+  if (!fs::is_regular_file(path, error))
+    throw Error(Code::mesh_error, "file \"" + url + "\": " + path.string() + " is not a regular file; name a mesh file");
   if (!std::ifstream(path))
     throw Error(Code::mesh_error, "file \"" + url + "\": " + path.string() + " cannot be opened for reading; check its permissions");
   return path.string();

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "forming_sim/results/schedule.h"
+#include "forming_sim/results/start.h"
 #include "forming_sim/scene/build.h"
 #include "forming_sim/scene/validate.h"
 
@@ -20,11 +21,13 @@ Estimate estimate_run(const Scene& scene, int threads) {
   std::vector<Fault> faults = validate(scene);
   if (!faults.empty()) throw SceneError(std::move(faults));
   Simulation simulation(build_plan(scene), build_model(scene), threads);
+  check_length(simulation);
   return estimate_run(simulation);
 }
 
 Estimate estimate_run(Simulation& simulation) {
   Estimate estimate;
+  for (const StageConfig& stage : simulation.plan().stages) estimate.settles = estimate.settles || stage.kind == "settle";
   estimate.nodes = simulation.model().node_count();
   estimate.elements = simulation.model().element_count();
   // The state and its copy in a checkpoint, and per element what is kept besides:
@@ -57,10 +60,10 @@ Estimate estimate_run(Simulation& simulation) {
 std::string estimate_text(const Estimate& estimate) {
   char text[512];
   std::snprintf(text, sizeof text,
-                "nodes        %ld\nelements     %ld\ntime step    %.3g s\nsteps        about %ld (settling by its limit)\n"
-                "wall time    about %.3g s on this machine (without contact that comes later)\nmemory       about %.3g MB\n",
-                estimate.nodes, estimate.elements, estimate.time_step_s, estimate.steps, estimate.wall_time_s,
-                estimate.memory_bytes / 1e6);
+                "nodes        %ld\nelements     %ld\ntime step    %.3g s at the start; it falls where cells are squeezed\nsteps        about %ld%s\n"
+                "wall time    about %.3g s on this machine (without contact that comes later)\nmemory       about %.3g MB for the solver's data\n",
+                estimate.nodes, estimate.elements, estimate.time_step_s, estimate.steps, estimate.settles ? " (settling by its limit)" : "",
+                estimate.wall_time_s, estimate.memory_bytes / 1e6);
   return text;
 }
 

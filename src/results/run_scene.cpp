@@ -3,7 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "forming_sim/results/directory_lock.h"
 #include "forming_sim/results/run_files.h"
+#include "forming_sim/results/start.h"
 #include "forming_sim/results/summary.h"
 #include "forming_sim/results/text_file.h"
 #include "forming_sim/scene/build.h"
@@ -26,12 +28,14 @@ void note_refusal(const Scene& scene, const std::string& directory, const std::v
 Outcome run_valid(const Scene& scene, const std::string& directory, int threads, const std::string& resume_file,
                   const std::atomic<bool>& cancel, const std::vector<Observer*>& extra) {
   make_output_directory(directory);
+  const DirectoryLock lock(directory);
   std::optional<Checkpoint> checkpoint;
   if (!resume_file.empty()) {
     checkpoint = load_checkpoint(resume_file);
     require_same_run(*checkpoint, scene, resume_file);
   }
   Simulation simulation(build_plan(scene), build_model(scene), threads);
+  check_length(simulation);
   if (checkpoint) simulation.restore(checkpoint->state);
   RunFiles files = open_run_files(simulation, scene, directory, checkpoint ? &*checkpoint : nullptr);
   for (const auto& observer : files.observers) simulation.add(*observer);
@@ -51,7 +55,8 @@ Outcome run_scene(const Scene& scene, const std::string& directory, int threads,
     note_refusal(scene, directory, error.faults(), error.code(), error.what());
     throw;
   } catch (const Error& error) {
-    note_refusal(scene, directory, {}, error.code(), error.what());
+    // What could not be written because of the directory is no business of what stands in it.
+    if (error.code() != Code::output_error) note_refusal(scene, directory, {}, error.code(), error.what());
     return {error.code(), error.what()};
   } catch (const std::exception& error) {
     note_refusal(scene, directory, {}, Code::internal_error, error.what());

@@ -136,7 +136,7 @@ int run_client(const ClientRequest& request) {
     std::fprintf(stderr, "the goal was rejected, %zu fault(s):\n", result.faults.size());
     print_faults(result);
   }
-  print_summary(result);
+  if (result.summary.steps > 0) print_summary(result);
   if (result.code == ResultCode::CANCELLED) return 130;
   return rejected ? 2 : 1;
 }

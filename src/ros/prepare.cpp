@@ -7,12 +7,10 @@
 #include <system_error>
 #include <thread>
 
+#include "forming_sim/results/start.h"
 #include "forming_sim/ros/convert.h"
 #include "forming_sim/ros/publisher.h"
-#include "forming_sim/scene/build.h"
-#include "forming_sim/scene/validate.h"
 #include "forming_sim/scene/yaml.h"
-#include "forming_sim/simulation/simulation.h"
 
 namespace forming_sim {
 
@@ -23,15 +21,8 @@ Prepared prepare(const SceneSpec& message, const std::string& scene_text, int th
   try {
     std::vector<Fault> known;
     prepared.scene = scene_from(message, known);
-    prepared.faults = validate(prepared.scene, known);
-    if (!prepared.faults.empty()) return prepared;
     prepared.scene.text = scene_text.empty() ? write_scene(prepared.scene) : scene_text;
-    // A body that starts inside a tool is found where the simulation is built.
-    Simulation(build_plan(prepared.scene), build_model(prepared.scene), threads);
-  } catch (const SceneError& error) {
-    prepared.faults.insert(prepared.faults.end(), error.faults().begin(), error.faults().end());
-  } catch (const Error& error) {
-    prepared.faults.push_back({error.code(), "scene", error.what(), "change the scene so that it can start"});
+    prepared.faults = validate_start(prepared.scene, known, threads);
   } catch (const std::exception& error) {
     prepared.faults.push_back({Code::internal_error, "scene", error.what(), "please report this as a defect"});
   }

@@ -1,6 +1,10 @@
 #include "forming_sim/ros/signals.h"
 
 #include <csignal>
+#include <cstdio>
+
+#include <ros/master.h>
+#include <ros/time.h>
 
 namespace forming_sim {
 namespace {
@@ -17,5 +21,15 @@ void catch_stop_signals() {
 }
 
 bool stop_requested() { return stop_flag != 0; }
+
+bool wait_for_master(const char* program, double wait_s) {
+  for (double waited = 0; !stop_requested(); waited += 0.1) {
+    if (ros::master::check()) return true;
+    if (waited == 0) std::fprintf(stderr, "%s: waiting for the ROS master at %s\n", program, ros::master::getURI().c_str());
+    if (waited >= wait_s) break;
+    ros::WallDuration(0.1).sleep();
+  }
+  return false;
+}
 
 }  // namespace forming_sim

@@ -10,7 +10,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.numbers(x.data()->data(), x.size() * 4);
   a.numbers(v.data()->data(), v.size() * 4);
   for (double* value : {&time, &dt, &previous_dt, &work, &damping, &settled_away, &friction, &contact_dissipated, &contact_potential,
-                        &initial, &most, &min_gap, &explicit_stable_dt, &first_dt, &smallest.dt, &next_crossing_check, &wall})
+                        &initial, &most, &min_gap, &explicit_stable_dt, &first_dt, &first_element_dt, &smallest.dt, &next_crossing_check, &wall})
     a.number(*value);
   for (long* value : {&steps, &halvings, &active_pairs, &crossings}) a.number(*value);
   a.raw(control);

@@ -40,6 +40,7 @@ struct Simulation::Impl {
   StepControl control;
   StepLimit limit, smallest;
   double first_dt = 0;
+  double first_element_dt = 0;  ///< stable step of the limiting element at the start, s
   Settle settle, unsettled;         ///< of the running stage; of the last that ran into its limit
   NodeField f_before;               ///< forces of the step before an estimate of the settling frequency
   long f_before_step = -2;
@@ -71,6 +72,7 @@ struct Simulation::Impl {
   // step.cpp
   /// dt of the coming step: the elements' bound, the user's limit, the stage's end.
   void choose_dt();
+  [[noreturn]] void collapse(double stable, int element) const;
   /// v* = v + (dt_previous + dt)/2 f/m with damping and prescribed motion; f is complete.
   void predict(double step_dt, NodeField& v_star) const;
   void take_step();

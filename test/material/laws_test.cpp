@@ -3,8 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <memory>
 
 #include "forming_sim/material/law.h"
+#include "forming_sim/material/material_point.h"
 #include "support/point.h"
 
 namespace forming_sim {
@@ -78,6 +80,26 @@ TEST(Levels, WhileElasticStressIsTheGradientOfTheEnergy) {
   SolidConstants solid = levels(70e9, 0.34, {0.5, 0.3, 0.2}, {1, 1, 1});
   for (int k = 0; k < solid.layers; ++k) solid.layer[k].hardening = {};
   EXPECT_LT(distance_from_gradient(solid, sample_gradient()), 1e-7);
+}
+
+// A point of a described material owns the tables of its curves, and so does its copy.
+TEST(MaterialPoint, FollowsATable) {
+  MaterialConfig config;
+  config.density = 2700;
+  config.youngs_modulus = 70e9;
+  config.poissons_ratio = 0.3;
+  config.hardening.emplace();
+  config.hardening->curve = "table";
+  config.hardening->plastic_strains = {0, 0.01, 0.1};
+  config.hardening->stresses = {100e6, 150e6, 200e6};
+  auto first = std::make_unique<MaterialPoint>(config);
+  MaterialPoint copy = *first;
+  first.reset();
+  for (int i = 1; i <= 400; ++i) copy.uniaxial(1 + 1e-4 * i);
+  const double p = copy.plastic_strain();
+  EXPECT_GT(p, 0.03);
+  const double expected = 150e6 + 50e6 * (p - 0.01) / 0.09;
+  EXPECT_NEAR(copy.uniaxial(1.04) / expected, 1, 1e-6);
 }
 
 TEST(Levels, EqualLayersAreOneLayer) {

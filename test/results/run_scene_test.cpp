@@ -8,7 +8,9 @@
 
 #include "forming_sim/results/estimate.h"
 #include "forming_sim/results/result_reader.h"
+#include "forming_sim/results/directory_lock.h"
 #include "forming_sim/results/run_scene.h"
+#include "forming_sim/results/start.h"
 #include "results/small_scene.h"
 
 namespace forming_sim {
@@ -230,6 +232,40 @@ TEST(RunSceneDeathTest, OnAFullDiskEndsWithASentence) {
   const TemporaryDirectory directory;
   EXPECT_EXIT(run_on_a_small_disk(directory.path()), testing::ExitedWithCode(0), "^cannot .*: File too large");
   EXPECT_EQ(read_json(directory.file("summary.json"))["status"]["code"], static_cast<int>(Code::output_error));
+}
+
+TEST(RunScene, OneRunAtATimeWritesIntoADirectory) {
+  const TemporaryDirectory directory;
+  run_scene(small_scene(), directory.path(), 1, "", kNever);
+  const json before = read_json(directory.file("summary.json"));
+  {
+    const DirectoryLock other(directory.path());
+    const Outcome outcome = run_scene(small_scene(), directory.path(), 1, "", kNever);
+    EXPECT_EQ(outcome.code, Code::output_error);
+    EXPECT_NE(outcome.message.find("another run is writing into"), std::string::npos) << outcome.message;
+    EXPECT_EQ(read_json(directory.file("summary.json")), before);
+  }
+  EXPECT_EQ(run_scene(small_scene(), directory.path(), 1, "", kNever).code, Code::success);
+}
+
+TEST(RunScene, StepsBeyondNumberAreRefused) {
+  Scene scene = small_scene();
+  scene.time_step.maximum = 1e-300;
+  const std::vector<Fault> faults = validate_start(scene, {}, 1);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_NE(faults[0].remedy.find("time_step.maximum"), std::string::npos);
+  const TemporaryDirectory directory;
+  EXPECT_THROW(run_scene(scene, directory.path(), 1, "", kNever), SceneError);
+  EXPECT_THROW(estimate_run(scene, 1), SceneError);
+}
+
+TEST(RunScene, WhatCannotStartIsAFault) {
+  Scene scene = small_scene();
+  scene.tools[0].profile->start.y() = -8e-3;  // the punch reaches through the strip
+  const std::vector<Fault> faults = validate_start(scene, {}, 1);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].code, Code::initial_penetration);
+  EXPECT_TRUE(validate_start(small_scene(), {}, 1).empty());
 }
 
 TEST(EstimateRun, IsThatOfTheRunItself) {

@@ -3,6 +3,7 @@
 // that the elements run, for one tetrahedron whose initial edges are the unit
 // vectors, x_m = F e_m.
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "forming_sim/material/constants.h"
@@ -39,7 +40,9 @@ class MaterialPoint {
   const std::vector<double>& memory() const { return memory_; }  ///< as material/law.h lays it out
 
  private:
-  CurveTables tables_;
+  void start();
+
+  std::shared_ptr<CurveTables> tables_ = std::make_shared<CurveTables>();  ///< solid_ points into them, also that of a copy
   SolidConstants solid_;
   std::vector<double> memory_;
   Mat3 F_ = Mat3::Identity();

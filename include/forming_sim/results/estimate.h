@@ -9,7 +9,8 @@ namespace forming_sim {
 
 struct Estimate {
   long nodes = 0, elements = 0;
-  double time_step_s = 0;        ///< mean of the measured steps
+  double time_step_s = 0;        ///< mean of the measured steps, at the start of the run
+  bool settles = false;          ///< has a settle stage
   long steps = 0;                ///< settle stages by their limits: an upper bound there
   double wall_time_s = 0;        ///< at the measured speed; contact that comes later is not in it
   double memory_bytes = 0;       ///< of the solver's data

@@ -1,0 +1,19 @@
+#pragma once
+// Can a scene without faults in its fields start?
+#include <vector>
+
+#include "forming_sim/scene/scene.h"
+#include "forming_sim/simulation/simulation.h"
+
+namespace forming_sim {
+
+/// All that keeps a scene from running: what validate() finds; where it finds
+/// nothing also what shows only where the run is built: bodies inside tools, ties
+/// that find nothing, more steps than any machine makes.
+/// known: faults of reading the scene.
+std::vector<Fault> validate_start(const Scene& scene, std::vector<Fault> known, int threads);
+
+/// Throws SceneError where the run would take more than 1e12 steps.
+void check_length(const Simulation& simulation);
+
+}  // namespace forming_sim

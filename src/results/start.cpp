@@ -1,0 +1,34 @@
+#include "forming_sim/results/start.h"
+
+#include "forming_sim/config/words.h"
+#include "forming_sim/results/schedule.h"
+#include "forming_sim/scene/build.h"
+#include "forming_sim/scene/validate.h"
+
+namespace forming_sim {
+
+void check_length(const Simulation& simulation) {
+  constexpr double most = 1e12;  // years, for the smallest of scenes
+  const double time = longest_time(simulation.plan().stages), dt = simulation.dt();
+  if (time <= most * dt) return;
+  throw SceneError({{Code::invalid_scene, "stages", number_text(time) + " s, at a first time step of " + number_text(dt) + " s",
+                     "give stages of at most 1e12 steps: shorten them, or look for what makes the step so small: time_step.maximum, tiny cells, "
+                     "or a modulus or density of other units"}});
+}
+
+std::vector<Fault> validate_start(const Scene& scene, std::vector<Fault> known, int threads) {
+  std::vector<Fault> faults = validate(scene, std::move(known));
+  if (!faults.empty()) return faults;
+  try {
+    check_length(Simulation(build_plan(scene), build_model(scene), threads));
+  } catch (const SceneError& error) {
+    faults = error.faults();
+  } catch (const Error& error) {
+    faults.push_back({error.code(), "scene", error.what(), "change the scene so that it can start"});
+  } catch (const std::exception& error) {
+    faults.push_back({Code::internal_error, "scene", error.what(), "please report this as a defect"});
+  }
+  return faults;
+}
+
+}  // namespace forming_sim
