@@ -141,7 +141,8 @@ std::vector<Crossing> find_crossings(const Features& f, const NodeField& x, cons
     const size_t before = finder.found.size();
     finder.pierce(a, b);
     if (a == b) return;
-    if (f.dimension == 3) finder.pierce(b, a);
+    // In the plane both ways see the same crossings, but for those through a vertex.
+    if (f.dimension == 3 || finder.found.size() == before) finder.pierce(b, a);
     if (finder.found.size() > before) return;
     finder.inside(a, b);
     finder.inside(b, a);
