@@ -216,3 +216,33 @@ TEST(Contact2D, SlidingOntoANewFaceDoesNotEject) {
   EXPECT_LT(most, 300);
   EXPECT_NEAR(world.closure(), 0, 1e-12 * (world.exchanged + 1e-12));
 }
+
+// A row of nodes under a weight slides at 300 m/s off a cliff, onto a face that lies a part of a layer or two below. Its
+// distance to the tool changes steadily, so that no pair is born deep inside its layer: a soft start or none gives the same.
+TEST(Contact2D, SlidingOffACliffDoesNotEject) {
+  for (double depth : {.2, .5, .9, 2.})
+    for (double pressed : {.9, .3}) {  // of the layer
+      double thrown[2];
+      for (int soft = 0; soft < 2; ++soft) {
+        World world;
+        const double h0 = 1e-3, pressure = 1e6 * (1 / pressed - 1);
+        world.config.layer = h0;
+        world.config.push_speed = soft ? .1 : 1e6;
+        world.modulus = 1e6;
+        world.add_strip(Vec3(-.35, h0, 0), 3, 1, .1, .1, 2700, 0);
+        world.gravity = Vec3(0, -pressure * .1 / (2700 * .1 * .05), 0);
+        for (auto& v : world.v) v = Node(300, 0, 0, 0);
+        world.add_tool("cliff", polyline({Vec3(-1, 0, 0), Vec3(0, 0, 0), Vec3(0, -depth * h0, 0), Vec3(3, -depth * h0, 0)}), 0, [](double) { return Vec3::Zero(); });
+        Contact contact = world.make();
+        thrown[soft] = 0;
+        for (int i = 0; i < 2000; ++i) {
+          world.step(contact, 1e-6);
+          for (int n = 0; n < 4; ++n) thrown[soft] = std::max(thrown[soft], world.v[n][1]);
+        }
+        EXPECT_GT(world.x[0][0], .1) << "all nodes are beyond the cliff";
+        EXPECT_EQ(world.crossings, 0) << depth << " " << pressed;
+        EXPECT_LT(thrown[soft], .02 * h0 / 1e-6) << depth << " " << pressed;
+      }
+      EXPECT_NEAR(thrown[0], thrown[1], 1e-3 * thrown[0]) << depth << " " << pressed;
+    }
+}

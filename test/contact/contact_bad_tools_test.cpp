@@ -1,8 +1,6 @@
 // Tools as files give them: any orientation, facets twice, nodes apart, needles, cracks, surfaces through each other.
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-
 #include <cstring>
 #include <random>
 

@@ -102,27 +102,3 @@ TEST(ContactControls, ATipNeedsTheToolsNodes) {
     EXPECT_GT(run(world, contact_test::without_tool_nodes, dt, 400).crossings, 0);
   }
 }
-
-// A row of nodes slides fast off a plate, onto a face that lies half a layer below: the pairs with it are born inside
-// the layer. With a layer that is whole at once a node is thrown up by a part of h0 in one step.
-TEST(ContactControls, ANewFaceNeedsTheSoftStart) {
-  double thrown[2];
-  for (int soft = 0; soft < 2; ++soft) {
-    World world;
-    const double h0 = 1e-3, dt = 1e-6;
-    world.config.layer = h0;
-    world.add_strip(Vec3(-.35, 1.05 * h0, 0), 3, 1, .1, .1, 2700, 0);
-    for (auto& v : world.v) v = Node(300, 0, 0, 0);
-    world.add_tool("plate", polyline({Vec3(-1, 0, 0), Vec3(0, 0, 0)}), 0, [](double) { return Vec3::Zero(); });
-    // Ends behind the plate, out of reach of its end until a node is beside it.
-    world.add_tool("next", polyline({Vec3(2e-3, .5 * h0, 0), Vec3(3, .5 * h0, 0)}), 0, [](double) { return Vec3::Zero(); });
-    Reduced contact(world, nullptr, soft);
-    thrown[soft] = 0;
-    for (int i = 0; i < 2000; ++i) {
-      contact.step(world, dt);
-      for (const Node& v : world.v) thrown[soft] = std::max(thrown[soft], std::abs(v[1]));
-    }
-    EXPECT_EQ(contact.crossings, 0);
-  }
-  std::cout << "  thrown at " << thrown[1] << " m/s, without the soft start " << thrown[0] << " m/s\n";
-}

@@ -136,6 +136,51 @@ TEST(ContactContinuous, TurningAboutASmallGapIsNoTouch) {
   }
 }
 
+// Features a millionth apart whose nodes move by up to a million gaps: a pass is always seen, and hardly anything else is.
+TEST(ContactContinuous, SmallGapsAgainstSampling) {
+  std::uniform_real_distribution<double> u(-1, 1);
+  int passes = 0, free = 0, cried = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const int kind = i % 3;  // 2D point-segment, 3D point-triangle, edge-edge
+    const int count = kind == 0 ? 3 : 4, across = kind == 0 ? 1 : 2;
+    const double gap = 1e-6, way = gap * std::pow(10, 3 + 3 * u(engine));
+    Node x[4] = {Node(-1, .3 * u(engine), 0, 0), Node(1, .3 * u(engine), 0, 0), Node(.3 * u(engine), -1, 0, 0), Node(.3 * u(engine), 1, 0, 0)};
+    if (kind == 0) {
+      x[0] = Node(.5 * u(engine), 0, 0, 0);
+      x[1] = Node(-1, 0, 0, 0);
+      x[2] = Node(1, 0, 0, 0);
+    }
+    if (kind == 1) x[0] = Node(.1 * u(engine), .1 * u(engine), 0, 0), x[1] = Node(-1, -1, 0, 0), x[2] = Node(1, -1, 0, 0), x[3] = Node(0, 1, 0, 0);
+    for (int k = 0; k < (kind == 2 ? 2 : 1); ++k) x[k][across] += gap;
+    Node d[4];
+    for (int k = 0; k < count; ++k) {
+      d[k] = .01 * way * random_node(kind == 0 ? 2 : 3);
+      d[k][across] = way * u(engine);
+    }
+    // The height of the first feature over the second, at the point where they are closest, by sampling.
+    const auto height = [&](double t) {
+      Node y[4];
+      for (int k = 0; k < count; ++k) y[k] = x[k] + t * d[k];
+      if (kind == 0) return ((y[2][0] - y[1][0]) * (y[0][1] - y[1][1]) - (y[2][1] - y[1][1]) * (y[0][0] - y[1][0])) / 2;
+      const Node n = kind == 1 ? cross3(y[2] - y[1], y[3] - y[1]) : cross3(y[1] - y[0], y[3] - y[2]);
+      return dot3(n, kind == 1 ? Node(y[0] - y[1]) : Node(y[0] - y[2])) / n.norm();
+    };
+    double least = 1;
+    for (int s = 0; s <= 2000; ++s) least = std::min(least, height(s / 2000.));
+    const bool meets = kind == 2 ? edges_meet(x, d, 1e-3 * gap) : point_meets_facet(count - 1, x, d, 1e-3 * gap);
+    if (least < 0) {
+      EXPECT_TRUE(meets) << i;
+      ++passes;
+    } else if (least > .01 * gap) {
+      ++free;
+      cried += meets;
+    }
+  }
+  EXPECT_GT(passes, 1000);
+  EXPECT_GT(free, 1000);
+  EXPECT_LT(cried, free / 100) << "of " << free;
+}
+
 // Every vertex-facet and edge-edge pair within the radius is listed, no other.
 TEST(ContactSearch, ListAgainstAllPairs) {
   for (int dimension : {2, 3}) {

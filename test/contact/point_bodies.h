@@ -1,6 +1,7 @@
 #pragma once
 // Bodies of lumped nodes for the tests of contact: a mesh gives the surface,
 // springs (or nothing) hold the nodes together.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -68,7 +69,7 @@ struct World {
     contact.set_masses(inverse, held);
     return contact;
   }
-  /// First and last node of a body, by its surface.
+  /// First and last node of the surface of a body.
   std::pair<int, int> nodes_of(const ContactSurface& body) const {
     std::pair<int, int> range(static_cast<int>(x.size()), -1);
     for (const Facet& f : body.facets)
@@ -81,8 +82,8 @@ struct World {
   /// Moves bodies that touched each other at the start, as the contact wants it.
   void take_shifts(const Contact& contact) {
     for (size_t b = 0; b < bodies.size(); ++b) {
-      const auto [first, last] = nodes_of(bodies[b]);
-      for (int n = first; n <= last; ++n) x[n] += node(contact.body_shifts()[b]);
+      const int first = nodes_of(bodies[b]).first, last = b + 1 < bodies.size() ? nodes_of(bodies[b + 1]).first : static_cast<int>(x.size());
+      for (int n = first; n < last; ++n) x[n] += node(contact.body_shifts()[b]);
     }
   }
   void spring_forces() {
@@ -131,6 +132,11 @@ struct World {
     Vec3 p = Vec3::Zero();
     for (size_t i = 0; i < x.size(); ++i) p += mass[i] * vec3(v[i]);
     return p;
+  }
+  Vec3 angular_momentum() const {
+    Vec3 l = Vec3::Zero();
+    for (size_t i = 0; i < x.size(); ++i) l += mass[i] * vec3(x[i]).cross(vec3(v[i]));
+    return l;
   }
   Vec3 mean_velocity() const {
     double m = 0;
@@ -187,6 +193,28 @@ struct World {
           if (j < ny) tie(id(i, j), id(i, j + 1));
           if (i < nx && j < ny) tie(id(i, j), id(i + 1, j + 1)), tie(id(i + 1, j), id(i, j + 1));
         }
+  }
+  /// A body with the given corners in the plane, counter-clockwise, a mass at each
+  /// and at their middle, a spring between any two.
+  void add_polygon(const std::vector<Vec3>& corners, double nodal_mass, double stiffness) {
+    const int first = static_cast<int>(x.size()), n = static_cast<int>(corners.size());
+    Vec3 middle = Vec3::Zero();
+    ContactSurface s;
+    s.name = "body" + std::to_string(bodies.size());
+    s.dimension = 2;
+    for (int i = 0; i < n; ++i) {
+      middle += corners[i] / n;
+      x.push_back(node(corners[i]));
+      Facet f;
+      f.nodes = {first + i, first + (i + 1) % n, -1};
+      s.facets.push_back(f);
+    }
+    x.push_back(node(middle));
+    mass.resize(x.size(), nodal_mass);
+    v.resize(x.size(), Node::Zero());
+    bodies.push_back(s);
+    for (int a = first; a <= first + n; ++a)
+      for (int b = a + 1; b <= first + n; ++b) springs.push_back({a, b, (x[a] - x[b]).norm(), stiffness});
   }
   /// A box of n x n x m cells with triangulated faces.
   void add_box(const Vec3& low, int nx, int ny, int nz, double d, double density, double stiffness) {

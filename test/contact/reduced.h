@@ -15,7 +15,7 @@ class Reduced {
   /// Takes away from the pairs of a step.
   using Reduce = std::function<void(const Workspace&, std::vector<ContactPair>&)>;
 
-  Reduced(const World& world, Reduce reduce, bool soft_start = true) : reduce_(std::move(reduce)), soft_start_(soft_start), layer_(world.config.layer) {
+  Reduced(const World& world, Reduce reduce) : reduce_(std::move(reduce)), layer_(world.config.layer) {
     ContactSetup setup;
     setup.dimension = world.dimension;
     setup.bodies = world.bodies;
@@ -57,8 +57,6 @@ class Reduced {
       prepare_pair(work_, pair);
     }
     assign_layers(records_, work_, dt, layer_, layer_, near_.pairs);
-    if (!soft_start_)
-      for (ContactPair& pair : near_.pairs) pair.layer = pair.base;
     solve_pairs(dt, 1e-3 * layer_, 50, work_, ties_, near_.pairs);
     relax_layers(.1 * dt, near_.pairs, records_);
     for (int i = 0; i < work_.body_entries; ++i) world.v[work_.vertex[i]] = work_.v[i];
@@ -80,7 +78,6 @@ class Reduced {
   }
 
   Reduce reduce_;
-  bool soft_start_;
   double layer_;
   Features features_;
   Workspace work_;

@@ -13,7 +13,7 @@ struct Impact {
   long crossings;
 };
 
-inline Impact hit_wall(int cells, double safety) {
+inline Impact hit_wall(int cells, double safety, const ContactConfig& contact = {}) {
   const double rho = 2800, v = 5, L = 4, height = 0.4;
   const MaterialConfig m = impact_material();
   BlankConfig blank = strip_of(L, height, cells, std::max(1, cells / 10));
@@ -21,6 +21,7 @@ inline Impact hit_wall(int cells, double safety) {
   OneBody run(body_of(generate_blank(blank), m), 2.2e-3);
   run.plan.bodies[0].initial_velocity = Vec3(-v, 0, 0);
   run.plan.time_step.safety = safety;
+  run.plan.contact = contact;
   for (const char* side : {"bottom", "top"}) {
     BoundaryConfig b;
     b.set = side;

@@ -32,6 +32,21 @@ TEST(Impact, TheStepDoesNotMatter) {
   EXPECT_NEAR(coarse.duration, fine.duration, 0.01 * fine.duration);
 }
 
+// A layer of 1e-2 to 1e-5 of a cell, a tenth to a thousand times as stiff as the bar: not felt.
+TEST(Impact, TheLayerAndItsStiffnessDoNotMatter) {
+  for (double layer : {1e-3, 1e-4, 1e-6})
+    for (double stiffness : {7e9, 7e11, 7e13}) {
+      ContactConfig contact;
+      contact.layer = layer;
+      contact.stiffness = stiffness;
+      const Impact found = hit_wall(40, 0.9, contact);
+      std::cout << "  h0 " << layer << " m, E " << stiffness << " Pa: " << found.pressure / 1e6 << " MPa, " << found.duration * 1e3 << " ms\n";
+      EXPECT_NEAR(found.pressure, kBarPressure, 2e-3 * kBarPressure);
+      EXPECT_NEAR(found.duration, kBarDuration, 0.02 * kBarDuration);
+      EXPECT_EQ(found.crossings, 0);
+    }
+}
+
 TEST(Impact, TwoBarsDoToEachOtherWhatThePlaneDoes) {
   for (int other : {40, 46}) {
     const Meeting found = hit_each_other(40, other);

@@ -1,0 +1,148 @@
+// Contact of elastic bodies as runs see it: a sharp corner into a coarse block, blocks that meet askew, layers a
+// millionth of a cell at 1500 m/s, one thread and two.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "support/runs.h"
+
+namespace forming_sim {
+namespace {
+
+/// Two unit blocks of n and m cells fly at each other along x, the second turned by `tilt`.
+struct Blocks {
+  Model model;
+  RunPlan plan;
+
+  Blocks(int dimension, int n, int m, double tilt, double speed, double layer, double after) {
+    const double cell = 1.0 / std::max(n, m), gap = 1.02 * layer + 2 * speed * cell / 6300;
+    model.dimension = dimension;
+    plan.stages.push_back(form_for(gap / (2 * speed) + after));
+    plan.contact.layer = layer;
+    for (int side = 0; side < 2; ++side) {
+      BlankConfig blank;
+      blank.shape = dimension == 2 ? "strip" : "plate";
+      blank.pattern = dimension == 2 ? "fine" : "coarse";
+      blank.length = blank.width = blank.thickness = 1;
+      blank.cells_along = blank.cells_across = blank.cells_through = side == 0 ? n : m;
+      Mesh mesh = generate_blank(blank);
+      const Mat3 turn = Eigen::AngleAxisd(side == 0 ? 0 : tilt, dimension == 2 ? Vec3(0, 0, 1) : Vec3(.3, .5, 1).normalized()).toRotationMatrix();
+      double least = 1e300;
+      for (Vec3& X : mesh.nodes) X = turn * X, least = std::min(least, side == 0 ? -X.x() : X.x());
+      for (Vec3& X : mesh.nodes) X.x() += side == 0 ? least - gap / 2 : gap / 2 - least;
+      add_flying(model, plan, body_of(std::move(mesh), aluminium()), side == 0 ? "left" : "right", Vec3(side == 0 ? speed : -speed, 0, 0));
+    }
+  }
+};
+
+struct Drift {
+  double linear = 0, angular = 0;
+};
+/// Runs to the end; the largest drift of the momenta over the momentum of one block (times 1 m).
+Drift drift_of(Simulation& sim, double speed) {
+  double mass = 0;
+  for (double m : sim.nodal_mass()) mass += m / 2;
+  Momenta start;
+  Drift drift;
+  while (sim.step()) {
+    const Momenta now = momenta(sim);
+    if (sim.steps() == 1) start = now;
+    drift.linear = std::max(drift.linear, (now.linear - start.linear).norm() / (mass * speed));
+    drift.angular = std::max(drift.angular, (now.angular - start.angular).norm() / (mass * speed));
+  }
+  return drift;
+}
+
+}  // namespace
+
+// 20 on 23 cells, tilted, frictionless: both momenta stay to rounding, contact takes energy and gives none.
+TEST(ContactScenes, TiltedBlocksKeepTheirMomenta) {
+  for (double tilt : {.1, .2, .3})
+    for (double speed : {5., 500.}) {
+      const Blocks blocks(2, 20, 23, tilt, speed, 1e-3, 6e-4);
+      Simulation sim(blocks.plan, blocks.model, 1);
+      const Drift drift = drift_of(sim, speed);
+      const Energies& e = sim.energies();
+      std::printf("  tilt %g, %g m/s: momentum %.1e, angular %.1e, contact took %.2e of the energy, halvings %ld\n", tilt, speed, drift.linear, drift.angular,
+                  e.contact / e.initial, sim.contact_status().halvings);
+      EXPECT_LT(drift.linear, 1e-13) << tilt << " " << speed;
+      EXPECT_LT(drift.angular, 1e-13) << tilt << " " << speed;
+      EXPECT_GT(e.contact, 0);
+      EXPECT_EQ(sim.contact_status().crossings, 0);
+      EXPECT_LT(sim.balance_error(), .01);
+    }
+}
+
+// h0 a millionth of a cell, far less than the way of a step: steps are halved, a few times each, and the run gets through.
+TEST(ContactScenes, LayersOfAMillionthAtHighSpeed) {
+  struct Case {
+    int dimension, n, m;
+    double tilt;
+  };
+  for (const Case& c : {Case{2, 16, 19, .1}, Case{3, 5, 6, .1}}) {
+    const double speed = 1500, layer = 1e-6 / std::max(c.n, c.m);
+    const Blocks blocks(c.dimension, c.n, c.m, c.tilt, speed, layer, 6e-5);
+    Simulation sim(blocks.plan, blocks.model, 1);
+    const Drift drift = drift_of(sim, speed);
+    const ContactStatus status = sim.contact_status();
+    std::printf("  %dD, %d on %d, tilt %g: %ld steps, %ld halvings, momentum %.1e, angular %.1e\n", c.dimension, c.m, c.n, c.tilt, sim.steps(), status.halvings, drift.linear,
+                drift.angular);
+    EXPECT_GT(status.halvings, 20);
+    EXPECT_LT(status.halvings, 10 * sim.steps());
+    EXPECT_LT(drift.linear, 1e-12);
+    EXPECT_LT(drift.angular, 1e-12);
+    EXPECT_EQ(status.crossings, 0);
+  }
+}
+
+// A wedge narrower than a cell, into the middle of a side of a coarse block: it is held, and no element is crushed.
+TEST(ContactScenes, ATipIntoACoarseBlock) {
+  for (double speed : {50., 500.}) {
+    const double cell = .25;
+    BlankConfig blank = strip_of(1, .5, 4, 2);
+    blank.origin = Vec3(-.5, 0, 0);
+    OneBody run(body_of(generate_blank(blank), aluminium()), .1 * cell / speed);
+    ToolModel wedge;
+    wedge.name = "wedge";
+    wedge.mesh.dimension = 2;
+    wedge.mesh.nodes = {Vec3(-.02, -1, 0), Vec3(0, 0, 0), Vec3(.02, -1, 0)};
+    for (int k = 0; k < 2; ++k) {
+      Facet f;
+      f.nodes = {k, k + 1, -1};
+      wedge.mesh.surface.push_back(f);
+    }
+    wedge.position = Vec3(.11, -1e-3, 0);
+    MotionConfig motion;
+    motion.kind = "velocity";
+    motion.times = {0};
+    motion.velocities = {Vec3(0, speed, 0)};
+    wedge.motion = motion;
+    run.model.tools.push_back(wedge);
+    auto sim = run.start();
+    double least = 1;
+    while (sim->step())
+      for (double ratio : sim->volume_ratio()) least = std::min(least, ratio);
+    std::printf("  %g m/s: least V/V0 %.3f, impulse on the wedge %.3g N s\n", speed, least, -sim->tools()[0].impulse.y());
+    EXPECT_GT(least, .6);
+    EXPECT_LT(sim->tools()[0].impulse.y(), 0);
+    EXPECT_EQ(sim->contact_status().crossings, 0);
+    EXPECT_EQ(sim->contact_status().halvings, 0);
+  }
+}
+
+TEST(ContactScenes, OneThreadAndTwoGiveTheSameBits) {
+  for (int dimension : {2, 3}) {
+    Blocks blocks(dimension, dimension == 2 ? 20 : 6, dimension == 2 ? 23 : 7, .1, 300, 1e-4, 2e-4);
+    blocks.plan.contact.friction = .2;
+    Simulation one(blocks.plan, blocks.model, 1), two(blocks.plan, blocks.model, 2);
+    while (one.step()) {
+    }
+    while (two.step()) {
+    }
+    ASSERT_EQ(one.steps(), two.steps());
+    EXPECT_GT(one.energies().friction, 0);
+    for (std::size_t i = 0; i < one.positions().size(); ++i) ASSERT_TRUE(one.positions()[i] == two.positions()[i] && one.velocities()[i] == two.velocities()[i]) << i;
+  }
+}
+
+}  // namespace forming_sim

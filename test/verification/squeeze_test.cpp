@@ -1,0 +1,110 @@
+// A sheet between two tools: the layer takes nothing of the room that the user gives, the sheet yields where it must,
+// and tools that close much too far do not make it cross them.
+#include <gtest/gtest.h>
+
+#include "support/runs.h"
+
+namespace forming_sim {
+namespace {
+
+constexpr double kThickness = 1e-3;
+
+struct Found {
+  double pressure = 0;  ///< mean between the tools at the end, Pa
+  double balance = 0, least_ratio = 1;  ///< smallest V / V0
+  long crossings = 0, halvings = 0;
+  std::string error;
+};
+
+/// Closes two planes from the sheet's thickness to `less` below it; cells through it. walls: it cannot give way sideways.
+Found squeeze(double less, double layer, bool plastic, int cells = 4, bool walls = false) {
+  const double time = 40e-6;
+  MaterialConfig material = aluminium(plastic);
+  if (plastic) material.hardening->curve = "perfect";
+  BlankConfig blank = strip_of(8 * kThickness, kThickness, 8 * cells, cells);
+  OneBody run(body_of(generate_blank(blank), material), 2 * time);
+  run.plan.contact.layer = layer;
+  run.plan.time_step.damping = 3e5;
+  if (walls)
+    for (const char* side : {"left", "right"}) {
+      BoundaryConfig b;
+      b.set = side;
+      b.kind = "symmetric";
+      b.normal = Vec3::UnitX();
+      run.plan.bodies[0].boundaries.push_back(b);
+    }
+  for (int up = 0; up < 2; ++up) {
+    ToolModel plane;
+    plane.name = up ? "punch" : "die";
+    plane.mesh.dimension = 2;
+    plane.normal = up ? Vec3(0, -1, 0) : Vec3(0, 1, 0);
+    plane.position = Vec3(0, up ? kThickness : 0, 0);
+    if (up) {
+      MotionConfig motion;
+      motion.kind = "trajectory";
+      motion.times = {0, time};
+      motion.positions = {Vec3::Zero(), Vec3(0, -less, 0)};
+      plane.motion = motion;
+    }
+    run.model.tools.push_back(plane);
+  }
+  auto sim = run.start();
+  Found found;
+  double before = 0, since = 0;
+  try {
+    while (sim->step()) {
+      if (since == 0 && sim->time() > 1.5 * time) before = sim->tools()[1].impulse.y(), since = sim->time();
+    }
+  } catch (const Error& e) {
+    found.error = e.what();
+  }
+  if (since > 0) found.pressure = (sim->tools()[1].impulse.y() - before) / (sim->time() - since) / (8 * kThickness);
+  found.balance = sim->balance_error();
+  found.crossings = sim->contact_status().crossings;
+  found.halvings = sim->contact_status().halvings;
+  for (double ratio : sim->volume_ratio()) found.least_ratio = std::min(found.least_ratio, ratio);
+  return found;
+}
+
+}  // namespace
+
+// The tools are set back by h0: nothing is felt at the sheet's own thickness, and h0 less gives the strain h0/t, less what
+// the two layers give themselves: p (t/E' + 2 h0/E) = h0, E' = E/(1 - nu^2).
+TEST(Squeeze, TheLayerTakesNoRoom) {
+  const double E = 70.5e9, E1 = E / (1 - .34 * .34);
+  for (double layer : {1e-5, 1e-6}) {
+    const Found none = squeeze(0, layer, false), one = squeeze(layer, layer, false);
+    const double expected = layer / (kThickness / E1 + 2 * layer / E);
+    std::printf("  h0 %g: %.3g MPa at the thickness, %.4g MPa at h0 less (%.4g, %+.2f %%), balance %.1e\n", layer, none.pressure / 1e6, one.pressure / 1e6, expected / 1e6,
+                100 * (one.pressure / expected - 1), one.balance);
+    EXPECT_LT(std::abs(none.pressure), 1e-6 * expected);
+    EXPECT_NEAR(one.pressure, expected, .02 * expected);
+    EXPECT_EQ(one.crossings, 0);
+  }
+}
+
+// A hundredth less than the thickness: the yield stress in plane strain, 2/sqrt(3) Y, and thin layers say the same.
+TEST(Squeeze, TheSheetYields) {
+  const double limit = 2 / std::sqrt(3.) * 192.1e6;
+  for (double layer : {1e-5, 1e-6}) {
+    const Found found = squeeze(.01 * kThickness, layer, true);
+    std::printf("  h0 %g: %.4g MPa (%.4g, %+.2f %%), balance %.1e\n", layer, found.pressure / 1e6, limit / 1e6, 100 * (found.pressure / limit - 1), found.balance);
+    EXPECT_NEAR(found.pressure, limit, .03 * limit);
+    EXPECT_EQ(found.crossings, 0);
+  }
+}
+
+// Tools that close to a tenth of the thickness, with walls at the ends of the sheet: it gives way as far as its law
+// allows, the step falls with its cells, and nothing crosses.
+TEST(Squeeze, ToolsThatCloseTooFar) {
+  for (bool plastic : {false, true}) {
+    const Found found = squeeze(.9 * kThickness, 1e-6, plastic, 2, true);
+    std::printf("  %s: least V/V0 %.3f, halvings %ld, balance %.1e\n", plastic ? "plastic" : "elastic", found.least_ratio, found.halvings, found.balance);
+    EXPECT_TRUE(found.error.empty()) << found.error;
+    EXPECT_LT(found.least_ratio, .11);
+    EXPECT_EQ(found.crossings, 0);
+    EXPECT_EQ(found.halvings, 0);
+  }
+}
+
+}  // namespace forming_sim
