@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws a field over the deformed section of a run, with the tools, from its result.h5.
 
-In plane strain the section is the model; in 3D it is a cut normal to y, half way
+In dimension 2 the section is the model; in 3D it is a cut normal to y, half way
 along the blank's width. Tools that have left are drawn pale where they last stood.
 """
 import argparse

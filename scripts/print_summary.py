@@ -13,14 +13,15 @@ def main():
     with open(os.path.join(directory, "summary.json")) as file:
         s = json.load(file)
     dimension = s["dimension"]
-    newton = "N/m" if dimension == 2 else "N"
+    newton = "N/m" if s["per_metre_of_width"] else "N"
+    kinematics = "axisymmetric" if s["axisymmetric"] else "plane strain" if dimension == 2 else "3D"
 
     def number(value, scale=1.0, form="{:.4g}"):
         return "-" if value is None else form.format(value * scale)
 
     energy = s["energy_J"]
     rows = [
-        ("scene", f"{s['scene']} ({'plane strain' if dimension == 2 else '3D'})"),
+        ("scene", f"{s['scene']} ({kinematics})"),
         ("status", s["status"]["message"]),
         ("mesh", f"{s['elements']} elements, {s['nodes']} nodes"),
         ("time", f"{number(s['sim_time_s'], 1e3)} ms simulated in {s['steps']} steps, {number(s['wall_time_s'])} s of solving"),

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "forming_sim/contact/closest.h"
+#include "forming_sim/mesh/axis.h"
 
 namespace forming_sim {
 namespace {
@@ -106,7 +107,7 @@ void find_neighbours(Features& f) {
   });
 }
 
-void measure_bodies(Features& f, const NodeField& x) {
+void measure_bodies(Features& f, const NodeField& x, bool axisymmetric) {
   f.area.assign(f.body_nodes, 0.0);
   f.smallest_edge = std::numeric_limits<double>::infinity();
   double sum = 0;
@@ -122,7 +123,7 @@ void measure_bodies(Features& f, const NodeField& x) {
       ++count;
     }
     const double size = corners == 2 ? (x[c[1]] - x[c[0]]).norm() : cross3(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]]).norm() / 2;
-    for (int k = 0; k < corners; ++k) f.area[c[k]] += size / corners;
+    for (int k = 0; k < corners; ++k) f.area[c[k]] += size * (axisymmetric ? turned_share(x[c[k]][0], x[c[1 - k]][0]) : 1.0 / corners);
   }
   f.mean_edge = count > 0 ? sum / count : 0;
 }
@@ -207,7 +208,7 @@ Features build_features(const ContactSetup& setup, const NodeField& x) {
   for (const auto& facet : f.facets)
     for (int k = 0; k < f.corners(); ++k) ++f.facets_at_vertex[facet[k]];
   find_neighbours(f);
-  measure_bodies(f, x);
+  measure_bodies(f, x, setup.axisymmetric);
   return f;
 }
 

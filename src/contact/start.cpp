@@ -10,6 +10,8 @@
 namespace forming_sim {
 namespace {
 
+constexpr double kAlongAxis = 0.1;  // rings that face each other more squarely than this are not parted along the axis
+
 // A vertex near a facet of the other side, or an edge near an edge, with the gap signed by what is inside.
 struct StartGap {
   int vertex = -1;
@@ -77,17 +79,21 @@ class Start {
   }
 
   // Translations of the bodies after which no two of them are nearer than the
-  // layer; empty where there are none of a few layers.
+  // layer; empty where there are none of a few layers. Rings part along their axis only.
   std::vector<Node> part(const std::vector<StartGap>& gaps) const {
     std::vector<Node> t(f_.bodies, Node::Zero());
     for (int turn = 0; turn < 10000; ++turn) {
       double worst = 0;
       for (const StartGap& g : gaps) {
-        Node &a = t[f_.vertex_surface[g.vertex]], &b = t[g.surface];
+        Node &a = t[f_.vertex_surface[g.vertex]], &b = t[g.surface], way = g.away;
         const double missing = layer_ - (g.gap + dot3(g.away, a - b));
         if (missing <= 0) continue;
-        a += 0.5 * missing * g.away;
-        b -= 0.5 * missing * g.away;
+        if (setup_.axisymmetric) {
+          if (std::abs(way[1]) < kAlongAxis) return {};
+          way = Node(0, 1 / way[1], 0, 0);
+        }
+        a += 0.5 * missing * way;
+        b -= 0.5 * missing * way;
         worst = std::max(worst, missing);
       }
       if (worst < 1e-6 * layer_) return t;
@@ -195,6 +201,9 @@ std::vector<Vec3> part_bodies(double layer, const ContactSetup& setup, const Fea
   const std::vector<StartGap> gaps = start.gaps(-1, {}, {});
   if (std::none_of(gaps.begin(), gaps.end(), [&](const StartGap& g) { return g.gap < 0.99 * layer; })) return shifts;
   const std::vector<Node> moves = start.part(gaps);
+  if (moves.empty() && setup.axisymmetric)
+    throw Error(Code::initial_penetration, "bodies touch each other radially at the start, and a ring cannot be moved aside: leave a gap of at least " +
+                                               std::to_string(layer) + " m between them");
   for (int b = 0; b < static_cast<int>(moves.size()); ++b) {
     if (moves[b].isZero(0) || moves[b].norm() > 8 * f.bodies * layer) continue;  // no way out: left as it is, check_start decides
     shifts[b] = vec3(moves[b]);

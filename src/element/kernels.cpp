@@ -11,6 +11,9 @@ namespace FORMING_SIM_ISA {
 namespace {
 
 template <class Cell> constexpr int kD = Cell::dimension;
+template <class Cell> constexpr int kE = kEdges<kD<Cell>, Cell::ring>;
+template <class Cell> using CellEdges = Edges<Pack, kD<Cell>, Cell::ring>;
+template <class Cell> using CellIncrement = Increment<Pack, kD<Cell>, Cell::ring>;
 
 /// Nodal vectors of a block of cells, gathered: one Pack per component.
 template <class Cell>
@@ -28,13 +31,14 @@ template <class Cell>
 void edges_of(const Vector<Pack, kD<Cell>>* x, int s, Vector<Pack, kD<Cell>>* edge) {
   const auto& corner = Cell::table[s];
   for (int m = 0; m < kD<Cell>; ++m) edge[m] = x[corner[m + 1]] - x[corner[0]];
+  if constexpr (Cell::ring) edge[2] = {{Pack(1.0 / 3) * (x[corner[0]][0] + x[corner[1]][0] + x[corner[2]][0]), Pack(0.0)}};
 }
 
 template <class Cell> void simplex_volumes(const Vector<Pack, kD<Cell>>* x, Pack* V) {
   for (int s = 0; s < Cell::simplices; ++s) {
-    Vector<Pack, kD<Cell>> edge[kD<Cell>];
+    Vector<Pack, kD<Cell>> edge[kE<Cell>];
     edges_of<Cell>(x, s, edge);
-    V[s] = simplex_volume<Pack, kD<Cell>>(edge);
+    V[s] = simplex_volume<Pack, kD<Cell>, Cell::ring>(edge);
   }
 }
 
@@ -47,7 +51,7 @@ inline Pack initial_volume(const CellGroup& g, const double* memory) { return Pa
 template <class Cell>
 void moved_edges(const NodalView& view, const Vector<Pack, kD<Cell>>* v, int s, Vector<Pack, kD<Cell>>* w) {
   edges_of<Cell>(v, s, w);
-  for (int m = 0; m < kD<Cell>; ++m) w[m] = Pack(view.last_dt) * w[m];
+  for (int m = 0; m < kE<Cell>; ++m) w[m] = Pack(view.last_dt) * w[m];
 }
 
 /// Incremental pressure (2.11) of the classical method, p + K tr D dt, with the
@@ -58,12 +62,12 @@ void classical_pressures(const CellGroup& g, const NodalView& view, long block, 
   constexpr int D = kD<Cell>;
   Pack rate[Cell::simplices], sum_V(0.0), sum_rate(0.0);
   for (int s = 0; s < Cell::simplices; ++s) {
-    Edges<Pack, D> e;
+    CellEdges<Cell> e;
     edges_of<Cell>(x, s, e.x);
     find_reciprocal(e);
-    Vector<Pack, D> w[D];
+    Vector<Pack, D> w[kE<Cell>];
     moved_edges<Cell>(view, v, s, w);
-    rate[s] = Increment<Pack, D>(e, w).divergence();
+    rate[s] = CellIncrement<Cell>(e, w).divergence();
     sum_V += e.volume;
     sum_rate += e.volume * rate[s];
   }
@@ -112,32 +116,33 @@ void pressures(const CellGroup& g, const NodalView& view, long block, const Pack
   for (int s = 0; s < Cell::simplices; ++s) p[s] = mean + theta * K * (V[s] / V0[s] - Pack(1.0));
 }
 
-/// V and dV/dt of the cell whose nodes stand at x and move with v.
+/// V, dV/dt and extent (tensor.h) of the cell whose nodes stand at x and move with v.
 template <class Cell>
-void volume_and_rate(const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v, Pack& V, Pack& rate) {
+void volume_and_rate(const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v, Pack& V, Pack& rate, Pack& size) {
   constexpr int D = kD<Cell>;
-  V = rate = Pack(0.0);
+  V = rate = size = Pack(0.0);
   for (int s = 0; s < Cell::simplices; ++s) {
-    Edges<Pack, D> e;
+    CellEdges<Cell> e;
     edges_of<Cell>(x, s, e.x);
     find_reciprocal(e);
-    Vector<Pack, D> w[D];
+    Vector<Pack, D> w[kE<Cell>];
     edges_of<Cell>(v, s, w);
     V += e.volume;
-    rate += e.volume * Increment<Pack, D>(e, w).divergence();
+    size += extent(e);
+    rate += e.volume * CellIncrement<Cell>(e, w).divergence();
   }
 }
 
 /// Bulk viscosity of the cell: q = rho l (b1 c D + b2^2 l D |D| where D < 0),
-/// D = (dV/dt)/V, l = V^(1/d), added to p; returns q D V, the power it takes.
+/// D = (dV/dt)/V, l = extent^(1/d), added to p; returns q D V, the power it takes.
 template <class Cell>
 Pack viscous_pressure(const CellGroup& g, const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v,
                       Pack& q) {
   constexpr int D = kD<Cell>;
-  Pack V, rate;
-  volume_and_rate<Cell>(x, v, V, rate);
+  Pack V, rate, size;
+  volume_and_rate<Cell>(x, v, V, rate, size);
   const Pack D_v = rate / V;
-  const Pack l = lanewise([](double volume) { return D == 2 ? __builtin_sqrt(volume) : __builtin_cbrt(volume); }, V);
+  const Pack l = lanewise([](double volume) { return D == 2 ? __builtin_sqrt(volume) : __builtin_cbrt(volume); }, size);
   const Pack c(__builtin_sqrt((g.solid.K + 4.0 / 3 * g.solid.mu) / g.density));
   const Pack b2(g.quadratic_viscosity);
   q = Pack(g.density) * l * D_v *
@@ -177,14 +182,14 @@ template <class Cell, bool OneLayer>
   Pack dissipated(0.0), lowest(1e300);
   for (int s = 0; s < Cell::simplices; ++s) {
     const auto& corner = Cell::table[s];
-    Edges<Pack, D> e;
+    CellEdges<Cell> e;
     edges_of<Cell>(x, s, e.x);
     find_reciprocal(e);
     double* memory = memory_of<Cell>(g, block, s);
     const Pack V0 = initial_volume(g, memory);
     const Pack J = e.volume / V0;
     lowest = smaller(lowest, J);
-    Vector<Pack, D> w[D];
+    Vector<Pack, D> w[kE<Cell>];
     if (classical) moved_edges<Cell>(view, v, s, w);
     PointResponse<Pack, D> point;
     if constexpr (OneLayer) point = layer_step(g.solid, 0, stress_factor(g.solid, J), e, J, memory, Keep::yes);
@@ -199,6 +204,10 @@ template <class Cell, bool OneLayer>
       if (m > 0) rest += force;
     }
     for (int i = 0; i < D; ++i) f[corner[0]][i] -= rest[i];
+    if constexpr (Cell::ring) {  // the hoop: -V sigma . x^3, a third on each corner since x_3 is their mean radius
+      const Pack hoop = e.volume * e.up[2][0] * point.S[2] * Pack(1.0 / 3);
+      for (int a = 0; a <= D; ++a) f[corner[a]][0] -= hoop;
+    }
   }
   for (int l = 0; l < in_use; ++l) g.plastic_work[block] += dissipated[l];
   double low = 1e300;
@@ -235,9 +244,15 @@ template <class Cell>
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   Vector<Pack, D> x[Cell::nodes];
   gather<Cell>(nodes, view.x, x);
-  StepBound<Pack, D, Cell::nodes> bound(g);
+  Vector<Pack, D> inertia[Cell::nodes];  // rings only
+  if constexpr (Cell::ring)
+    for (int a = 0; a < Cell::nodes; ++a) {
+      for (int l = 0; l < kLanes; ++l) inertia[a][1].v[l] = view.inertia[nodes[a * kLanes + l]];
+      inertia[a][0] = select(x[a][0] > Pack(0.0), inertia[a][1], Pack(0.0));  // no radial motion on the axis
+    }
+  StepBound<Pack, D, Cell::nodes, Cell::ring> bound(g, inertia);
   for (int s = 0; s < Cell::simplices; ++s) {
-    Edges<Pack, D> e;
+    CellEdges<Cell> e;
     edges_of<Cell>(x, s, e.x);
     find_reciprocal(e);
     const double* memory = memory_of<Cell>(g, block, s);
@@ -247,8 +262,8 @@ template <class Cell>
   if (g.quadratic_viscosity > 0) {
     Vector<Pack, D> v[Cell::nodes];
     gather<Cell>(nodes, view.v, v);
-    Pack V;
-    volume_and_rate<Cell>(x, v, V, rate);
+    Pack V, size;
+    volume_and_rate<Cell>(x, v, V, rate, size);
     rate = absolute(rate / V);
   }
   const Pack dt = bound.step(rate);
@@ -272,7 +287,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   const double own = g.pressure == PressureMode::element ? 1 : g.element_share;
   const bool classical = g.solid.law == Law::classical;
   for (int s = 0; s < Cell::simplices; ++s) {
-    Edges<Pack, D> e;
+    CellEdges<Cell> e;
     edges_of<Cell>(x, s, e.x);
     find_reciprocal(e);
     double* memory = memory_of<Cell>(g, block, s);
@@ -304,10 +319,14 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
 
 /// Calls `work` with the cell type of the group's kind.
 template <class Work> void with_cell(const CellGroup& g, Work&& work) {
+  const auto flat = [&](auto cell) {
+    if (g.ring) return work(cell_types::Turned<decltype(cell)>());
+    work(cell);
+  };
   switch (static_cast<CellKind>(g.kind)) {
-    case CellKind::triangle: return work(cell_types::Triangle());
-    case CellKind::quad2: return work(cell_types::Quad2());
-    case CellKind::crossed: return work(cell_types::Crossed());
+    case CellKind::triangle: return flat(cell_types::Triangle());
+    case CellKind::quad2: return flat(cell_types::Quad2());
+    case CellKind::crossed: return flat(cell_types::Crossed());
     case CellKind::tetrahedron: return work(cell_types::Tetrahedron());
     case CellKind::hex6: return work(cell_types::Hex6());
     case CellKind::hex24: return work(cell_types::Hex24());

@@ -46,7 +46,7 @@ std::vector<Vec3> directions_of(const ResolvedBoundary& boundary, int dimension)
     const int k = axis == "x" ? 0 : axis == "y" ? 1 : axis == "z" ? 2 : 3;
     if (k >= dimension)
       throw Error(Code::invalid_scene, name_of(boundary) + ": given the axis \"" + axis + "\"; give " +
-                                           (dimension == 2 ? "x or y in plane strain" : "x, y or z"));
+                                           (dimension == 2 ? "x or y in dimension 2" : "x, y or z"));
     directions.push_back(Vec3::Unit(k));
   }
   return directions;

@@ -32,7 +32,7 @@ void stay_in_plane(const std::vector<Vec3>& values, bool about_z, const char* fi
     const bool out = about_z ? values[k].x() != 0 || values[k].y() != 0 : values[k].z() != 0;
     if (out)
       refuse(std::string(field) + "[" + std::to_string(k) + "]", "a motion out of the x-y plane",
-             about_z ? "in plane strain give [0, 0, value]" : "in plane strain give [x, y, 0]");
+             about_z ? "in dimension 2 give [0, 0, value]" : "in dimension 2 give [x, y, 0]");
   }
 }
 

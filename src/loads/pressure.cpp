@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/mesh/axis.h"
 
 namespace forming_sim {
 
@@ -36,13 +37,14 @@ ResolvedPressure resolve(const PressureConfig& config, const std::string& body, 
   return resolved;
 }
 
-PressureSet::PressureSet(std::vector<ResolvedPressure> pressures, int dimension)
-    : pressures_(std::move(pressures)), dimension_(dimension) {}
+PressureSet::PressureSet(std::vector<ResolvedPressure> pressures, int dimension, bool axisymmetric)
+    : pressures_(std::move(pressures)), dimension_(dimension), axisymmetric_(axisymmetric) {}
 
-Vec3 PressureSet::area_vector(const Facet& facet, const NodeField& x) const {
+Vec3 PressureSet::share(const Facet& facet, int k, const NodeField& x) const {
   const Vec3 a = vec3(x[facet.nodes[0]]), ab = vec3(x[facet.nodes[1]]) - a;
-  if (dimension_ == 2) return Vec3(ab.y(), -ab.x(), 0);
-  return 0.5 * ab.cross(vec3(x[facet.nodes[2]]) - a);
+  if (dimension_ == 3) return 1.0 / 6 * ab.cross(vec3(x[facet.nodes[2]]) - a);
+  const double part = axisymmetric_ ? turned_share(x[facet.nodes[k]][0], x[facet.nodes[1 - k]][0]) : 0.5;
+  return part * Vec3(ab.y(), -ab.x(), 0);
 }
 
 double PressureSet::add(double t, const NodeField& x, NodeField& f) const {
@@ -51,9 +53,12 @@ double PressureSet::add(double t, const NodeField& x, NodeField& f) const {
     const double p = pressure.profile.at(t);
     if (p == 0) continue;
     for (const Facet& facet : pressure.facets) {
-      const Vec3 area = area_vector(facet, x);
-      const Node share = node(-p / dimension_ * area);
-      for (int k = 0; k < dimension_; ++k) f[facet.nodes[k]] += share;
+      Vec3 area = Vec3::Zero();
+      for (int k = 0; k < dimension_; ++k) {
+        const Vec3 part = share(facet, k, x);
+        f[facet.nodes[k]] -= node(p * part);
+        area += part;
+      }
       total += p * area.norm();
     }
   }
@@ -67,10 +72,8 @@ double PressureSet::work(double t, const NodeField& x, const NodeField& v_before
     const double p = pressure.profile.at(t);
     if (p == 0) continue;
     for (const Facet& facet : pressure.facets) {
-      Vec3 velocity = Vec3::Zero();
       for (int k = 0; k < dimension_; ++k)
-        velocity += vec3(v_before[facet.nodes[k]]) + vec3(v_after[facet.nodes[k]]);
-      work -= p / dimension_ * area_vector(facet, x).dot(velocity);
+        work -= p * share(facet, k, x).dot(vec3(v_before[facet.nodes[k]]) + vec3(v_after[facet.nodes[k]]));
     }
   }
   return 0.5 * dt * work;

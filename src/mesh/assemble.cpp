@@ -12,7 +12,7 @@
 namespace forming_sim {
 namespace {
 
-constexpr double kFlat = 1e-9;         // of the body's size: z of a plane-strain body
+constexpr double kFlat = 1e-9;         // of the body's size: z of a body of dimension 2
 constexpr std::size_t kNamed = 5;      // cells named in a message
 
 [[noreturn]] void refuse(const RawMesh& raw, const std::string& what) {
@@ -33,7 +33,7 @@ void lay_flat(RawMesh& raw) {
     double& z = raw.points[p].z();
     if (std::abs(z) > kFlat * box.diagonal().norm())
       refuse(raw, "node " + std::to_string(raw.point_tags[p]) + " of a mesh of triangles and quadrilaterals lies at " +
-                      place(raw.points[p]) + "; a plane-strain body lies in z = 0, and a solid one needs tetrahedra or hexahedra");
+                      place(raw.points[p]) + "; a body of dimension 2 lies in z = 0, and a solid one needs tetrahedra or hexahedra");
     z = 0;
   }
   for (RawCell& cell : raw.cells) {

@@ -2,7 +2,7 @@
 
 namespace forming_sim {
 
-BodyMeasures measure_body(int first, int count, const std::vector<double>& nodal_mass, const NodeField& positions,
+BodyMeasures measure_body(int first, int count, bool axisymmetric, const std::vector<double>& nodal_mass, const NodeField& positions,
                           const NodeField& velocities) {
   BodyMeasures body;
   for (int i = first; i < first + count; ++i) {
@@ -14,6 +14,10 @@ BodyMeasures measure_body(int first, int count, const std::vector<double>& nodal
     body.box.extend(x);
   }
   if (body.mass > 0) body.centre /= body.mass;
+  if (axisymmetric) {
+    body.centre.x() = body.momentum.x() = 0;
+    body.angular_momentum.setZero();
+  }
   return body;
 }
 

@@ -58,7 +58,7 @@ const Measures& Gauge::at(const Simulation& simulation) {
   measures_.probes.clear();
   const std::vector<Sym> stress = probes_.empty() ? std::vector<Sym>() : simulation.stress();
   for (const Probe& probe : probes_)
-    measures_.probes.push_back(measure(probe, simulation.model().dimension, simulation.elements(),
+    measures_.probes.push_back(measure(probe, simulation.model(), simulation.elements(),
                                        simulation.positions(), simulation.velocities(), stress));
   return measures_;
 }

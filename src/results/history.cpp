@@ -14,7 +14,7 @@ void add(std::vector<std::string>& values, const Vec3& vector) {
 }  // namespace
 
 std::vector<std::string> history_columns(const Model& model, const std::vector<Probe>& probes) {
-  const std::string per_width = model.dimension == 2 ? "_per_m" : "";
+  const std::string per_width = model.per_width() ? "_per_m" : "";
   std::vector<std::string> columns{"time_s", "step", "dt_s", "stage"};
   for (const char* name : {"kinetic", "elastic", "plastic", "contact", "friction", "damping", "work", "initial"})
     columns.push_back(std::string(name) + "_J" + per_width);

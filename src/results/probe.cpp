@@ -62,15 +62,16 @@ std::vector<Probe> find_probes(const std::vector<ProbeConfig>& configs, const Mo
   return probes;
 }
 
-double simplex_volume(int dimension, const std::array<int, 4>& element, const NodeField& positions) {
+double simplex_volume(const Model& model, const std::array<int, 4>& element, const NodeField& positions) {
   const Vec3 a = vec3(positions[element[0]]);
   const Vec3 b = vec3(positions[element[1]]) - a, c = vec3(positions[element[2]]) - a;
-  if (dimension == 2) return 0.5 * (b.x() * c.y() - b.y() * c.x());
+  const double radius = model.axisymmetric ? a.x() + (b.x() + c.x()) / 3 : 1;
+  if (model.dimension == 2) return radius * 0.5 * (b.x() * c.y() - b.y() * c.x());
   const Vec3 d = vec3(positions[element[3]]) - a;
   return b.cross(c).dot(d) / 6;
 }
 
-ProbeValue measure(const Probe& probe, int dimension, const std::vector<std::array<int, 4>>& elements,
+ProbeValue measure(const Probe& probe, const Model& model, const std::vector<std::array<int, 4>>& elements,
                    const NodeField& positions, const NodeField& velocities, const std::vector<Sym>& stress) {
   ProbeValue value;
   for (int node : probe.nodes) {
@@ -81,7 +82,7 @@ ProbeValue measure(const Probe& probe, int dimension, const std::vector<std::arr
   value.velocity /= static_cast<double>(probe.nodes.size());
   double volume = 0;
   for (int e : probe.elements) {
-    const double share = simplex_volume(dimension, elements[e], positions);
+    const double share = simplex_volume(model, elements[e], positions);
     volume += share;
     value.stress += share * stress[e];
   }

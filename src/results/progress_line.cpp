@@ -61,7 +61,7 @@ void EndTable::on_end(const Simulation& simulation, Code, const std::string&) {
   const double internal = energies.elastic + energies.plastic;
   const std::vector<double> strain = simulation.plastic_strain();
   const ContactStatus contact = simulation.contact_status();
-  const bool flat = simulation.model().dimension == 2;
+  const bool per_width = simulation.model().per_width();
   std::printf("elements             %d\nsteps                %ld\n", simulation.model().element_count(), simulation.steps());
   std::printf("simulated time       %.6g s\nsolver time          %.3g s\n", simulation.time(), simulation.wall_time());
   std::printf("plastic strain, max  %.4g\n", strain.empty() ? 0.0 : *std::max_element(strain.begin(), strain.end()));
@@ -70,7 +70,7 @@ void EndTable::on_end(const Simulation& simulation, Code, const std::string&) {
   if (contact.explicit_stable_dt > 0) std::printf("stable contact step  %.3g s\n", contact.explicit_stable_dt);
   for (std::size_t i = 0; i < simulation.tools().size(); ++i) {
     const Vec3& force = simulation.tools()[i].peak_force;
-    std::printf("peak force on %-12s [%.4g, %.4g, %.4g] %s\n", simulation.model().tools[i].name.c_str(), force.x(), force.y(), force.z(), flat ? "N/m" : "N");
+    std::printf("peak force on %-12s [%.4g, %.4g, %.4g] %s\n", simulation.model().tools[i].name.c_str(), force.x(), force.y(), force.z(), per_width ? "N/m" : "N");
   }
   for (const std::string& warning : simulation.warnings()) std::printf("note: %s\n", warning.c_str());
   std::fflush(stdout);

@@ -114,7 +114,7 @@ void ResultFile::write_tool(Hdf5Group& tools, const Frame& frame, std::size_t in
   tool.write("position", pose.position.data(), {3}, "m", Storage::plain);
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rotation = pose.rotation;
   tool.write("rotation", rotation.data(), {3, 3}, "1", Storage::plain);
-  tool.write("force", pose.force.data(), {3}, header_.dimension == 2 ? "N/m" : "N", Storage::plain);
+  tool.write("force", pose.force.data(), {3}, header_.dimension == 2 && !header_.axisymmetric ? "N/m" : "N", Storage::plain);
   const std::vector<Vec3>& shape = header_.tools.at(index).points;
   if (shape.empty()) return;
   const bool rests = index < last_poses_.size() && last_poses_[index].position == pose.position &&

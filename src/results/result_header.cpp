@@ -51,6 +51,7 @@ void write_header(Hdf5Group root, const ResultHeader& header) {
   root.set("version", header.version);
   root.set("scene", header.scene_name);
   root.set("dimension", std::int64_t{header.dimension});
+  root.set("axisymmetric", std::int64_t{header.axisymmetric});
   root.write_text("scene_text", header.scene_text);
 
   Hdf5Group topology = root.create("topology");

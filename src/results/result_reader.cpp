@@ -49,6 +49,7 @@ ResultHeader read_header(const Hdf5Group& root) {
   header.scene_name = root.text("scene");
   header.scene_text = root.read_text("scene_text");
   header.dimension = static_cast<int>(root.integer("dimension"));
+  header.axisymmetric = root.integer("axisymmetric") != 0;
   const Hdf5Group topology = root.group("topology");
   header.elements = rows<4>(topology.read<std::int32_t>("elements"), header.dimension + 1);
   header.element_body = topology.read<std::int32_t>("body");

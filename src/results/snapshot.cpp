@@ -13,6 +13,7 @@ ResultHeader take_header(const Simulation& simulation, const Scene& scene) {
   header.scene_name = scene.name;
   header.scene_text = scene.text.empty() ? write_scene(scene) : scene.text;
   header.dimension = model.dimension;
+  header.axisymmetric = model.axisymmetric;
   header.elements = simulation.elements();
   header.element_body.resize(header.elements.size());
   header.initial_positions = simulation.initial_positions();

@@ -25,6 +25,7 @@ Json head(const Scene& scene, Code code, const std::string& message) {
   j["version"] = package_version();
   j["scene"] = scene.name;
   j["dimension"] = scene.dimension;
+  j["axisymmetric"] = scene.axisymmetric;
   return j;
 }
 
@@ -70,7 +71,7 @@ Json options(const Simulation& simulation, const Scene& scene) {
 Json bodies(const Simulation& simulation) {
   Json list = Json::array();
   for (const BodyModel& body : simulation.model().bodies) {
-    const BodyMeasures measures = measure_body(body.first_node, body.node_count, simulation.nodal_mass(),
+    const BodyMeasures measures = measure_body(body.first_node, body.node_count, simulation.model().axisymmetric, simulation.nodal_mass(),
                                                simulation.positions(), simulation.velocities());
     list.push_back({{"name", body.name},
                     {"mass", number(measures.mass)},
@@ -88,7 +89,7 @@ Json tools(const Simulation& simulation) {
     const ToolStatus& tool = simulation.tools()[i];
     list.push_back({{"name", simulation.model().tools[i].name},
                     {"peak_force", vector(tool.peak_force)},
-                    {"unit", simulation.model().dimension == 2 ? "N/m" : "N"},
+                    {"unit", simulation.model().per_width() ? "N/m" : "N"},
                     {"position", vector(tool.position)},
                     {"present", tool.present}});
   }
@@ -140,7 +141,7 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
   const ContactStatus contact = simulation.contact_status();
 
   Json j = head(scene, code, message);
-  j["per_metre_of_width"] = model.dimension == 2;
+  j["per_metre_of_width"] = model.per_width();
   j["nodes"] = model.node_count();
   j["elements"] = model.element_count();
   j["steps"] = simulation.steps();

@@ -36,7 +36,7 @@ std::size_t RunMarkers::triangle_count() const {
 RunMarkers::ToolDrawing RunMarkers::draw(const ToolModel& tool, int budget) const {
   ToolDrawing drawing;
   const double size = box_.size();
-  // In plane strain a tool is a line with a short band behind it.
+  // In dimension 2 a tool is a line with a short band behind it.
   const auto band = [&](const Vec3& a, const Vec3& b) {
     const Vec3 back(0, 0, -0.1 * size);
     for (const Vec3& p : {a, b, Vec3(b + back), a, Vec3(b + back), Vec3(a + back)}) drawing.triangles.push_back(point_message(p));

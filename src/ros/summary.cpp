@@ -56,6 +56,7 @@ RunSummary read_summary(const std::string& directory) {
   }
   summary.scene = root.value("scene", "");
   summary.dimension = static_cast<int>(count(root, "/dimension"));
+  summary.axisymmetric = root.value("axisymmetric", false);
   summary.nodes = count(root, "/nodes");
   summary.elements = count(root, "/elements");
   summary.steps = count(root, "/steps");

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <set>
 
+#include "forming_sim/loads/rotation.h"
+#include "forming_sim/mesh/axis.h"
 #include "forming_sim/mesh/generate.h"
 #include "forming_sim/mesh/import.h"
 #include "forming_sim/mesh/measure.h"
@@ -96,6 +98,7 @@ bool make_body(const Scene& scene, std::size_t i, const std::vector<Fault>& know
   const bool made = attempt(source, origin_of(body.mesh, "this blank"), faults, [&] {
     mesh = body.blank ? generate_blank(*body.blank) : load_body_mesh(*body.mesh, scene.base_directory);
     check_volumes(mesh);
+    if (scene.axisymmetric && mesh.dimension == 2) close_at_axis(mesh);
   });
   if (!made) return false;
   if (mesh.dimension != scene.dimension && (scene.dimension == 2 || scene.dimension == 3)) {
@@ -106,19 +109,36 @@ bool make_body(const Scene& scene, std::size_t i, const std::vector<Fault>& know
   return true;
 }
 
+/// The turned section of a tool lies at x >= 0 where it is put at the start.
+void check_beside_axis(const ToolConfig& tool, const Mesh& mesh) {
+  const double near = 1e-9 * size_of(mesh);
+  const Mat3 rotation = rotation_matrix(kRadiansPerDegree * tool.rotation_deg);
+  for (const Vec3& point : mesh.nodes) {
+    const Vec3 x = rotation * point + tool.position;
+    if (x.x() < -near)
+      throw Error(Code::mesh_error, "its point at " + place(x) + " lies beyond the axis; give the section at x >= 0: it is turned about the axis y");
+  }
+}
+
 bool make_tool(const Scene& scene, std::size_t i, const std::vector<Fault>& known, Mesh& mesh, Geometry& geometry) {
   std::vector<Fault>& faults = geometry.faults;
   const ToolConfig& tool = scene.tools[i];
   const std::string path = tool_path(i);
   const int sources = int(tool.mesh.has_value()) + int(tool.profile.has_value()) + int(!tool.normal.isZero(0));
   if (sources != 1 || has_faults(known, path + ".mesh") || has_faults(known, path + ".profile")) return false;
-  if (tool.profile) return attempt(path + ".profile", "this profile", faults, [&] { mesh = mesh_profile(*tool.profile); });
+  if (tool.profile)
+    return attempt(path + ".profile", "this profile", faults, [&] {
+      mesh = mesh_profile(*tool.profile);
+      if (scene.axisymmetric) check_beside_axis(tool, mesh);
+    });
   if (!tool.mesh) return true;  // a plane
   return attempt(path + (tool.mesh->url.empty() ? ".mesh" : ".mesh.url"), origin_of(tool.mesh, ""), faults,
                  [&] { mesh = load_tool_surface(*tool.mesh, scene.base_directory, geometry.model.notes); });
 }
 
 void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
+  if (const std::size_t held = model.axisymmetric ? axis_nodes(mesh).size() : 0; held > 0)
+    model.notes.push_back(std::to_string(held) + " nodes of body " + config.name + " lie on the axis of symmetry and stay on it");
   BodyModel body;
   body.name = config.name;
   body.first_node = model.node_count();
@@ -150,6 +170,7 @@ void add_tool(const ToolConfig& config, Mesh mesh, Model& model) {
 Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known) {
   Geometry geometry;
   geometry.model.dimension = scene.dimension;
+  geometry.model.axisymmetric = scene.axisymmetric;
   std::vector<Mesh> bodies(scene.bodies.size()), tools(scene.tools.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!make_body(scene, i, known, bodies[i], geometry.faults)) bodies[i] = Mesh{};

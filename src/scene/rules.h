@@ -11,8 +11,10 @@ namespace forming_sim {
 
 /// Names are there once, and can head a column or name a group of a file.
 void check_names(const Scene& scene, FaultList& faults);
-/// In plane strain vectors lie in the plane and rotations are about z.
-void check_plane_strain(const Scene& scene, FaultList& faults);
+/// In dimension 2 vectors lie in the plane and rotations are about z.
+void check_section(const Scene& scene, FaultList& faults);
+/// What moves rigidly or acts on the whole of an axisymmetric scene goes along its axis.
+void check_axisymmetric(const Scene& scene, FaultList& faults);
 /// Where a body comes from, its material, what holds and loads it.
 void check_bodies(const Scene& scene, FaultList& faults);
 /// Where a tool's surface comes from, how it moves.

@@ -28,6 +28,10 @@ leave a field out: there 0, "" and [] mean "not given", and the default holds.
 - Right-handed coordinates x, y, z. Vectors are written `[x, y, z]`; `[x, y]` means z = 0.
 - `dimension: 2` is plane strain: everything lies in the x-y plane and nothing strains along z. Forces, masses and
   energies are then per metre of width (N/m, kg/m, J/m). Vectors have z = 0, and things turn about z only.
+- `dimension: 2` with `axisymmetric: true` turns that section about the axis y: x is the radius, so that bodies and
+  profiles lie at x >= 0. Forces, masses and energies are those of the whole circle (N, kg, J). What lies on the axis
+  stays on it without being told; a set of nodes on the axis carries no pressure. Tools, gravity and initial velocities
+  go along y. Of the force on a tool only what goes along the axis is told: the rest holds itself in balance.
 - `dimension: 3` is a solid of tetrahedra.
 - Relative file names refer to the directory of the scene file; `package://NAME/PATH` and `file://` URLs are understood.
 
@@ -85,7 +89,7 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | key | meaning |
 |---|---|
 | `status` | `code` and `message`: how the run ended |
-| `scene`, `dimension`, `nodes`, `elements`, `steps` | what was run; elements are triangles or tetrahedra |
+| `scene`, `dimension`, `axisymmetric`, `nodes`, `elements`, `steps` | what was run; elements are triangles or tetrahedra |
 | `sim_time_s`, `wall_time_s`, `ns_per_element_step` | simulated time, time it took, speed |
 | `time_step_s` | `first`, `min`, `limited_by` |
 | `energy_J` | `kinetic`, `elastic`, `plastic`, `contact`, `friction`, `damping`, `work`, `initial`; `balance_error`: the residual of the ledger over the largest work + initial, a fraction |

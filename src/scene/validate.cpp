@@ -19,7 +19,8 @@ std::vector<Fault> check_scene(const Scene& scene) {
   std::vector<Fault> faults = check_declarations(scene), between;
   FaultList list(between);
   check_names(scene, list);
-  check_plane_strain(scene, list);
+  check_section(scene, list);
+  check_axisymmetric(scene, list);
   check_bodies(scene, list);
   check_tools(scene, list);
   check_contact(scene, list);

@@ -105,7 +105,10 @@ std::vector<double> Simulation::surface_strain() const {
   for (const Facet& f : s.surface) {
     const Vec3 A = vec3(s.X[f.nodes[1]] - s.X[f.nodes[0]]), a = vec3(s.x[f.nodes[1]] - s.x[f.nodes[0]]);
     if (s.model.dimension == 2) {
-      strain.push_back(std::log(a.norm() / A.norm()));
+      const auto middle = [&](const NodeField& at) { return at[f.nodes[0]][0] + at[f.nodes[1]][0]; };
+      const double hoop = s.model.axisymmetric ? std::log(middle(s.x) / middle(s.X)) : 0;
+      const double along = std::log(a.norm() / A.norm());
+      strain.push_back(s.model.axisymmetric ? std::max(along, hoop) : along);
       continue;
     }
     const Vec3 B = vec3(s.X[f.nodes[2]] - s.X[f.nodes[0]]), b = vec3(s.x[f.nodes[2]] - s.x[f.nodes[0]]);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "forming_sim/mesh/axis.h"
 #include "simulation/impl.h"
 
 namespace forming_sim {
@@ -18,20 +19,34 @@ NodeField initial_positions_of(const Model& model) {
   return x;
 }
 
+/// What lies on the axis of symmetry does not move away from it.
+void hold_at_axis(const BodyModel& body, std::vector<ResolvedBoundary>& held) {
+  ResolvedBoundary axis;
+  axis.config.set = "on the axis of symmetry";
+  axis.config.kind = "symmetric";
+  axis.config.normal = Vec3::UnitX();
+  axis.body = body.name;
+  for (int n : axis_nodes(body.mesh)) axis.nodes.push_back(body.first_node + n);
+  if (!axis.nodes.empty()) held.push_back(axis);
+}
+
 }  // namespace
 
-/// Twice the volume over the surface: the thickness of a thin sheet.
-double thickness_of(const BodyModel& body) {
+/// Twice the volume over the surface: the thickness of a thin sheet. Axisymmetric:
+/// both turned, by the radii of their middles.
+double thickness_of(const BodyModel& body, bool axisymmetric) {
   double volume = 0, area = 0;
   const auto& X = body.mesh.nodes;
   for (const auto& s : body.mesh.simplices()) {
     Mat3 edges = Mat3::Identity();
     for (int m = 0; m < body.mesh.dimension; ++m) edges.col(m) = X[s[m + 1]] - X[s[0]];
-    volume += edges.determinant() / (body.mesh.dimension == 2 ? 2 : 6);
+    const double radius = axisymmetric ? (X[s[0]].x() + X[s[1]].x() + X[s[2]].x()) / 3 : 1;
+    volume += radius * edges.determinant() / (body.mesh.dimension == 2 ? 2 : 6);
   }
   for (const Facet& f : body.mesh.surface) {
     const Vec3 a = X[f.nodes[1]] - X[f.nodes[0]];
-    area += body.mesh.dimension == 2 ? a.norm() : 0.5 * a.cross(X[f.nodes[2]] - X[f.nodes[0]]).norm();
+    const double radius = axisymmetric ? (X[f.nodes[0]].x() + X[f.nodes[1]].x()) / 2 : 1;
+    area += body.mesh.dimension == 2 ? radius * a.norm() : 0.5 * a.cross(X[f.nodes[2]] - X[f.nodes[0]]).norm();
   }
   return 2 * volume / area;
 }
@@ -40,7 +55,7 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
     : plan(p), model(std::move(m)), X(initial_positions_of(model)), x(X),
       v(X.size(), Node::Zero()), v_before(v), f(v),
       elements(model.bodies, model.dimension, X,
-               {p.time_step.mass_scaling, p.time_step.linear_viscosity, p.time_step.quadratic_viscosity}, n),
+               {p.time_step.mass_scaling, p.time_step.linear_viscosity, p.time_step.quadratic_viscosity, model.axisymmetric}, n),
       stages(plan.stages, model), contact_pressure(X.size(), 0.0), node_impulse(contact_pressure) {
   set_up_loads();
   set_up_contact();
@@ -61,6 +76,7 @@ void Simulation::Impl::set_up_loads() {
     for (int i = body.first_node; i < body.first_node + body.node_count; ++i)
       v[i] = node(loads.initial_velocity + spin.cross(vec3(X[i]) - loads.spin_centre));
     for (const BoundaryConfig& c : loads.boundaries) held.push_back(resolve(c, body.name, body.mesh, body.first_node));
+    if (model.axisymmetric) hold_at_axis(body, held);
     for (const PressureConfig& c : loads.pressures) pressed.push_back(resolve(c, body.name, body.mesh, body.first_node));
     for (Facet facet : body.mesh.surface) {
       for (int a = 0; a < model.dimension; ++a) facet.nodes[a] += body.first_node;
@@ -69,19 +85,21 @@ void Simulation::Impl::set_up_loads() {
     }
   }
   boundaries = BoundarySet(held, model.dimension);
-  pressures = PressureSet(std::move(pressed), model.dimension);
+  pressures = PressureSet(std::move(pressed), model.dimension, model.axisymmetric);
   boundaries.apply_velocity(0, v);
   physical_mass = elements.nodal_mass();
   for (double& m : physical_mass) m /= plan.time_step.mass_scaling;
 }
 
 void Simulation::Impl::set_up_contact() {
+  warnings = model.notes;
   tools.resize(model.tools.size());
   place_tools();
   // What can meet: a body and a tool, two bodies, a body and itself.
   if (model.tools.empty() && model.bodies.size() < 2 && !model.bodies.front().self_contact) return;
   ContactSetup setup;
   setup.dimension = model.dimension;
+  setup.axisymmetric = model.axisymmetric;
   setup.config = plan.contact;
   setup.softest_modulus = setup.thinnest = setup.wave_speed = std::numeric_limits<double>::infinity();
   std::size_t first_facet = 0;
@@ -96,7 +114,7 @@ void Simulation::Impl::set_up_contact() {
     setup.bodies.push_back(std::move(s));
     const MaterialConfig& m = body.material;
     setup.softest_modulus = std::min(setup.softest_modulus, m.E());
-    setup.thinnest = std::min(setup.thinnest, thickness_of(body));
+    setup.thinnest = std::min(setup.thinnest, thickness_of(body, model.axisymmetric));
     setup.wave_speed = std::min(
         setup.wave_speed, std::sqrt((m.K() + 4. / 3 * m.mu()) / m.density / plan.time_step.mass_scaling));
   }
@@ -127,7 +145,6 @@ void Simulation::Impl::set_up_contact() {
   for (std::size_t k = 0; k < boundaries.nodes().size(); ++k)
     held.push_back({boundaries.nodes()[k], boundaries.projector(static_cast<int>(k))});
   contact->set_masses(inverse_mass, held);
-  warnings = model.notes;
   warnings.insert(warnings.end(), contact->warnings().begin(), contact->warnings().end());
 }
 

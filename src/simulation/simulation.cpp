@@ -22,7 +22,7 @@ void Simulation::Impl::begin_stage() {
     Eigen::AlignedBox3d box;
     for (const Vec3& X_i : body.mesh.nodes) box.extend(X_i);
     size = std::max(size, box.diagonal().norm());
-    thin = std::min(thin, thickness_of(body));
+    thin = std::min(thin, thickness_of(body, model.axisymmetric));
     speed = std::min(speed, std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling));
   }
   settle = Settle(time, size * size / (thin * speed), stages.stage().kinetic_fraction);

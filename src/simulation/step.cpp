@@ -10,7 +10,7 @@ namespace forming_sim {
 
 namespace {
 constexpr double kForceMeanSteps = 50;  ///< tool forces and contact pressures are running means over about this many steps
-constexpr double kCollapse = 1e-6;     ///< an element whose stable step falls to this part of the first is no element any more
+constexpr double kCollapse = 1e-3;     ///< an element whose stable step falls to this part of the first is no element any more
 }
 
 void Simulation::Impl::choose_dt() {
@@ -105,9 +105,13 @@ void Simulation::Impl::book(const ContactStep& done) {
       tool.force = tool.moment = Vec3::Zero();
       continue;
     }
-    tool.impulse += done.tool_impulse[k];
-    const Vec3 about = done.tool_angular_impulse[k] - tool.position.cross(done.tool_impulse[k]);
-    tool.force += (done.tool_impulse[k] / done.dt - tool.force) / kForceMeanSteps;
+    Vec3 impulse = done.tool_impulse[k], about = done.tool_angular_impulse[k] - tool.position.cross(impulse);
+    if (model.axisymmetric) {  // around the circle what is radial cancels, and so do the moments
+      impulse.x() = 0;
+      about.setZero();
+    }
+    tool.impulse += impulse;
+    tool.force += (impulse / done.dt - tool.force) / kForceMeanSteps;
     tool.moment += (about / done.dt - tool.moment) / kForceMeanSteps;
     if (tool.force.squaredNorm() > tool.peak_force.squaredNorm()) tool.peak_force = tool.force;
   }

@@ -64,12 +64,26 @@ TEST(Probe, WeighsStressByCurrentVolume) {
   std::vector<Sym> stress(3, Sym::Zero());
   stress[1] << 1, 2, 3, 4, 5, 6;
   stress[2] << 5, 6, 7, 8, 9, 10;
-  const ProbeValue value = measure(probes[0], 2, square.elements, x, v, stress);
+  const ProbeValue value = measure(probes[0], square.model, square.elements, x, v, stress);
   EXPECT_EQ(value.position, Vec3(0, 0.5, 0));
   EXPECT_EQ(value.velocity, Vec3(0, 1, 0));
   Sym expected;
   expected << 4, 5, 6, 7, 8, 9;
   EXPECT_LT((value.stress - expected).norm(), 1e-14);
+}
+
+TEST(Probe, WeighsStressByTheCircleOfARing) {
+  Square square;
+  square.model.axisymmetric = true;
+  const auto probes = find_probes({config("all")}, square.model, square.elements);
+  NodeField x(7, Node::Zero()), v(7, Node::Zero());
+  x[3] = Node(1, 0, 0, 0);  // two triangles of the same area, with mean radii 5/3 and 4/3
+  x[4] = Node(2, 0, 0, 0);
+  x[5] = Node(2, 1, 0, 0);
+  x[6] = Node(1, 1, 0, 0);
+  std::vector<Sym> stress(3, Sym::Zero());
+  stress[1][2] = 9;
+  EXPECT_NEAR(measure(probes[0], square.model, square.elements, x, v, stress).stress[2], 5, 1e-12);
 }
 
 TEST(Probe, TellsAllThatCannotBePlaced) {

@@ -58,13 +58,45 @@ TEST(SceneRules, DimensionDecidesTheKinds) {
   expect_fault(replaced(minimal_example(), "dimension: 2", "dimension: 4"), "dimension", "at least 2 and at most 3");
 }
 
-TEST(SceneRules, PlaneStrainStaysInThePlane) {
+TEST(SceneRules, ASectionStaysInThePlane) {
   expect_flange_fault("dimension: 2", "dimension: 2\ngravity: [0, 0, -9.81]", "gravity", "z = 0");
   expect_flange_fault("[0, -0.020]", "[0, -0.020, 0.001]", "tools[2].motion.positions[1]", "z = 0");
   expect_flange_fault("positions:", "rotations_deg: [[0, 0, 0], [3, 0, 0]]\n      positions:", "tools[2].motion.rotations_deg[1]", "about z");
   EXPECT_TRUE(faults_of(replaced(flange_example(), "positions:", "rotations_deg: [[0, 0, 0], [0, 0, 3]]\n      positions:")).empty());
   expect_flange_fault("kind: fixed", "kind: fixed, axes: [x, z]", "bodies[0].boundaries[0].axes", "leave z out");
   EXPECT_TRUE(faults_of(replaced(flange_example(), "max: [1, 1]", "max: [1, 1, 1]")).empty()) << "z of a box is ignored";
+}
+
+/// The flange as a section that is turned, which it can be: what goes along the axis stays right.
+TEST(SceneRules, AnAxisymmetricSceneGoesAlongItsAxis) {
+  const std::string turned = replaced(flange_example(), "dimension: 2", "dimension: 2\naxisymmetric: true");
+  EXPECT_TRUE(faults_of(turned).empty()) << sentences(faults_of(turned));
+  const auto with = [&](const std::string& from, const std::string& to) { return replaced(turned, from, to); };
+  expect_fault(with("axisymmetric: true", "axisymmetric: true\ngravity: [9.81, 0]"), "gravity", "[0, y, 0]");
+  expect_fault(with("    blank:", "    initial_velocity: [1, 2]\n    blank:"), "bodies[0].initial_velocity", "along the axis");
+  expect_fault(with("    blank:", "    initial_spin_deg_s: [0, 0, 1]\n    blank:"), "bodies[0].initial_spin_deg_s", "leave it out");
+  expect_fault(with("[0, -0.020]", "[0.001, -0.020]"), "tools[2].motion.positions[1]", "along the axis y only");
+  expect_fault(with("positions:", "rotations_deg: [[0, 0, 0], [0, 0, 3]]\n      positions:"), "tools[2].motion.rotations_deg[1]", "no ring");
+  expect_fault(with("tools:\n", "contact: {method: geometric}\ntools:\n"), "contact.method", "implicit or explicit");
+  EXPECT_TRUE(faults_of(with("axisymmetric: true", "axisymmetric: true\ngravity: [0, 9.81]")).empty());
+  Scene scene = scene_of(turned);
+  scene.dimension = 3;
+  const auto solid = check_scene(scene);
+  EXPECT_TRUE(fault_at(solid, "axisymmetric")) << sentences(solid);
+}
+
+// The flange's sheet and tools reach to x < 0.
+TEST(SceneRules, ATurnedSectionLiesBesideItsAxis) {
+  Scene scene = scene_of(flange_example());
+  EXPECT_TRUE(validate(scene).empty());
+  scene.axisymmetric = true;
+  const auto faults = validate(scene);
+  const Fault *sheet = fault_at(faults, "bodies[0].blank"), *die = fault_at(faults, "tools[0].profile");
+  ASSERT_TRUE(sheet && die) << sentences(faults);
+  EXPECT_NE(sheet->sentence().find("lies at x >= 0"), std::string::npos) << sheet->sentence();
+  EXPECT_NE(die->sentence().find("beyond the axis"), std::string::npos) << die->sentence();
+  scene.bodies[0].blank->origin.x() = 0;
+  EXPECT_FALSE(fault_at(validate(scene), "bodies[0].blank"));
 }
 
 TEST(SceneRules, Meshes) {

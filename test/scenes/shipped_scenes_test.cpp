@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedScene, ::testing::ValuesIn(shipped()),
                          [](const auto& info) { return info.param; });
 
 TEST(ShippedScenes, none_is_missing) {
-  EXPECT_EQ(shipped(), (std::vector<std::string>{"flange", "flange_3d", "folded_rubber", "hem", "hem_flat", "impact", "taylor_bar", "tension", "two_blocks"}));
+  EXPECT_EQ(shipped(), (std::vector<std::string>{"cup", "flange", "flange_3d", "folded_rubber", "hem", "hem_flat", "impact", "taylor_bar", "taylor_bar_axisymmetric", "tension", "two_blocks"}));
 }
 
 TEST(ShippedScenes, flange_section_fits_the_sheet) {
@@ -94,6 +94,21 @@ TEST(ShippedScenes, flange_section_fits_the_sheet) {
     if (p.x() < 12.03e-3 && p.y() < 1.93e-3) {
       EXPECT_NEAR((p - Vec3(12.03e-3, 1.93e-3, 0)).norm(), 1e-3, 2e-6);
     }
+}
+
+TEST(ShippedScenes, cup_is_closed_by_its_punch_and_clears_its_die) {
+  const Model model = build_model(read_valid_scene(kFolder + "cup.yaml"));
+  ASSERT_TRUE(model.axisymmetric);
+  std::map<std::string, const ToolModel*> tools;
+  for (const ToolModel& tool : model.tools) tools[tool.name] = &tool;
+  double die_wall = 1, punch_wall = 0, punch_axis = 1, holder = 1;
+  for (const Vec3& p : tools.at("die")->mesh.nodes) die_wall = std::min(die_wall, p.x());
+  for (const Vec3& p : tools.at("punch")->mesh.nodes) punch_wall = std::max(punch_wall, p.x()), punch_axis = std::min(punch_axis, p.x());
+  for (const Vec3& p : tools.at("holder")->mesh.nodes) holder = std::min(holder, p.y());
+  EXPECT_EQ(punch_axis, 0);
+  EXPECT_NEAR(die_wall - punch_wall, 1.3e-3, 1e-12);
+  EXPECT_NEAR(holder, 1.15e-3, 1e-12);
+  EXPECT_EQ(model.notes.size(), 1u);  // the nodes on the axis
 }
 
 TEST(ShippedScenes, impact_has_the_moduli_it_states) {

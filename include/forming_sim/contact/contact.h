@@ -53,6 +53,7 @@ struct HeldNode {
 
 struct ContactSetup {
   int dimension = 3;
+  bool axisymmetric = false;             ///< dimension 2, turned about the y axis: areas are those of the whole circle, and bodies are parted along the axis
   ContactConfig config;
   std::vector<ContactSurface> bodies, tools;
   std::vector<const Mesh*> tool_meshes;  ///< one per tool, positions in the tool's frame (not looked at for a plane); read in the constructor only

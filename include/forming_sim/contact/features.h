@@ -49,7 +49,7 @@ struct Features {
   std::vector<int> neighbours;                  ///< of vertex v: first_neighbour[v] ... first_neighbour[v + 1] - 1: other ends of its edges (2D: facets)
   std::vector<int> first_neighbour;
   std::vector<int> vertex_surface;              ///< -1: on no surface
-  std::vector<double> area;                     ///< of body vertices: the area they stand for at set-up, m^2 (2D: per metre of width)
+  std::vector<double> area;                     ///< of body vertices: the area they stand for at set-up, m^2 (2D: per metre of width; axisymmetric: of the whole circle)
   NodeField place;                              ///< of tool vertices in the tool's frame; index: vertex - body_nodes
   double smallest_edge = 0, mean_edge = 0;      ///< of the bodies' surfaces
 

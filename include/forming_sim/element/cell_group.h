@@ -24,6 +24,7 @@ struct alignas(64) Lane {
 struct CellGroup {
   int kind = 0;             ///< CellKind
   int dimension = 0;
+  bool ring = false;        ///< axisymmetric: the triangles are turned about the y axis
   int cell_nodes = 0, cell_simplices = 0;
   int cells = 0, blocks = 0;
   PressureMode pressure = PressureMode::cell;
@@ -45,6 +46,7 @@ struct CellGroup {
 struct NodalView {
   const double* x = nullptr;          ///< positions
   const double* v = nullptr;          ///< velocities, read only with bulk viscosity or Law::classical
+  const double* inertia = nullptr;    ///< [node] of rings: equal shares of the mass over the node's own, read in the time step only
   const double* pressure = nullptr;   ///< [node] nodal pressure, read only in PressureMode::node
   double dt = 0;                      ///< s, for the viscous work
   double last_dt = 0;                 ///< s, in which v led to x, for Law::classical

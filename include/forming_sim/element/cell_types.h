@@ -1,16 +1,22 @@
 #pragma once
-// The kinds of cells as types, for the kernels: CellShape known at compile time.
+// The kinds of cells as types, for the kernels: CellShape known at compile time, and
+// whether the section is turned about the y axis.
 #include "forming_sim/mesh/cell_tables.h"
 
 namespace forming_sim {
 namespace cell_types {
 
-struct Triangle { static constexpr int dimension = 2, nodes = 3, simplices = 1; static constexpr auto& table = kTriangle; };
-struct Quad2 { static constexpr int dimension = 2, nodes = 4, simplices = 2; static constexpr auto& table = kQuad2; };
-struct Crossed { static constexpr int dimension = 2, nodes = 5, simplices = 4; static constexpr auto& table = kCrossed; };
-struct Tetrahedron { static constexpr int dimension = 3, nodes = 4, simplices = 1; static constexpr auto& table = kTetrahedron; };
-struct Hex6 { static constexpr int dimension = 3, nodes = 8, simplices = 6; static constexpr auto& table = kHex6; };
-struct Hex24 { static constexpr int dimension = 3, nodes = 15, simplices = 24; static constexpr auto& table = kHex24; };
+struct Plain { static constexpr bool ring = false; };
+
+struct Triangle : Plain { static constexpr int dimension = 2, nodes = 3, simplices = 1; static constexpr auto& table = kTriangle; };
+struct Quad2 : Plain { static constexpr int dimension = 2, nodes = 4, simplices = 2; static constexpr auto& table = kQuad2; };
+struct Crossed : Plain { static constexpr int dimension = 2, nodes = 5, simplices = 4; static constexpr auto& table = kCrossed; };
+struct Tetrahedron : Plain { static constexpr int dimension = 3, nodes = 4, simplices = 1; static constexpr auto& table = kTetrahedron; };
+struct Hex6 : Plain { static constexpr int dimension = 3, nodes = 8, simplices = 6; static constexpr auto& table = kHex6; };
+struct Hex24 : Plain { static constexpr int dimension = 3, nodes = 15, simplices = 24; static constexpr auto& table = kHex24; };
+
+/// A cell of triangles that are rings.
+template <class Cell> struct Turned : Cell { static constexpr bool ring = true; };
 
 }  // namespace cell_types
 }  // namespace forming_sim

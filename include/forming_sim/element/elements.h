@@ -26,12 +26,14 @@ struct ElementFields {
 struct ElementOptions {
   double mass_scaling = 1;
   double linear_viscosity = 0, quadratic_viscosity = 0;
+  bool axisymmetric = false;  ///< the section of dimension 2 is turned about the y axis: x is the radius, volumes, masses and forces are those of the whole circle
 };
 
 class Elements {
  public:
   /// x: initial positions in the joined numbering; the memory starts there, free of stress.
-  /// kernels: see choose_kernels. Throws Error(mesh_error) for a volume that is not positive.
+  /// kernels: see choose_kernels. Throws Error(mesh_error) for a volume that is not positive,
+  /// and for a node of an axisymmetric body with x < 0.
   Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x, const ElementOptions& options, int threads,
            const char* kernels = nullptr);
   ~Elements();
@@ -42,7 +44,8 @@ class Elements {
   /// f = internal forces at x (N); updates the memory of what yields.
   /// v: the velocities that led to x in last_dt (0: nothing has moved yet), for Law::classical
   /// and bulk viscosity, whose work is booked for the coming dt. Throws Error(mesh_error)
-  /// naming an element whose volume is not positive or not a number.
+  /// naming an element whose volume is not positive or not a number, or a node that has
+  /// crossed the axis.
   void forces(const NodeField& x, const NodeField& v, double last_dt, double dt, NodeField& f);
   /// Stable time step at x, without a safety factor: dt and the simplex' cell.
   void stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const;
@@ -63,23 +66,25 @@ class Elements {
   struct Location { int group, cell, simplex; };
   Location locate(int element) const;
   [[noreturn]] void report_inversion(const NodeField& x) const;
+  void check_axis(const NodeField& x) const;
   void nodal_pressure(const NodalView& view) const;
   static long blocks_of_a_thread(const Group& group);
   template <class Work> void over_blocks(Work&& work) const;
 
   const Kernels& kernels_;
   int dimension_;
+  bool axisymmetric_;
   std::unique_ptr<Team> team_;
   std::vector<Group> groups_;
   std::vector<std::array<int, 4>> simplices_;
   std::vector<double> mass_;
+  std::vector<double> inertia_;                      ///< axisymmetric only: NodalView::inertia
   std::vector<int> record_start_, record_index_;     ///< records of a node
   std::vector<Lane> record_storage_;
   double* records_ = nullptr;                        ///< [record][kRecord]
   int record_size_ = 0;
   mutable std::vector<double> pressure_, nodal_volume0_, nodal_bulk_;  ///< nodal pressure only
   bool any_nodal_ = false;
-  std::vector<std::string> body_of_group_;
 };
 
 }  // namespace forming_sim

@@ -8,7 +8,7 @@
 //     (d+1)/rho mu max( 2 (I1/3 + sqrt(I1^2/9 - I2/3)), s1 + s2 ),
 //   I1, I2 the invariants and s1 >= s2 >= s3 the eigenvalues of S; in plane strain
 //   I1 = s1 + s2, I2 = s1 s2. In 3D s1 + s2 = I1 - s3 with s3 bounded from below by
-//   the iteration s3 <- 4 I3/(I1 - s3)^2. Large elastic strain enters by the
+//   the iteration s3 <- 4 I3/(I1 - s3)^2. Rings: element/ring_step.h. Large elastic strain enters by the
 //   tangent of the law (point_tangent in material/law.h).
 // * Pressure: one mode per cell, K/V0 grad V grad V^T, whose eigenvalue with the
 //   cell's nodal masses is  omega_vol^2 = K/V0 sum_a |dV/dx_a|^2 / m_a.
@@ -18,13 +18,17 @@
 //   xi = omega_eta^2 / (2 omega), omega_eta^2 = eta/V sum_a |dV/dx_a|^2 / m_a
 // and the step becomes 2/omega (sqrt(1 + xi^2) - xi).
 #include "forming_sim/element/cell_group.h"
+#include "forming_sim/element/ring_step.h"
 #include "forming_sim/material/law.h"
 
 namespace forming_sim {
 
-template <class T, int D, int Nodes> class StepBound {
+template <class T, int D, int Nodes, bool Ring> class StepBound {
  public:
-  explicit StepBound(const CellGroup& g) : g_(g), deviatoric_(0.0), element_(0.0), V_(0.0), V0_(0.0) {
+  /// inertia: of a ring's cell nodes, radial and axial: equal share of the mass over the
+  /// node's own, 0 where it is held; null elsewhere.
+  StepBound(const CellGroup& g, const Vector<T, D>* inertia)
+      : g_(g), inertia_(inertia), deviatoric_(0.0), element_(0.0), V_(0.0), V0_(0.0), extent_(0.0) {
     for (int a = 0; a < Nodes; ++a) {
       mass_[a] = T(0.0);
       for (int i = 0; i < D; ++i) gradient_[a][i] = T(0.0);
@@ -32,13 +36,74 @@ template <class T, int D, int Nodes> class StepBound {
   }
 
   template <class Corners>
-  void add(const Edges<T, D>& e, const double* memory, const T& V0, const Corners& corner) {
+  void add(const Edges<T, D, Ring>& e, const double* memory, const T& V0, const Corners& corner) {
     Vector<T, D> g[D + 1];
     g[0] = T(-1.0) * e.up[0];
     for (int m = 0; m < D; ++m) {
       g[m + 1] = e.up[m];
       if (m > 0) g[0] += T(-1.0) * e.up[m];
     }
+    T largest, sum_of_squares;
+    if constexpr (Ring) {
+      RingShapes<T> ring;
+      ring.hoop = T(1.0 / 3) * e.up[2][0];
+      for (int a = 0; a < 3; ++a) {
+        ring.g[a] = g[a];
+        ring.inertia[a] = inertia_[corner[a]];
+        g[a][0] += ring.hoop;  // from here on dV/dx_a / V
+      }
+      largest = ring.deviatoric();
+      sum_of_squares = ring.volumetric();
+    } else {
+      largest = deviatoric_bound(g, sum_of_squares);
+    }
+    const T J = e.volume / V0;
+    const T tangent = point_tangent(g_.solid, e, J, memory);
+    const T omega2 = T((D + 1) / g_.density * g_.solid.mu) * tangent * largest;
+    const T volumetric = T((D + 1) * g_.solid.K / g_.density) * J * J * sum_of_squares;
+    deviatoric_ = larger(deviatoric_, omega2);
+    element_ = larger(element_, omega2 + volumetric);
+    own_ = larger(own_, volumetric);
+    V_ += e.volume;
+    V0_ += V0;
+    extent_ += extent(e);
+    const T share = V0 * T(g_.density / (D + 1));
+    for (int a = 0; a <= D; ++a) {
+      gradient_[corner[a]] += e.volume * g[a];
+      mass_[corner[a]] += share;
+    }
+  }
+
+  /// rate: |dV/dt|/V, for the quadratic viscosity.
+  T step(const T& rate) const {
+    T sum(0.0);
+    for (int a = 0; a < Nodes; ++a) {
+      if constexpr (Ring)
+        sum += (inertia_[a][0] * gradient_[a][0] * gradient_[a][0] + inertia_[a][1] * gradient_[a][1] * gradient_[a][1]) / mass_[a];
+      else
+        sum += dot(gradient_[a], gradient_[a]) / mass_[a];
+    }
+    // The classical pressure follows the rate of the current volume, not V/V0.
+    const T cell_volumetric = T(g_.solid.K) / (g_.solid.law == Law::classical ? V_ : V0_) * sum;
+    const bool per_cell = g_.pressure == PressureMode::cell;
+    const double theta = per_cell ? g_.element_share : 0;
+    const T omega2 = per_cell ? deviatoric_ + T(1 - theta) * cell_volumetric + T(theta) * own_ : element_;
+    const T omega = sqrt(omega2);
+    T dt = T(2.0) / omega;
+    if (g_.linear_viscosity > 0 || g_.quadratic_viscosity > 0) {
+      const T l = lanewise([](double V) { return D == 2 ? __builtin_sqrt(V) : __builtin_cbrt(V); }, extent_);
+      const double c = __builtin_sqrt((g_.solid.K + 4.0 / 3 * g_.solid.mu) / g_.density);
+      const double b2 = g_.quadratic_viscosity;
+      const T eta = T(g_.density) * l * (T(g_.linear_viscosity * c) + T(b2 * b2) * l * rate);
+      const T xi = eta / V_ * sum / (T(2.0) * omega);
+      dt = dt * (sqrt(T(1.0) + xi * xi) - xi);
+    }
+    return dt;
+  }
+
+ private:
+  /// max(2 (I1/3 + sqrt(I1^2/9 - I2/3)), s1 + s2) and tr S of the shape gradients g.
+  static T deviatoric_bound(const Vector<T, D>* g, T& I1) {
     Symmetric<T, D> S;
     for (int i = 0; i < Symmetric<T, D>::size; ++i) S[i] = T(0.0);
     for (int a = 0; a <= D; ++a) {
@@ -49,7 +114,7 @@ template <class T, int D, int Nodes> class StepBound {
         S[5] += g[a][2] * g[a][0];
       }
     }
-    T I1, I2, shear;
+    T I2, shear;
     if constexpr (D == 2) {
       I1 = S[0] + S[1];
       I2 = S[0] * S[1] - S[3] * S[3];
@@ -64,52 +129,11 @@ template <class T, int D, int Nodes> class StepBound {
       shear = I1 - s3;
     }
     const T root = sqrt(larger(I1 * I1 * T(1.0 / 9) - I2 * T(1.0 / 3), T(0.0)));
-    const T largest = larger(T(2.0) * (I1 * T(1.0 / 3) + root), shear);
-    const T J = e.volume / V0;
-    const T tangent = point_tangent(g_.solid, e, J, memory);
-    const T omega2 = T((D + 1) / g_.density * g_.solid.mu) * tangent * largest;
-    const T volumetric = T((D + 1) * g_.solid.K / g_.density) * J * J * trace_in_plane(S);
-    deviatoric_ = larger(deviatoric_, omega2);
-    element_ = larger(element_, omega2 + volumetric);
-    own_ = larger(own_, volumetric);
-    V_ += e.volume;
-    V0_ += V0;
-    const T share = V0 * T(g_.density / (D + 1));
-    for (int a = 0; a <= D; ++a) {
-      gradient_[corner[a]] += e.volume * g[a];
-      mass_[corner[a]] += share;
-    }
-  }
-
-  /// rate: |dV/dt|/V, for the quadratic viscosity.
-  T step(const T& rate) const {
-    T sum(0.0);
-    for (int a = 0; a < Nodes; ++a) sum += dot(gradient_[a], gradient_[a]) / mass_[a];
-    // The classical pressure follows the rate of the current volume, not V/V0.
-    const T cell_volumetric = T(g_.solid.K) / (g_.solid.law == Law::classical ? V_ : V0_) * sum;
-    const bool per_cell = g_.pressure == PressureMode::cell;
-    const double theta = per_cell ? g_.element_share : 0;
-    const T omega2 = per_cell ? deviatoric_ + T(1 - theta) * cell_volumetric + T(theta) * own_ : element_;
-    const T omega = sqrt(omega2);
-    T dt = T(2.0) / omega;
-    if (g_.linear_viscosity > 0 || g_.quadratic_viscosity > 0) {
-      const T l = lanewise([](double V) { return D == 2 ? __builtin_sqrt(V) : __builtin_cbrt(V); }, V_);
-      const double c = __builtin_sqrt((g_.solid.K + 4.0 / 3 * g_.solid.mu) / g_.density);
-      const double b2 = g_.quadratic_viscosity;
-      const T eta = T(g_.density) * l * (T(g_.linear_viscosity * c) + T(b2 * b2) * l * rate);
-      const T xi = eta / V_ * sum / (T(2.0) * omega);
-      dt = dt * (sqrt(T(1.0) + xi * xi) - xi);
-    }
-    return dt;
-  }
-
- private:
-  static T trace_in_plane(const Symmetric<T, D>& S) {
-    if constexpr (D == 2) return S[0] + S[1];
-    else return trace(S);
+    return larger(T(2.0) * (I1 * T(1.0 / 3) + root), shear);
   }
   const CellGroup& g_;
-  T deviatoric_, element_, own_{0.0}, V_, V0_;
+  const Vector<T, D>* inertia_;
+  T deviatoric_, element_, own_{0.0}, V_, V0_, extent_;
   Vector<T, D> gradient_[Nodes];
   T mass_[Nodes];
 };

@@ -58,7 +58,7 @@ struct MotionConfig {
     visit(FORMING_SIM_FIELD(kind), Field().required().choices({"trajectory", "velocity"}).doc("trajectory: displacements and rotations at given times; velocity: velocities and spins at given times"));
     visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().doc("times of the knots, increasing; a trajectory rests before the first and after the last, a velocity stays as at the nearest knot"));
     visit(FORMING_SIM_FIELD(positions), Field().unit("m").when("kind", {"trajectory"}).doc("displacement from the initial place at each knot"));
-    visit(FORMING_SIM_FIELD(rotations_deg), Field().unit("deg").when("kind", {"trajectory"}).doc("rotation vector (axis times angle) about the centre at each knot; in plane strain [0, 0, angle]"));
+    visit(FORMING_SIM_FIELD(rotations_deg), Field().unit("deg").when("kind", {"trajectory"}).doc("rotation vector (axis times angle) about the centre at each knot; in dimension 2 [0, 0, angle]"));
     visit(FORMING_SIM_FIELD(velocities), Field().unit("m/s").when("kind", {"velocity"}).doc("velocity at each knot"));
     visit(FORMING_SIM_FIELD(spins_deg_s), Field().unit("deg/s").when("kind", {"velocity"}).doc("angular velocity about the centre at each knot"));
     visit(FORMING_SIM_FIELD(centre), Field().unit("m").doc("centre of rotation at the start; it moves with the tool"));
@@ -79,9 +79,9 @@ struct ToolConfig {
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(name), Field().required().doc("name of the tool"));
     visit(FORMING_SIM_FIELD(mesh), Field().doc("surface of a 3D tool. Give one of mesh, profile, normal"));
-    visit(FORMING_SIM_FIELD(profile), Field().doc("section of a tool in plane strain"));
+    visit(FORMING_SIM_FIELD(profile), Field().doc("section of a tool in dimension 2; it is turned about the axis y in an axisymmetric scene"));
     visit(FORMING_SIM_FIELD(point), Field().unit("m").doc("rigid plane: a point of it"));
-    visit(FORMING_SIM_FIELD(normal), Field().doc("rigid plane: its normal, towards the side of the blank; no mesh is needed"));
+    visit(FORMING_SIM_FIELD(normal), Field().doc("rigid plane: its normal, towards the side of the blank; no mesh is needed. Axisymmetric: turned about the axis y a normal along y stays a plane, one along x makes a cylinder, others make cones"));
     visit(FORMING_SIM_FIELD(position), Field().unit("m").doc("where the origin of the tool's mesh or profile is put at the start"));
     visit(FORMING_SIM_FIELD(rotation_deg), Field().unit("deg").doc("rotation vector of the tool's mesh or profile about its origin at the start"));
     visit(FORMING_SIM_FIELD(motion), Field().doc("how the tool moves; absent: it rests"));

@@ -25,12 +25,15 @@ ResolvedPressure resolve(const PressureConfig& config, const std::string& body, 
 /// f = -p A n / (number of nodes) on each node of a facet, n outward, A n
 ///   2D, segment a b:     (y_b - y_a, x_a - x_b)       (per metre of width)
 ///   3D, triangle a b c:  (b - a) x (c - a) / 2
+/// Axisymmetric, on node a of a segment a b, the integral of its shape function over the
+/// cone: f_a = -p 2 pi (2 r_a + r_b)/6 (y_b - y_a, x_a - x_b).
 /// On a closed surface this is minus the gradient of p V, V the enclosed volume:
-/// exactly in 2D, and in 3D since the sum over a node's triangles of A n / 3 is dV/dx.
+/// exactly in 2D and in the axisymmetric case, where a surface may also close on the
+/// axis, and in 3D since the sum over a node's triangles of A n / 3 is dV/dx.
 class PressureSet {
  public:
   PressureSet() = default;
-  PressureSet(std::vector<ResolvedPressure> pressures, int dimension);
+  PressureSet(std::vector<ResolvedPressure> pressures, int dimension, bool axisymmetric = false);
 
   bool empty() const { return pressures_.empty(); }
   /// f += forces at time t on positions x. Returns the sum of p A, N (N/m in 2D).
@@ -40,10 +43,12 @@ class PressureSet {
               double dt) const;
 
  private:
-  Vec3 area_vector(const Facet& facet, const NodeField& x) const;
+  /// What node k of a facet has of its area vector A n.
+  Vec3 share(const Facet& facet, int k, const NodeField& x) const;
 
   std::vector<ResolvedPressure> pressures_;
   int dimension_ = 3;
+  bool axisymmetric_ = false;
 };
 
 }  // namespace forming_sim

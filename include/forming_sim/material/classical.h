@@ -13,26 +13,30 @@
 namespace forming_sim {
 
 /// dt (D + W) = L dt of a simplex whose edges moved by w_m = dt v_m: components
-/// [row][column] of w_m x^m. Plane strain: nothing in the third direction.
-template <class T, int D> struct Increment {
+/// [row][column] of w_m x^m, and the third direction by itself: nothing in plane
+/// strain, w_3 x^3 = dt v_r / r in a ring.
+template <class T, int D, bool Ring = false> struct Increment {
   T L[D][D];
-  Increment(const Edges<T, D>& e, const Vector<T, D>* w) {
+  T hoop;  ///< ring only
+  Increment(const Edges<T, D, Ring>& e, const Vector<T, D>* w) {
     for (int i = 0; i < D; ++i)
       for (int j = 0; j < D; ++j) {
         L[i][j] = w[0][i] * e.up[0][j];
         for (int m = 1; m < D; ++m) L[i][j] += w[m][i] * e.up[m][j];
       }
+    if constexpr (Ring) hoop = w[2][0] * e.up[2][0];
   }
   /// tr L dt: nabla . v = v_m . x^m (3.26)
   T divergence() const {
     T sum = L[0][0] + L[1][1];
     if constexpr (D == 3) sum += L[2][2];
+    if constexpr (Ring) sum += hoop;
     return sum;
   }
 };
 
 /// W.S - S.W, W = (L - L^T)/2: what the rotation of the step adds to S, to first order.
-template <class T, int D> Symmetric<T, D> jaumann(const Increment<T, D>& d, const Symmetric<T, D>& S) {
+template <class T, int D, bool Ring> Symmetric<T, D> jaumann(const Increment<T, D, Ring>& d, const Symmetric<T, D>& S) {
   Symmetric<T, D> r;
   const T w = T(0.5) * (d.L[0][1] - d.L[1][0]);  // W_xy
   if constexpr (D == 2) {
@@ -54,18 +58,18 @@ template <class T, int D> Symmetric<T, D> jaumann(const Increment<T, D>& d, cons
 }
 
 /// moved: w_m, the way of the edges in the step that led to e; null: S as it stands.
-template <class T, int D>
-[[gnu::noinline]] PointResponse<T, D> classical_step(const SolidConstants& m, Edges<T, D> e, const Vector<T, D>* moved, const T& J,
+template <class T, int D, bool Ring>
+[[gnu::noinline]] PointResponse<T, D> classical_step(const SolidConstants& m, Edges<T, D, Ring> e, const Vector<T, D>* moved, const T& J,
                                                      double* memory, Keep keep) {
   constexpr int size = Symmetric<T, D>::size;
   PointResponse<T, D> r{load_memory<T, D>(memory), T(0)};
   if (!moved) return r;
-  const Increment<T, D> d(e, moved);
+  const Increment<T, D, Ring> d(e, moved);
   const Symmetric<T, D> turn = jaumann(d, r.S);
   const T third = d.divergence() * T(1.0 / 3);
   const T mu2(2 * m.mu);
   for (int i = 0; i < 3; ++i) {
-    T stretch = i < D ? d.L[i < D ? i : 0][i < D ? i : 0] : T(0);
+    T stretch = i < D ? d.L[i < D ? i : 0][i < D ? i : 0] : Ring ? d.hoop : T(0);
     r.S[i] += mu2 * (stretch - third) + turn[i];
   }
   r.S[3] += T(m.mu) * (d.L[0][1] + d.L[1][0]) + turn[3];

@@ -30,15 +30,15 @@ template <class T, int D> Symmetric<T, D> square(const Symmetric<T, D>& a) {
   return r;
 }
 
-template <class T, int D> Symmetric<T, D> isochoric(const Edges<T, D>& e, const T& J, const double* memory) {
+template <class T, int D, bool Ring> Symmetric<T, D> isochoric(const Edges<T, D, Ring>& e, const T& J, const double* memory) {
   Symmetric<T, D> B = push(load_memory<T, D>(memory), e);
   const T j13 = inverse_cube_root(J);
   for (int i = 0; i < Symmetric<T, D>::size; ++i) B[i] *= j13 * j13;
   return B;
 }
 
-template <class T, int D>
-[[gnu::noinline]] PointResponse<T, D> hyperelastic_step(const SolidConstants& m, Edges<T, D> e, const T& J, const double* memory) {
+template <class T, int D, bool Ring>
+[[gnu::noinline]] PointResponse<T, D> hyperelastic_step(const SolidConstants& m, Edges<T, D, Ring> e, const T& J, const double* memory) {
   const Symmetric<T, D> B = isochoric(e, J, memory);
   Symmetric<T, D> S = square(B);
   for (int i = 0; i < Symmetric<T, D>::size; ++i) S[i] = (T(m.h1) * B[i] + T(m.h2) * S[i]) / J;
@@ -46,8 +46,8 @@ template <class T, int D>
 }
 
 /// Per initial volume, J/m3.
-template <class T, int D>
-[[gnu::noinline]] T hyperelastic_energy(const SolidConstants& m, Edges<T, D> e, const T& J, const double* memory) {
+template <class T, int D, bool Ring>
+[[gnu::noinline]] T hyperelastic_energy(const SolidConstants& m, Edges<T, D, Ring> e, const T& J, const double* memory) {
   const Symmetric<T, D> B = isochoric(e, J, memory);
   return T(0.5 * m.h1) * (trace(B) - T(3)) + T(0.25 * m.h2) * (contract(B, B) - T(3));
 }
@@ -55,8 +55,8 @@ template <class T, int D>
 /// Bound on the tangent modulus over mu, for the time step: h1 L + 9/4 h2 L^2 with
 /// L = lambda_max(Bbar). A principal stretch is as stiff as h1 L + 3 h2 L^2 against the
 /// 4/3 of the bound, a shear as h1 L + 2 h2 L^2.
-template <class T, int D>
-[[gnu::noinline]] T hyperelastic_tangent(const SolidConstants& m, Edges<T, D> e, const T& J, const double* memory) {
+template <class T, int D, bool Ring>
+[[gnu::noinline]] T hyperelastic_tangent(const SolidConstants& m, Edges<T, D, Ring> e, const T& J, const double* memory) {
   const Symmetric<T, D> B = isochoric(e, J, memory);
   const T L = trace(B) * T(1.0 / 3) + T(2.0 / 3) * mises(deviator(B));
   return L * (T(m.h1) + T(2.25 * m.h2) * L) * T(1 / m.mu);

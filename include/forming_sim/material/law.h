@@ -27,22 +27,22 @@ template <int D, class Start> void start_memory(const SolidConstants& m, const S
 
 /// One step of a point: its stress beside the pressure, and what it dissipates.
 /// moved: the way of the edges in the last step, for Law::classical; null elsewhere.
-template <class T, int D>
-PointResponse<T, D> point_step(const SolidConstants& m, const Edges<T, D>& e, const Vector<T, D>* moved, const T& J, double* memory, Keep keep) {
+template <class T, int D, bool Ring>
+PointResponse<T, D> point_step(const SolidConstants& m, const Edges<T, D, Ring>& e, const Vector<T, D>* moved, const T& J, double* memory, Keep keep) {
   if (m.law == Law::hyperelastic) return hyperelastic_step(m, e, J, memory);
   if (m.law == Law::classical) return classical_step(m, e, moved, J, memory, keep);
   return von_mises_step(m, e, J, memory, keep);
 }
 
 /// Stored energy beside that of the pressure, per initial volume, J/m3.
-template <class T, int D> T point_energy(const SolidConstants& m, const Edges<T, D>& e, const T& J, const double* memory) {
+template <class T, int D, bool Ring> T point_energy(const SolidConstants& m, const Edges<T, D, Ring>& e, const T& J, const double* memory) {
   if (m.law == Law::hyperelastic) return hyperelastic_energy(m, e, J, memory);
   if (m.law == Law::classical) return classical_energy<T, D>(m, J, memory);
   return von_mises_energy(m, e, J, memory);
 }
 
 /// Bound on the tangent modulus over mu, for the time step (element/time_step.h).
-template <class T, int D> T point_tangent(const SolidConstants& m, const Edges<T, D>& e, const T& J, const double* memory) {
+template <class T, int D, bool Ring> T point_tangent(const SolidConstants& m, const Edges<T, D, Ring>& e, const T& J, const double* memory) {
   if (m.law == Law::hyperelastic) return hyperelastic_tangent(m, e, J, memory);
   if (m.law == Law::classical) return J;
   return von_mises_tangent(m, e, J, memory);

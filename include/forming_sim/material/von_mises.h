@@ -102,8 +102,8 @@ template <class T, int D> Symmetric<T, D> load_memory(const double* from) {
 }
 
 /// One step of layer k, whose memory starts at `memory`; factor: stress_factor(m, J).
-template <class T, int D>
-PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, const Edges<T, D>& e, const T& J, double* memory, Keep keep) {
+template <class T, int D, bool Ring>
+PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, const Edges<T, D, Ring>& e, const T& J, double* memory, Keep keep) {
   constexpr int size = Symmetric<T, D>::size;
   const Symmetric<T, D> G = load_memory<T, D>(memory);
   T p;
@@ -119,8 +119,8 @@ PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, 
 }
 
 /// One step of all layers.
-template <class T, int D>
-PointResponse<T, D> von_mises_step(const SolidConstants& m, const Edges<T, D>& e, const T& J, double* memory, Keep keep) {
+template <class T, int D, bool Ring>
+PointResponse<T, D> von_mises_step(const SolidConstants& m, const Edges<T, D, Ring>& e, const T& J, double* memory, Keep keep) {
   const T factor = stress_factor(m, J);
   if (m.layers == 1) return layer_step(m, 0, factor, e, J, memory, keep);
   PointResponse<T, D> sum;
@@ -150,8 +150,8 @@ template <class T, int D> T deviatoric_energy(double mu, const Symmetric<T, D>& 
   return T(1.5 * mu) * j13 * j13 * s * e / (T(1) + y + y * y);
 }
 
-template <class T, int D>
-T von_mises_energy(const SolidConstants& m, const Edges<T, D>& e, const T& J, const double* memory) {
+template <class T, int D, bool Ring>
+T von_mises_energy(const SolidConstants& m, const Edges<T, D, Ring>& e, const T& J, const double* memory) {
   T sum(0);
   for (int k = 0; k < m.layers; ++k, memory += kLayerItems<D> * lanes_of<T>)
     sum += T(m.layer[k].weight) * deviatoric_energy(m.mu, push(load_memory<T, D>(memory), e), J);
@@ -160,8 +160,8 @@ T von_mises_energy(const SolidConstants& m, const Edges<T, D>& e, const T& J, co
 
 /// Bound on the tangent modulus over mu, for the time step: J^(-2/3) lambda_max(B), with
 /// lambda_max <= tr B/3 + 2/3 q_B; of several layers the mean.
-template <class T, int D>
-T von_mises_tangent(const SolidConstants& m, const Edges<T, D>& e, const T& J, const double* memory) {
+template <class T, int D, bool Ring>
+T von_mises_tangent(const SolidConstants& m, const Edges<T, D, Ring>& e, const T& J, const double* memory) {
   T sum(0);
   for (int k = 0; k < m.layers; ++k, memory += kLayerItems<D> * lanes_of<T>) {
     const Symmetric<T, D> B = push(load_memory<T, D>(memory), e);

@@ -24,7 +24,7 @@ struct BlankConfig {
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(shape), Field().required().choices({"strip", "plate", "bar"})
-          .doc("strip: rectangle in plane strain, length along x, thickness along y; plate: box, length along x, width along y, thickness along z; bar: round bar along z from its end face, O-grid"));
+          .doc("strip: rectangle in dimension 2, length along x, thickness along y; plate: box, length along x, width along y, thickness along z; bar: round bar along z from its end face, O-grid"));
     visit(FORMING_SIM_FIELD(origin), Field().unit("m").doc("least corner of a strip or plate; centre of the lower end face of a bar"));
     visit(FORMING_SIM_FIELD(length), Field().unit("m").above(0).required().doc("length along x (strip, plate) or z (bar)"));
     visit(FORMING_SIM_FIELD(width), Field().unit("m").above(0).required().when("shape", {"plate"}).doc("width along y"));
@@ -73,7 +73,7 @@ struct SetConfig {
     visit(FORMING_SIM_FIELD(point), Field().unit("m").when("choose", {"plane"}).doc("a point of the plane"));
     visit(FORMING_SIM_FIELD(normal), Field().when("choose", {"plane"}).required().doc("normal of the plane, any length but zero"));
     visit(FORMING_SIM_FIELD(min), Field().unit("m").when("choose", {"box"}).doc("least corner of the box"));
-    visit(FORMING_SIM_FIELD(max), Field().unit("m").when("choose", {"box"}).doc("greatest corner of the box; in plane strain z is ignored"));
+    visit(FORMING_SIM_FIELD(max), Field().unit("m").when("choose", {"box"}).doc("greatest corner of the box; in dimension 2 z is ignored"));
     visit(FORMING_SIM_FIELD(tolerance), Field().unit("m").at_least(0).computed("1e-6 of the body's size").doc("distance up to which a node counts as on the plane or in the box"));
     visit(FORMING_SIM_FIELD(surface_only), Field().doc("take only nodes on the body's surface"));
   }
@@ -90,7 +90,7 @@ struct ProfilePieceConfig {
   }
 };
 
-/// The section of a tool in plane strain: lines and arcs.
+/// The section of a tool in dimension 2: lines and arcs.
 struct ProfileConfig {
   Vec3 start = Vec3::Zero();
   std::vector<ProfilePieceConfig> pieces;

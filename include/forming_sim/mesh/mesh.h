@@ -45,7 +45,7 @@ struct Facet {
 
 struct Mesh {
   int dimension = 3;
-  std::vector<Vec3> nodes;                      ///< m; z = 0 in plane strain
+  std::vector<Vec3> nodes;                      ///< m; z = 0 in dimension 2
   std::vector<Cells> cells;                     ///< empty for a rigid tool
   std::vector<Facet> surface;
   std::map<std::string, std::vector<int>> sets; ///< sorted node indices

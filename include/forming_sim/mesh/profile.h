@@ -1,5 +1,5 @@
 #pragma once
-// The section of a tool in plane strain.
+// The section of a tool in dimension 2.
 #include "forming_sim/mesh/config.h"
 #include "forming_sim/mesh/mesh.h"
 

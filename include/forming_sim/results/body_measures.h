@@ -15,8 +15,9 @@ struct BodyMeasures {
   Eigen::AlignedBox3d box;                     ///< of the nodes, m
 };
 
-/// Over the nodes first, first + 1, ... first + count - 1.
-BodyMeasures measure_body(int first, int count, const std::vector<double>& nodal_mass, const NodeField& positions,
+/// Over the nodes first, first + 1, ... first + count - 1. Axisymmetric: around the circle
+/// what is radial cancels, so centre and momentum lie along the axis.
+BodyMeasures measure_body(int first, int count, bool axisymmetric, const std::vector<double>& nodal_mass, const NodeField& positions,
                           const NodeField& velocities);
 
 }  // namespace forming_sim

@@ -30,7 +30,7 @@ struct SpringbackConfig {
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(from), Field().required().doc("probe at which the line starts"));
-    visit(FORMING_SIM_FIELD(to), Field().required().doc("probe through which it goes; the angle is that of the line in the x-y plane (plane strain) or in the x-z plane (3D)"));
+    visit(FORMING_SIM_FIELD(to), Field().required().doc("probe through which it goes; the angle is that of the line in the x-y plane (dimension 2) or in the x-z plane (3D)"));
   }
 };
 

@@ -23,6 +23,7 @@ struct ToolShape {
 struct ResultHeader {
   std::string version, scene_name, scene_text;
   int dimension = 3;
+  bool axisymmetric = false;                 ///< dimension 2: the section is turned about the y axis
   std::vector<std::array<int, 4>> elements;  ///< simplices of all bodies, dimension + 1 nodes each
   std::vector<int> element_body;             ///< index of the body, per element
   std::vector<std::string> bodies;

@@ -27,11 +27,11 @@ struct ProbeValue {
 std::vector<Probe> find_probes(const std::vector<ProbeConfig>& configs, const Model& model,
                                const std::vector<std::array<int, 4>>& elements);
 
-ProbeValue measure(const Probe& probe, int dimension, const std::vector<std::array<int, 4>>& elements,
+ProbeValue measure(const Probe& probe, const Model& model, const std::vector<std::array<int, 4>>& elements,
                    const NodeField& positions, const NodeField& velocities, const std::vector<Sym>& stress);
 
-/// Volume of a simplex (area in plane strain), positive where its nodes are in order.
-double simplex_volume(int dimension, const std::array<int, 4>& element, const NodeField& positions);
+/// Volume of a simplex (plane strain: area; axisymmetric: per radian), positive where its nodes are in order.
+double simplex_volume(const Model& model, const std::array<int, 4>& element, const NodeField& positions);
 
 /// Angle of the line from one point to another against the x axis, in the x-y
 /// plane (dimension 2) or the x-z plane (3), degrees in (-180, 180].

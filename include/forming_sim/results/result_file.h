@@ -1,12 +1,12 @@
 #pragma once
 // result.h5, the fields of a run:
 //
-//   /                       attributes version, scene, dimension; dataset scene_text
+//   /                       attributes version, scene, dimension, axisymmetric; dataset scene_text
 //   /topology/elements      n x 3|4 int32, corner nodes of the simplices
 //   /topology/body          n int32, index into the attribute names of /bodies
 //   /topology/surface       m x 2|3 int32, boundary facets, normal outwards
 //   /topology/surface_element  m int32, the element of each facet
-//   /topology/initial_positions  nodes x 3, m (z = 0 in plane strain)
+//   /topology/initial_positions  nodes x 3, m (z = 0 in dimension 2)
 //   /bodies/<index>         attribute name; sets/<index>: attribute name, nodes, int32
 //   /tools/<index>          attribute name; points (m), facets, or plane_point and plane_normal
 //   /frames/NNNNNN          attributes time, step, stage, interrupted; positions, velocities, plastic_strain,

@@ -1,7 +1,7 @@
 #pragma once
 // summary.json: what came of a run. Written at its end, whatever the end was.
 //
-//   status {code, name, message}, version, scene, dimension, resumed_at_s, warnings
+//   status {code, name, message}, version, scene, dimension, axisymmetric, resumed_at_s, warnings
 //   nodes, elements, steps, sim_time_s, wall_time_s, ns_per_element_step
 //   time_step_s {first, min, limited_by}
 //   energy_J {kinetic, elastic, plastic, contact, friction, damping, work, initial,
@@ -19,7 +19,7 @@
 // SI units; in plane strain energies, masses and forces are per metre of width
 // ("per_metre_of_width": true). where: {element, body, position, time_s}.
 // A number that is not defined is null. A scene that was refused has status,
-// version, scene, dimension and faults [{field, given, remedy}].
+// version, scene, dimension, axisymmetric and faults [{field, given, remedy}].
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 

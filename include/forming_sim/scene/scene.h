@@ -50,6 +50,7 @@ struct BodyConfig {
 struct Scene {
   std::string name;
   int dimension = 0;
+  bool axisymmetric = false;
   std::vector<BodyConfig> bodies;
   std::vector<ToolConfig> tools;
   Vec3 gravity = Vec3::Zero();
@@ -66,7 +67,8 @@ struct Scene {
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(name), Field().required().doc("name of the scene"));
-    visit(FORMING_SIM_FIELD(dimension), Field().at_least(2).at_most(3).required().doc("2: plane strain in x-y (forces per metre of width); 3: solid"));
+    visit(FORMING_SIM_FIELD(dimension), Field().at_least(2).at_most(3).required().doc("2: a section in x-y, in plane strain (forces per metre of width) unless axisymmetric; 3: solid"));
+    visit(FORMING_SIM_FIELD(axisymmetric), Field().doc("true, in dimension 2: the section at x >= 0 is turned about the axis y; x is the radius, forces, masses and energies are those of the whole circle, N, kg, J"));
     visit(FORMING_SIM_FIELD(bodies), Field().required().doc("deformable bodies"));
     visit(FORMING_SIM_FIELD(tools), Field().doc("rigid tools"));
     visit(FORMING_SIM_FIELD(gravity), Field().unit("m/s2").doc("acceleration of gravity"));

@@ -11,10 +11,13 @@ namespace forming_sim {
 
 struct Model {
   int dimension = 3;
+  bool axisymmetric = false;       ///< dimension 2: the section is turned about the y axis; its meshes are closed at the axis (mesh/axis.h)
   std::vector<BodyModel> bodies;
   std::vector<ToolModel> tools;
   std::vector<std::string> notes;  ///< what was mended or looks odd in the meshes; said with the warnings of a run
 
+  /// Forces, masses and energies count per metre of width: plane strain.
+  bool per_width() const { return dimension == 2 && !axisymmetric; }
   int node_count() const { return bodies.empty() ? 0 : bodies.back().first_node + bodies.back().node_count; }
   int element_count() const { return bodies.empty() ? 0 : bodies.back().first_element + bodies.back().element_count; }
 };

@@ -46,7 +46,7 @@ struct ToolStatus {
   Vec3 position = Vec3::Zero();            ///< of the tool's frame, m
   Mat3 rotation = Mat3::Identity();        ///< tool frame to world
   Vec3 velocity = Vec3::Zero();
-  Vec3 force = Vec3::Zero();               ///< on the tool by the bodies, running mean over about 50 steps; N (N/m in plane strain)
+  Vec3 force = Vec3::Zero();               ///< on the tool by the bodies, running mean over about 50 steps; N (N/m in plane strain); axisymmetric: along the axis, what is radial cancels
   Vec3 moment = Vec3::Zero();              ///< about `position`
   Vec3 impulse = Vec3::Zero();             ///< of all contact so far, N s: differences give the mean force of an interval
   Vec3 peak_force = Vec3::Zero();          ///< force of greatest magnitude so far

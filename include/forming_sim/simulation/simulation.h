@@ -72,7 +72,8 @@ class Simulation {
   std::vector<Sym> stress() const;              ///< Cauchy, Pa
   std::vector<double> volume_ratio() const;     ///< V / V0
   /// Largest principal log strain in each surface facet's own plane (same order as
-  /// surface()): the stretch of the facet itself, hence on the surface.
+  /// surface()): the stretch of the facet itself, hence on the surface. Axisymmetric: the
+  /// larger of those along the section and around the circle.
   std::vector<double> surface_strain() const;
 
   /// Normal contact pressure on the surface per node, Pa: force over the area that the

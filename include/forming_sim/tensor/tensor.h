@@ -1,7 +1,8 @@
 #pragma once
 // Vectors and symmetric tensors of the direct notation, over a scalar T that is
-// a double or a Pack. D = 2 is plane strain: vectors have two components,
-// tensors keep their 33 component.
+// a double or a Pack. D = 2: vectors have two components, tensors keep their 33
+// component. The third direction of such an element is a unit vector in plane
+// strain, and the hoop of a ring where the section is turned about the y axis.
 #include "forming_sim/tensor/pack.h"
 
 namespace forming_sim {
@@ -93,27 +94,41 @@ template <class T, int D> T determinant(const Symmetric<T, D>& a, const Symmetri
   else return a[0] * cofactors[0] + a[3] * cofactors[3] + a[5] * cofactors[5];
 }
 
+/// Edge vectors of an element that are stored: those of the simplex, and the hoop of a ring.
+template <int D, bool Ring> constexpr int kEdges = D + (Ring ? 1 : 0);
+
+constexpr double kTwoPi = 6.28318530717958647692;
+
 /// The edge vectors x_1 .. x_D of a simplex (3.14), their reciprocal vectors
-/// x^1 .. x^D (3.27), (3.28), and the volume V (3.18), (3.19), D = 2: area.
-template <class T, int D> struct Edges {
-  Vector<T, D> x[D];      ///< x_m
-  Vector<T, D> up[D];     ///< x^m
+/// x^1 .. x^D (3.27), (3.28), and the volume V (3.18), (3.19), D = 2: area A.
+///
+/// Ring (D = 2): the triangle turned about the y axis. Its third edge vector is the
+/// hoop per radian, x_3 = r e_3, r the mean radius of the corners, kept as x[2] = (r, 0);
+/// x^3 = e_3 / r as up[2] = (1/r, 0); V = 2 pi r A, the whole circle.
+template <class T, int D, bool Ring = false> struct Edges {
+  Vector<T, D> x[kEdges<D, Ring>];   ///< x_m
+  Vector<T, D> up[kEdges<D, Ring>];  ///< x^m
   T volume;
 };
 
 /// V alone.
-template <class T, int D> T simplex_volume(const Vector<T, D>* x) {
-  if constexpr (D == 2) return T(0.5) * (x[0][0] * x[1][1] - x[0][1] * x[1][0]);
+template <class T, int D, bool Ring = false> T simplex_volume(const Vector<T, D>* x) {
+  if constexpr (Ring) return T(0.5 * kTwoPi) * x[2][0] * (x[0][0] * x[1][1] - x[0][1] * x[1][0]);
+  else if constexpr (D == 2) return T(0.5) * (x[0][0] * x[1][1] - x[0][1] * x[1][0]);
   else return T(1.0 / 6) * dot(x[0], cross(x[1], x[2]));
 }
 
-template <class T, int D> void find_reciprocal(Edges<T, D>& e) {
+template <class T, int D, bool Ring> void find_reciprocal(Edges<T, D, Ring>& e) {
   if constexpr (D == 2) {
     const T twice = e.x[0][0] * e.x[1][1] - e.x[0][1] * e.x[1][0];
     const T inverse = T(1) / twice;
     e.up[0] = {{e.x[1][1] * inverse, -(e.x[1][0] * inverse)}};
     e.up[1] = {{-(e.x[0][1] * inverse), e.x[0][0] * inverse}};
     e.volume = T(0.5) * twice;
+    if constexpr (Ring) {
+      e.up[2] = {{T(1) / e.x[2][0], T(0)}};
+      e.volume *= T(kTwoPi) * e.x[2][0];
+    }
   } else {
     const Vector<T, 3> c = cross(e.x[1], e.x[2]);
     const T six = dot(e.x[0], c);
@@ -125,8 +140,14 @@ template <class T, int D> void find_reciprocal(Edges<T, D>& e) {
   }
 }
 
-/// B = x_m x_k G^mk (3.36); D = 2: B_33 = G^33.
-template <class T, int D> Symmetric<T, D> push(const Symmetric<T, D>& G, const Edges<T, D>& e) {
+/// What the length of an element follows from: its volume; in a ring, too, the area of its section.
+template <class T, int D, bool Ring> T extent(const Edges<T, D, Ring>& e) {
+  if constexpr (Ring) return e.volume * e.up[2][0] * T(1 / kTwoPi);
+  else return e.volume;
+}
+
+/// B = x_m x_k G^mk (3.36); plane strain: B_33 = G^33, ring: r^2 G^33.
+template <class T, int D, bool Ring> Symmetric<T, D> push(const Symmetric<T, D>& G, const Edges<T, D, Ring>& e) {
   // y^m = G^mk x_k, B = x_m y^m
   Symmetric<T, D> B;
   if constexpr (D == 2) {
@@ -135,6 +156,7 @@ template <class T, int D> Symmetric<T, D> push(const Symmetric<T, D>& G, const E
     B[0] = e.x[0][0] * y0[0] + e.x[1][0] * y1[0];
     B[1] = e.x[0][1] * y0[1] + e.x[1][1] * y1[1];
     B[2] = G[2];
+    if constexpr (Ring) B[2] *= e.x[2][0] * e.x[2][0];
     B[3] = e.x[0][0] * y0[1] + e.x[1][0] * y1[1];
   } else {
     Vector<T, 3> y[3];
@@ -150,14 +172,15 @@ template <class T, int D> Symmetric<T, D> push(const Symmetric<T, D>& G, const E
   return B;
 }
 
-/// G^x: components x^m . x^k; D = 2: G^33 = 1.
-template <class T, int D> Symmetric<T, D> metric(const Edges<T, D>& e) {
+/// G^x: components x^m . x^k; plane strain: G^33 = 1, ring: 1/r^2.
+template <class T, int D, bool Ring> Symmetric<T, D> metric(const Edges<T, D, Ring>& e) {
   Symmetric<T, D> G;
   G[0] = dot(e.up[0], e.up[0]);
   G[1] = dot(e.up[1], e.up[1]);
   G[3] = dot(e.up[0], e.up[1]);
   if constexpr (D == 2) {
-    G[2] = T(1);
+    if constexpr (Ring) G[2] = e.up[2][0] * e.up[2][0];
+    else G[2] = T(1);
   } else {
     G[2] = dot(e.up[2], e.up[2]);
     G[4] = dot(e.up[1], e.up[2]);

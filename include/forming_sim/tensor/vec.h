@@ -1,5 +1,5 @@
 #pragma once
-// Vectors of the current configuration. A plane-strain model lives in z = 0 and
+// Vectors of the current configuration. A model of dimension 2 lives in z = 0 and
 // uses the same types, so that everything but the element kernels and the
 // contact geometry is written once.
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// In plane strain nothing leaves the plane z = 0. The declared units tell
+// In dimension 2 nothing leaves the plane z = 0. The declared units tell
 // rotations (deg, deg/s; about z) from vectors (in the plane).
 #include "rules.h"
 
@@ -11,8 +11,8 @@ void check_vector(const Vec3& value, const std::string& path, const Field& field
   const bool good = turns ? value.x() == 0 && value.y() == 0 : value.z() == 0;
   if (good || !value.allFinite()) return;
   faults.add(path, given_text(value),
-             turns ? "give [0, 0, angle]: in plane strain (dimension 2) things turn about z only"
-                   : "give z = 0: in plane strain (dimension 2) everything lies in the x-y plane");
+             turns ? "give [0, 0, angle]: in dimension 2 things turn about z only"
+                   : "give z = 0: in dimension 2 everything lies in the x-y plane");
 }
 
 template <class Config> void check_plane(const Config& config, const std::string& path, FaultList& faults) {
@@ -38,7 +38,7 @@ template <class Config> void check_plane(const Config& config, const std::string
 
 }  // namespace
 
-void check_plane_strain(const Scene& scene, FaultList& faults) {
+void check_section(const Scene& scene, FaultList& faults) {
   if (scene.dimension != 2) return;
   check_plane(scene, "", faults);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -46,7 +46,7 @@ void check_plane_strain(const Scene& scene, FaultList& faults) {
       const auto& axes = scene.bodies[i].boundaries[k].axes;
       if (std::find(axes.begin(), axes.end(), "z") == axes.end()) continue;
       faults.add(join_path(body_path(i) + ".boundaries", k) + ".axes", given_text(axes),
-                 "leave z out: in plane strain (dimension 2) nothing moves along z");
+                 "leave z out: in dimension 2 nothing moves along z");
     }
   }
 }

@@ -1,0 +1,43 @@
+#pragma once
+// Axisymmetric bodies of curved shape for tests: a strip of cells is bent into place.
+#include <functional>
+
+#include "forming_sim/mesh/axis.h"
+#include "support/rings.h"
+#include "support/runs.h"
+
+namespace forming_sim {
+
+/// The unit square of cells, its corners moved to `place`, the middle of a crossed cell to
+/// the mean of its corners; closed at the axis.
+inline Mesh bent_section(int along, int through, const std::function<Vec3(double, double)>& place, const std::string& pattern = "fine") {
+  BlankConfig blank = strip_of(1, 1, along, through);
+  blank.pattern = pattern;
+  Mesh mesh = generate_blank(blank);
+  for (int n = 0; n < (along + 1) * (through + 1); ++n) mesh.nodes[n] = place(mesh.nodes[n].x(), mesh.nodes[n].y());
+  for (const Cells& cells : mesh.cells)
+    for (int c = 0; c < cells.count() && cells.kind == CellKind::crossed; ++c) {
+      const int* n = &cells.nodes[5 * c];
+      mesh.nodes[n[4]] = (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;
+    }
+  check_volumes(mesh);
+  close_at_axis(mesh);
+  return mesh;
+}
+
+/// One axisymmetric body, one form stage.
+inline OneBody one_ring(const Mesh& mesh, const MaterialConfig& material, double duration, const std::string& average = "cell") {
+  OneBody run(body_of(mesh, material, average), duration);
+  run.model.axisymmetric = true;
+  return run;
+}
+
+inline BoundaryConfig symmetric_along_y(const std::string& set) {
+  BoundaryConfig b;
+  b.set = set;
+  b.kind = "symmetric";
+  b.normal = Vec3::UnitY();
+  return b;
+}
+
+}  // namespace forming_sim
