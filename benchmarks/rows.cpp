@@ -14,7 +14,7 @@ Row near(const std::string& name, const std::string& quantity, double found, dou
   return {name, quantity, found, expected, error, wall_time, std::abs(error) <= bound, ""};
 }
 Row at_most(const std::string& name, const std::string& quantity, double found, double goal, double wall_time) {
-  return {name, quantity, found, goal, found / goal - 1, wall_time, found <= goal, ""};
+  return {name, quantity, found, goal, goal == 0 ? found : found / goal - 1, wall_time, found <= goal, ""};
 }
 Row just(const std::string& name, const std::string& quantity, double found, double wall_time) {
   return {name, quantity, found, kNothing, kNothing, wall_time, true, ""};

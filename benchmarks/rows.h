@@ -15,7 +15,7 @@ struct Row {
   std::string quantity;   ///< with its unit
   double found = kNothing;
   double expected = kNothing;   ///< not a number: nothing to compare with
-  double error = kNothing;      ///< found / expected - 1
+  double error = kNothing;      ///< found / expected - 1; found, where 0 is expected
   double wall_time = 0;         ///< s
   bool holds = true;
   std::string note;             ///< why a claim does not hold, or what to know
