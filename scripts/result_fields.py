@@ -6,6 +6,8 @@ import numpy as np
 COMPONENTS = {3: ("x", "y", "z"), 6: ("xx", "yy", "zz", "xy", "yz", "zx")}
 NAMES = {"plastic_strain": "equivalent plastic strain", "mises": "von Mises stress", "volume_ratio": "volume ratio V/V0",
          "surface_strain": "largest principal strain of the surface"}
+ON_SURFACE_NODES = ("contact_pressure", "contact_gap", "contact_slip")
+ON_NODES = ("positions", "velocities", *ON_SURFACE_NODES)  # the others: on elements
 SHOWN_IN = {"Pa": ("MPa", 1e-6), "m": ("mm", 1e3)}
 
 
@@ -55,19 +57,20 @@ def read_on(frame, topology, wanted, cells, cell_element):
     that each cell is or belongs to. What lives on nodes is the mean of the cell's nodes, and of
     contact that of its surface nodes: nan inside the body."""
     values, label = read_field(frame, wanted)
-    if len(values) == len(topology["elements"]):
-        return values[cell_element], label
-    if len(values) == len(topology["initial_positions"]):
-        if wanted.startswith("contact_"):
-            inside = np.ones(len(values), bool)
-            inside[topology["surface"][:]] = False
-            values[inside] = np.nan
-        corners = values[cells]
-        known = np.isfinite(corners)
-        return np.where(known, corners, 0).sum(axis=1) / np.where(known.any(axis=1), known.sum(axis=1), np.nan), label
-    if len(cells) == len(values):
+    name = wanted.partition(".")[0]
+    if name == "surface_strain":
+        if len(cells[0]) != topology["surface"].shape[1]:
+            sys.exit(f"--field: given {wanted}, a field of the surface: scripts/plot_surface.py shows it in 3D")
         return values, label
-    sys.exit(f"--field: given {wanted}, a field of the surface: scripts/plot_surface.py shows it")
+    if name not in ON_NODES:
+        return values[cell_element], label
+    if name in ON_SURFACE_NODES:
+        inside = np.ones(len(values), bool)
+        inside[topology["surface"][:]] = False
+        values[inside] = np.nan
+    corners = values[cells]
+    known = np.isfinite(corners)
+    return np.where(known, corners, 0).sum(axis=1) / np.where(known.any(axis=1), known.sum(axis=1), np.nan), label
 
 
 def title(result, frame):
