@@ -1,13 +1,16 @@
 // Two blocks meet: speeds from .5 to 1500 m/s, layers h0 from 1e-1 to 1e-6 of a
 // cell, meshes that match or not, tilted, in the plane and in space, elastic, and
-// plastic (tilted). Nothing may cross.
+// plastic (tilted). Nothing may cross. And, where it is asked for, the long run of
+// benchmarks/contact_shaken.cpp.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 #include "forming_sim/config/fault.h"
 #include "rows.h"
+#include "shaken.h"
 #include "support/runs.h"
 
 namespace forming_sim::bench {
@@ -105,7 +108,10 @@ Found meet(const Scene& scene, double speed, double layer, int alone = -1) {
 
 }  // namespace
 
-std::vector<Row> contact(const Request&) {
+std::vector<Row> contact(const Request& request) {
+  if (!request.arguments.empty() && request.arguments[0] != "shaken")
+    throw std::runtime_error(request.arguments[0] + " is not one of the runs of contact; give shaken, or nothing for the two blocks");
+  if (!request.arguments.empty()) return shaken();
   const Scene scenes[] = {{"2D, same meshes", 2, 16, 16, 0, false},      {"2D, 16 on 19", 2, 16, 19, 0, false},
                           {"2D, 16 on 19, tilted", 2, 16, 19, .1, false}, {"2D, 16 on 19, plastic", 2, 16, 19, .1, true},
                           {"3D, same meshes", 3, 5, 5, 0, false},        {"3D, 5 on 6", 3, 5, 6, 0, false},
@@ -120,10 +126,8 @@ std::vector<Row> contact(const Request&) {
         const Found found = meet(scene, speed, ratio * cell);
         char name[96];
         std::snprintf(name, sizeof name, "%s, %g m/s, h0/dx %.0e", scene.name, speed, ratio);
-        Row row = just(name, "crossings", static_cast<double>(found.crossings), found.wall_time);
-        row.expected = 0;
-        row.error = row.found;
-        row.holds = found.crossings == 0 && found.error.empty();
+        Row row = at_most(name, "crossings", static_cast<double>(found.crossings), 0, found.wall_time);
+        row.holds = row.holds && found.error.empty();
         row.note = found.error;
         rows.push_back(row);
         rows.push_back(just(name, "halvings", static_cast<double>(found.halvings), found.wall_time));

@@ -58,17 +58,18 @@ Physical Surface("back") = Surface In BoundingBox{{-e, {WIDTH} - e, -e, {LENGTH}
 """
 
 
-def write_sheet(path):
+def write_msh(path, text):
+    """Meshes the .geo text with gmsh."""
     with tempfile.TemporaryDirectory() as folder:
-        geometry = pathlib.Path(folder) / "sheet.geo"
-        geometry.write_text(sheet_geometry())
+        geometry = pathlib.Path(folder) / "body.geo"
+        geometry.write_text(text)
         subprocess.run(["gmsh", "-3", "-format", "msh41", str(geometry), "-o", str(path)],
                        check=True, stdout=subprocess.DEVNULL)
 
 
-def arc(centre, start_deg, end_deg):
-    angles = np.radians(np.linspace(start_deg, end_deg, ARC_FACETS + 1))
-    return [(centre[0] + EDGE_RADIUS * np.cos(a), centre[1] + EDGE_RADIUS * np.sin(a)) for a in angles]
+def arc(centre, start_deg, end_deg, radius=EDGE_RADIUS, facets=ARC_FACETS):
+    angles = np.radians(np.linspace(start_deg, end_deg, facets + 1))
+    return [(centre[0] + radius * np.cos(a), centre[1] + radius * np.sin(a)) for a in angles]
 
 
 def die_section():
@@ -84,17 +85,23 @@ def punch_section():
     return [(24, 8), (face, 8), *arc(centre, 180, 270), (24, THICKNESS)]
 
 
-def sweep(section):
-    """The closed surface of a convex section swept over the tools' width, triangles n x 3 x 3."""
-    near = [np.array([x, TOOL_WIDTH[0], z]) for x, z in section]
-    far = [np.array([x, TOOL_WIDTH[1], z]) for x, z in section]
+def sweep(rings):
+    """The closed surface through rings of corners, one ring after the other; the first and
+    the last are closed by convex faces. Triangles n x 3 x 3."""
+    first, last = np.asarray(rings[0]), np.asarray(rings[-1])
     triangles = []
-    for i in range(1, len(section) - 1):
-        triangles += [(near[0], near[i], near[i + 1]), (far[0], far[i + 1], far[i])]
-    for i in range(len(section)):
-        j = (i + 1) % len(section)
-        triangles += [(near[i], far[i], far[j]), (near[i], far[j], near[j])]
+    for i in range(1, len(first) - 1):
+        triangles += [(first[0], first[i], first[i + 1]), (last[0], last[i + 1], last[i])]
+    for near, far in zip(np.asarray(rings[:-1]), np.asarray(rings[1:])):
+        for i in range(len(near)):
+            j = (i + 1) % len(near)
+            triangles += [(near[i], far[i], far[j]), (near[i], far[j], near[j])]
     return np.array(triangles)
+
+
+def straight(section):
+    """A section in x, z swept over the tools' width."""
+    return sweep([[(x, y, z) for x, z in section] for y in TOOL_WIDTH])
 
 
 def write_stl(path, triangles):
@@ -114,9 +121,9 @@ def main():
     default = pathlib.Path(__file__).resolve().parent.parent / "meshes"
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else default
     folder.mkdir(parents=True, exist_ok=True)
-    write_sheet(folder / "sheet_strip.msh")
-    write_stl(folder / "die.stl", sweep(die_section()))
-    write_stl(folder / "punch.stl", sweep(punch_section()))
+    write_msh(folder / "sheet_strip.msh", sheet_geometry())
+    write_stl(folder / "die.stl", straight(die_section()))
+    write_stl(folder / "punch.stl", straight(punch_section()))
     for name in ("sheet_strip.msh", "die.stl", "punch.stl"):
         print(folder / name, (folder / name).stat().st_size, "bytes")
 

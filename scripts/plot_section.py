@@ -16,19 +16,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
-LABELS = {"plastic_strain": ("equivalent plastic strain", 1.0), "mises": ("von Mises stress [MPa]", 1e-6),
-          "volume_ratio": ("volume ratio V/V0", 1.0)}
-
-
-def pick_frame(result, wanted, time):
-    names = sorted(result["frames"])
-    if not names:
-        sys.exit("the result holds no frames yet")
-    if time is not None:
-        return min(result["frames"].values(), key=lambda frame: abs(frame.attrs["time"] - time))
-    if not -len(names) <= wanted < len(names):
-        sys.exit(f"--frame: given {wanted}; the result holds the frames 0 to {len(names) - 1}")
-    return result["frames"][names[wanted]]
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from result_fields import add_options, pick_frame, read_on, title
 
 
 def cut(points, simplices, axis, at):
@@ -80,20 +69,15 @@ def tool_lines(result, frame, axis, at):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("result", help="result.h5 of a run")
-    parser.add_argument("--frame", type=int, default=-1, help="number of the frame, negative: from the end; default: the last")
-    parser.add_argument("--time", type=float, help="instead of --frame: the frame nearest to this time, in seconds")
-    parser.add_argument("--field", choices=list(LABELS), default="plastic_strain")
+    add_options(parser)
     parser.add_argument("--axis", choices=list("xyz"), default="y", help="3D: the cut is normal to this axis")
     parser.add_argument("--at", type=float, help="3D: where to cut, in metres; default: half way through the blank")
-    parser.add_argument("--output", help="PNG to write; default: section.png beside the result")
     options = parser.parse_args()
 
     with h5py.File(options.result, "r") as result:
-        frame = pick_frame(result, options.frame, options.time)
+        frame = pick_frame(result, options)
         points, elements = frame["positions"][:], result["topology/elements"][:]
-        label, scale = LABELS[options.field]
-        values = scale * frame[options.field][:].astype(float)
+        values, label = read_on(frame, result["topology"], options.field, elements, np.arange(len(elements)))
         axis, at, names = None, 0.0, "xy"
         if result.attrs["dimension"] == 2:
             polygons = list(points[elements][:, :, :2])
@@ -108,9 +92,9 @@ def main():
             if not polygons:
                 sys.exit(f"--at: given {at}; the blank lies between {low:.6g} and {high:.6g} m")
         segments, left, planes = tool_lines(result, frame, axis, at)
-        title = f"{result.attrs['scene']}, {frame.attrs['stage']}, t = {1e3 * frame.attrs['time']:.4g} ms"
+        heading = title(result, frame)
         if axis is not None:
-            title += f", cut at {options.axis} = {1e3 * at:.4g} mm"
+            heading += f", cut at {options.axis} = {1e3 * at:.4g} mm"
 
     polygons = [1e3 * polygon for polygon in polygons]
     corners = np.concatenate(polygons)
@@ -118,8 +102,11 @@ def main():
     margin = 0.08 * (high - low).max()
     extent = high - low + 2 * margin
     figure, axes = plt.subplots(figsize=(8, float(np.clip(8 * extent[1] / extent[0], 2.8, 9)) + 0.4), layout="constrained")
-    blank = PolyCollection(polygons, array=values, cmap="turbo", edgecolors="face", linewidths=0.2, zorder=2)
-    if options.field == "plastic_strain":
+    blank = PolyCollection(polygons, array=np.ma.masked_invalid(values), cmap=matplotlib.colormaps["turbo"].copy(), edgecolors="face", linewidths=0.2, zorder=2)
+    blank.cmap.set_bad("0.85")  # inside, where a field of the surface is not known
+    if options.range:
+        blank.set_clim(*options.range)
+    elif options.field == "plastic_strain":
         blank.set_clim(0, max(values.max(), 1e-12))
     axes.add_collection(blank)
     axes.add_collection(LineCollection([1e3 * np.asarray(s) for s in segments], colors="0.25", linewidths=1.4, zorder=3))
@@ -135,7 +122,7 @@ def main():
     axes.set_aspect("equal")
     axes.set_xlabel(f"{names[0]} [mm]")
     axes.set_ylabel(f"{names[1]} [mm]")
-    axes.set_title(title, fontsize=10)
+    axes.set_title(heading, fontsize=10)
     figure.colorbar(blank, ax=axes, label=label, shrink=0.8)
     output = options.output or os.path.join(os.path.dirname(options.result), "section.png")
     figure.savefig(output, dpi=150, bbox_inches="tight")

@@ -17,7 +17,7 @@ struct Command {
   std::size_t most_arguments;
 };
 
-const std::map<std::string, Command> kCommands{{"bending", {bending, 0}}, {"calibrate", {calibrate, 3}}, {"contact", {contact, 0}},   {"costs", {costs, 0}},
+const std::map<std::string, Command> kCommands{{"bending", {bending, 0}}, {"calibrate", {calibrate, 3}}, {"contact", {contact, 1}},   {"costs", {costs, 0}},
                                                {"impact", {impact, 0}},   {"material", {material, 2}},   {"paper", {paper, 1}}};
 
 int usage(std::FILE* to) {
@@ -26,6 +26,7 @@ int usage(std::FILE* to) {
                "  costs    ns per element and step of each stage, contact per pair, gain of a second thread\n"
                "  bending  moment and springback of a bent sheet, by element family and cells\n"
                "  contact  two blocks meet, by speed, layer and mesh: crossings, halvings, momentum, energy, cost\n"
+               "  contact shaken  a sheet between two tools that shake, for a million steps\n"
                "  impact   a bar against a plane and against another bar\n"
                "  material  layered laws against a measured tension-compression-tension curve\n"
                "  material LAW.yaml HISTORY.csv  a law (the fields of a scene's material) at a point, driven by the\n"

@@ -1,4 +1,4 @@
-// The files in meshes/ are what scripts/make_meshes.py says of them.
+// The files in meshes/ are what scripts/make_meshes.py and scripts/make_hem_meshes.py say of them.
 #include <algorithm>
 #include <cmath>
 
@@ -67,6 +67,65 @@ TEST(MeshShipped, ToolsAreClosedAndPointOutwards) {
   const Mesh punch = load_tool_surface(file("punch.stl"), kMeshes);
   EXPECT_NEAR(bounds(punch).min().x(), (10 + .93 + .1) * mm, 1e-9);
   EXPECT_NEAR(bounds(punch).min().z(), .93 * mm, 1e-9);
+}
+
+// ---- the curved hem: sections turned about the z axis
+
+double radius(const Vec3& x) { return std::hypot(x.x(), x.y()); }
+
+TEST(MeshShipped, ThePanelsOfTheHemAreSectorsWithTheirSets) {
+  struct Panel {
+    const char* name;
+    double to, low, thickness;
+    int cells, around;
+  };
+  for (const Panel& panel : {Panel{"hem_outer.msh", 34.5 * mm, 0, .93 * mm, 25 * 7 * 3, 7}, Panel{"hem_inner.msh", 28.4 * mm, .93 * mm, 1 * mm, 9 * 6 * 2, 6}}) {
+    SCOPED_TRACE(panel.name);
+    const Mesh mesh = load_body_mesh(file(panel.name), kMeshes);
+    ASSERT_EQ(mesh.cells.size(), 1u);
+    EXPECT_EQ(mesh.cells[0].kind, CellKind::hex24);
+    EXPECT_EQ(mesh.cells[0].count(), panel.cells);
+    // Plane cells between radii: a polygon in place of the arc.
+    const double half = 8 * M_PI / 180, sector = .5 * panel.around * std::sin(2 * half / panel.around);
+    const double plan = sector * (panel.to * panel.to - 23 * 23 * mm * mm);
+    EXPECT_NEAR(volume(mesh), plan * panel.thickness, 1e-6 * plan * panel.thickness);
+    EXPECT_EQ(euler_characteristic(mesh), 2);
+    const std::map<std::string, double> angle = {{"start", -half}, {"end", half}}, height = {{"bottom", panel.low}, {"top", panel.low + panel.thickness}};
+    std::map<std::string, std::vector<int>> expected;
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+      const Vec3& x = mesh.nodes[n];
+      for (const auto& [name, a] : angle)
+        if (std::abs(x.x() * std::sin(a) - x.y() * std::cos(a)) < 1e-9) expected[name].push_back(int(n));
+      for (const auto& [name, z] : height)
+        if (std::abs(x.z() - z) < 1e-9) expected[name].push_back(int(n));
+    }
+    for (const char* name : {"start", "end", "bottom", "top"}) EXPECT_EQ(mesh.sets.at(name), expected[name]) << name;
+  }
+}
+
+TEST(MeshShipped, TheToolsOfTheHemAreClosedAndLeaveRoomForTheFlange) {
+  std::map<std::string, Mesh> tools;
+  for (const char* name : {"anvil", "die", "flange_punch", "steel", "punch"}) {
+    SCOPED_TRACE(name);
+    std::vector<std::string> notes;
+    tools[name] = load_tool_surface(file(std::string("hem_") + name + ".stl"), kMeshes, notes);
+    const Mesh& mesh = tools[name];
+    EXPECT_TRUE(notes.empty());
+    EXPECT_EQ(euler_characteristic(mesh), 2);
+    EXPECT_LT(sum_of_areas(mesh).norm(), 1e-9 * area(mesh));
+    EXPECT_GT(enclosed(mesh), 0);  // points outwards
+    for (const Vec3& x : mesh.nodes) EXPECT_LT(std::abs(std::atan2(x.y(), x.x())), 10.001 * M_PI / 180);
+  }
+  double wall = 0, face = 1, cone = 1;
+  for (const Vec3& x : tools["die"].nodes) wall = std::max(wall, radius(x));
+  for (const Vec3& x : tools["flange_punch"].nodes) face = std::min(face, radius(x));
+  for (const Vec3& x : tools["steel"].nodes) cone = std::min(cone, radius(x) + x.z());
+  EXPECT_NEAR(wall, (30 - .93) * mm, 1e-9);
+  EXPECT_NEAR(face, 30.1 * mm, 1e-9);
+  EXPECT_NEAR(cone, 39 * mm, 1e-9);
+  EXPECT_NEAR(bounds(tools["anvil"]).max().z(), 0, 1e-9);
+  EXPECT_NEAR(bounds(tools["die"]).min().z(), .93 * mm, 1e-9);
+  EXPECT_NEAR(bounds(tools["punch"]).min().z(), 8.5 * mm, 1e-9);
 }
 
 }  // namespace

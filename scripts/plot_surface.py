@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""Draws a field over the deformed surface of a 3D run, from its result.h5. With a field
+like contact_gap or contact_pressure one sees where the bodies touch."""
+import argparse
+import os
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import h5py
+import matplotlib.pyplot as plt
+import numpy as np
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from result_fields import add_options, pick_frame, read_on, title
+
+LIGHT = np.array([0.3, -0.6, 0.75])
+
+
+def drawn_facets(result, wanted):
+    """Which facets of the surface belong to a body of `wanted`; to any, where it is empty."""
+    names = {result["bodies"][i].attrs["name"]: int(i) for i in result["bodies"]}
+    for name in wanted:
+        if name not in names:
+            sys.exit(f"--body: given {name}; the result holds {', '.join(names)}")
+    body = result["topology/body"][:][result["topology/surface_element"][:]]
+    return np.isin(body, [names[name] for name in wanted]) if wanted else np.ones(len(body), bool)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    add_options(parser)
+    parser.add_argument("--body", action="append", default=[], help="draw this body; can be given again; default: all")
+    parser.add_argument("--view", type=float, nargs=2, default=(20, -60), metavar=("ELEVATION", "AZIMUTH"), help="degrees")
+    options = parser.parse_args()
+
+    with h5py.File(options.result, "r") as result:
+        if result.attrs["dimension"] != 3:
+            sys.exit("the run is plane strain: scripts/plot_section.py shows it")
+        frame, topology = pick_frame(result, options), result["topology"]
+        points, facets = 1e3 * frame["positions"][:], topology["surface"][:]
+        values, label = read_on(frame, topology, options.field, facets, topology["surface_element"][:])
+        drawn = drawn_facets(result, options.body)
+        heading = title(result, frame)
+
+    triangles, values = points[facets[drawn]], values[drawn]
+    low, high = options.range or (np.nanmin(values), np.nanmax(values))
+    colours = plt.cm.ScalarMappable(plt.Normalize(low, high if high > low else low + 1), "turbo")
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    shade = 0.75 + 0.25 * normals @ (LIGHT / np.linalg.norm(LIGHT))
+    faces = colours.to_rgba(values)
+    faces[:, :3] *= shade[:, None]
+
+    figure = plt.figure(figsize=(9, 7))
+    axes = figure.add_subplot(projection="3d", proj_type="ortho")
+    axes.add_collection3d(Poly3DCollection(triangles, facecolors=faces, edgecolors=faces, linewidths=0.2))
+    corners = triangles.reshape(-1, 3)
+    for set_limits, column in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), corners.T):
+        set_limits(column.min(), column.max())
+    axes.set_box_aspect(np.maximum(np.ptp(corners, axis=0), 1e-9), zoom=1.2)
+    axes.view_init(*options.view)
+    axes.set_axis_off()
+    axes.set_title(heading, fontsize=10)
+    figure.colorbar(colours, ax=axes, label=label, shrink=0.6)
+    output = options.output or os.path.join(os.path.dirname(options.result), "surface.png")
+    figure.savefig(output, dpi=150, bbox_inches="tight")
+    print(output)
+
+
+main()

@@ -1,0 +1,77 @@
+"""What the plots read of a result.h5: a frame, and a field of it per node, element or facet."""
+import sys
+
+import numpy as np
+
+COMPONENTS = {3: ("x", "y", "z"), 6: ("xx", "yy", "zz", "xy", "yz", "zx")}
+NAMES = {"plastic_strain": "equivalent plastic strain", "mises": "von Mises stress", "volume_ratio": "volume ratio V/V0",
+         "surface_strain": "largest principal strain of the surface"}
+ON_SURFACE_NODES = ("contact_pressure", "contact_gap", "contact_slip")
+ON_NODES = ("positions", "velocities", *ON_SURFACE_NODES)  # the others: on elements
+SHOWN_IN = {"Pa": ("MPa", 1e-6), "m": ("mm", 1e3)}
+
+
+def add_options(parser):
+    parser.add_argument("result", help="result.h5 of a run")
+    parser.add_argument("--frame", type=int, default=-1, help="number of the frame, negative: from the end; default: the last")
+    parser.add_argument("--time", type=float, help="instead of --frame: the frame nearest to this time, in seconds")
+    parser.add_argument("--field", default="plastic_strain",
+                        help="any field of the frame: plastic_strain, mises, contact_gap, stress.xx, velocities.z ...")
+    parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"), help="ends of the colours, in the unit of the legend")
+    parser.add_argument("--output", help="PNG to write; default: beside the result")
+
+
+def pick_frame(result, options):
+    names = sorted(result["frames"])
+    if not names:
+        sys.exit("the result holds no frames yet")
+    if options.time is not None:
+        return min(result["frames"].values(), key=lambda frame: abs(frame.attrs["time"] - options.time))
+    if not -len(names) <= options.frame < len(names):
+        sys.exit(f"--frame: given {options.frame}; the result holds the frames 0 to {len(names) - 1}")
+    return result["frames"][names[options.frame]]
+
+
+def read_field(frame, wanted):
+    """(values, label with its unit); wanted: the name of a dataset, with .component where it has several."""
+    name, _, component = wanted.partition(".")
+    fields = [key for key, item in frame.items() if hasattr(item, "shape")]
+    if name not in fields:
+        sys.exit(f"--field: given {wanted}; the frame holds {', '.join(fields)}")
+    values = frame[name][:].astype(float)
+    if values.ndim == 2:
+        columns = COMPONENTS[values.shape[1]]
+        if component not in columns:
+            sys.exit(f"--field: given {wanted}; give one of {', '.join(f'{name}.{c}' for c in columns)}")
+        values = values[:, columns.index(component)]
+    elif component:
+        sys.exit(f"--field: given {wanted}; {name} has no components")
+    unit = frame[name].attrs["unit"]
+    unit, scale = SHOWN_IN.get(unit, (unit, 1.0))
+    label = NAMES.get(name, name.replace("_", " ")) + (f" {component}" if component else "")
+    return scale * values, label + ("" if unit == "1" else f" [{unit}]")
+
+
+def read_on(frame, topology, wanted, cells, cell_element):
+    """(the field's value on each of `cells`, rows of nodes; its label). cell_element: the element
+    that each cell is or belongs to. What lives on nodes is the mean of the cell's nodes, and of
+    contact that of its surface nodes: nan inside the body."""
+    values, label = read_field(frame, wanted)
+    name = wanted.partition(".")[0]
+    if name == "surface_strain":
+        if len(cells[0]) != topology["surface"].shape[1]:
+            sys.exit(f"--field: given {wanted}, a field of the surface: scripts/plot_surface.py shows it in 3D")
+        return values, label
+    if name not in ON_NODES:
+        return values[cell_element], label
+    if name in ON_SURFACE_NODES:
+        inside = np.ones(len(values), bool)
+        inside[topology["surface"][:]] = False
+        values[inside] = np.nan
+    corners = values[cells]
+    known = np.isfinite(corners)
+    return np.where(known, corners, 0).sum(axis=1) / np.where(known.any(axis=1), known.sum(axis=1), np.nan), label
+
+
+def title(result, frame):
+    return f"{result.attrs['scene']}, {frame.attrs['stage']}, t = {1e3 * frame.attrs['time']:.4g} ms"
