@@ -1,7 +1,7 @@
 // What each stage of a step costs.
 #include <cmath>
 
-#include "forming_sim/contact/contact.h"
+#include "contact_costs.h"
 #include "layer_costs.h"
 #include "rows.h"
 #include "support/bodies.h"
@@ -54,68 +54,6 @@ void element_costs(const Family& family, int elements, const char* size, std::ve
   }
 }
 
-/// A flat plate of n x n cells over a flat tool whose mesh does not match, all nodes
-/// at `gap` layers from it: contact alone, nothing moves.
-void contact_costs(double gap, const char* name, std::vector<Row>& rows) {
-  const Clock clock;
-  constexpr int n = 100;
-  BlankConfig blank;
-  blank.shape = "plate";
-  blank.pattern = "coarse";
-  blank.length = blank.width = 1;
-  blank.thickness = 0.02;
-  blank.cells_along = blank.cells_across = n;
-  blank.cells_through = 1;
-  const Mesh plate = generate_blank(blank);
-  Mesh tool;
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) tool.nodes.emplace_back(-0.0037 + 1.0051 * i / n, -0.0029 + 1.0047 * j / n, 0);
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      const int a = j * (n + 1) + i;
-      Facet facet;
-      facet.nodes = {a, a + 1, a + n + 2};
-      tool.surface.push_back(facet);
-      facet.nodes = {a, a + n + 2, a + n + 1};
-      tool.surface.push_back(facet);
-    }
-  ContactSetup setup;
-  setup.config.layer = 1e-4;
-  setup.softest_modulus = 70e9;
-  setup.thinnest = 0.02;
-  setup.wave_speed = 5000;
-  ContactSurface body, die;
-  body.name = "plate";
-  body.facets = plate.surface;
-  die.name = "die";
-  die.rigid = true;
-  die.facets = tool.surface;
-  setup.bodies = {body};
-  setup.tools = {die};
-  setup.tool_meshes = {&tool};
-  NodeField x = positions_of(plate);
-  for (Node& node : x) node[2] += 1e-3;  // clear of the tool at the start
-  Contact contact(setup, x, {ToolMotion()});
-  contact.set_masses(std::vector<double>(x.size(), 1.0), {});
-  for (Node& node : x) node[2] += (gap - 1) * setup.config.layer - 1e-3;  // the tool stands a layer back
-  const NodeField rest = x;
-  NodeField v;
-  ContactStep step;
-  const double time = least_time([&] {
-    x = rest;
-    v.assign(x.size(), Node::Zero());
-    step = contact.advance(0, 1e-7, x, v, [&](double, NodeField& v_star) { v_star = v; }, [](double) { return std::vector<ToolMotion>(1); });
-  });
-  rows.push_back(just(name, "listed pairs", static_cast<double>(contact.listed_pairs()), clock.seconds()));
-  if (step.active == 0) {
-    rows.push_back(at_most(name, "ns a listed pair and step", 1e9 * time / static_cast<double>(contact.listed_pairs()), 20, clock.seconds()));
-    return;
-  }
-  rows.push_back(just(name, "active pairs", static_cast<double>(step.active), clock.seconds()));
-  rows.push_back(just(name, "sweeps", step.sweeps, clock.seconds()));
-  rows.push_back(just(name, "ns a listed pair, all of the step", 1e9 * time / static_cast<double>(contact.listed_pairs()), clock.seconds()));
-}
-
 /// Bytes a second of a sum over an array that no cache holds.
 double bandwidth() {
   std::vector<double> a(32 << 20, 1.0);
@@ -143,8 +81,7 @@ std::vector<Row> costs(const Request&) {
     element_costs(family, 400000, "400k elements", rows);
   }
   layer_costs(rows);
-  contact_costs(3, "contact, 10k nodes on 20k facets, apart", rows);
-  contact_costs(0.9, "contact, 10k nodes on 20k facets, pressed", rows);
+  contact_costs(rows);
   return rows;
 }
 

@@ -5,7 +5,6 @@
 
 #include "contact/impl.h"
 #include "forming_sim/contact/crossing.h"
-#include "forming_sim/contact/sweeps.h"
 
 namespace forming_sim {
 
@@ -75,30 +74,11 @@ void Contact::Impl::move(double dt, NodeField& x, NodeField& v) {
   for (std::size_t i = 0; i < x.size(); ++i) x[i] += dt * v[i];
 }
 
-double Contact::Impl::book_impulses(ContactStep& step) {
+Books Contact::Impl::open_books(ContactStep& step) {
   add_slip(step.dt);
-  step.tool_impulse.assign(tools.names.size(), Vec3::Zero());
-  step.tool_angular_impulse.assign(tools.names.size(), Vec3::Zero());
-  step.layer = layer;
-  const auto on_tool = [&](const Link& link, int tool, const Vec3& impulse) {
-    for (int k = 0; k < link.nodes; ++k) {
-      if (link.node[k] < work.body_entries) continue;
-      step.tool_impulse[tool] += link.weight[k] * impulse;
-      step.tool_angular_impulse[tool] += vec3(work.x[link.node[k]]).cross(link.weight[k] * impulse);
-    }
-  };
-  for (const TiePair& tie : tie_pairs) on_tool(tie, tie.tool, vec3(tie.impulse));
-  for (const ContactPair& pair : near.pairs) {
-    if (pair.impulse == 0) continue;
-    ++step.active;
-    step.layer = std::max(step.layer, pair.layer);
-    on_tool(pair, pair.tool, vec3(pair.impulse * pair.normal + pair.slip));
-  }
-  const PairWork done = work_of(work, tie_pairs, near.pairs);
-  step.tool_work = done.tool;
-  step.held_work = done.held;
-  step.friction_work = done.friction;
-  return done.normal;
+  Books books(work, near.rubs, static_cast<int>(tools.names.size()), layer, step);
+  for (const TiePair& tie : tie_pairs) books.add(tie);
+  return books;
 }
 
 long Contact::count_crossings(const NodeField& x, const std::vector<ToolMotion>& tools) const {
@@ -120,11 +100,12 @@ double Contact::stiffness() const { return impl_->modulus; }
 double Contact::push_speed() const { return impl_->push_speed; }
 long Contact::listed_pairs() const { return impl_->list.size(); }
 long Contact::list_builds() const { return impl_->builds; }
+const ContactTimes& Contact::times() const { return impl_->times; }
 const std::vector<Vec3>& Contact::body_shifts() const { return impl_->body_shifts; }
 const std::vector<std::string>& Contact::warnings() const { return impl_->warnings; }
 
 namespace {
-constexpr std::uint64_t kMagic = 0x34746361746e6f43u;  // "Contact4"
+constexpr std::uint64_t kMagic = 0x35746361746e6f43u;  // "Contact5"
 struct SavedHeader {
   std::uint64_t magic, vertices, facets, records, tools, slip;
   double potential, previous_dt;

@@ -7,7 +7,6 @@
 #include "contact/impl.h"
 #include "forming_sim/contact/impulse.h"
 #include "forming_sim/contact/power_law.h"
-#include "forming_sim/contact/sweeps.h"
 
 namespace forming_sim {
 namespace {
@@ -31,7 +30,7 @@ void pair_nearest_nodes(double reach, double travel, NearList& list, const Featu
     if (distance > reach || !(distance > 0)) continue;
     ContactPair pair;
     const bool swap = vertex < g.vertex;
-    pair.key = PairKey::make(PairKey::vertex_facet, std::min(vertex, g.vertex), Closest::corner, std::max(vertex, g.vertex));
+    pair.key = PairKey::make(PairKey::vertex_vertex, std::min(vertex, g.vertex), 0, std::max(vertex, g.vertex));
     pair.own = features.vertex_surface[g.vertex];
     pair.surface = g.surface;
     if (swap) std::swap(pair.own, pair.surface);
@@ -99,7 +98,7 @@ ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x
       add_plane_pairs(features, work, planes, layer, reach, list, near.pairs);
       pair_nearest_nodes(reach, travel, list, features, work, near.pairs);
     } else {
-      narrow_phase(features, work, planes, layer, true, reach, travel, list, near);
+      narrow_phase(constants(), planes, true, reach, travel, list, near);
     }
     const auto left_out = [&](ContactPair& pair) {
       if (pair.gap < 0) {
@@ -109,7 +108,8 @@ ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x
       return pair.key.kind() == PairKey::edge_edge || !(pair.gap > 0) || pair.gap > reach;
     };
     near.pairs.erase(std::remove_if(near.pairs.begin(), near.pairs.end(), left_out), near.pairs.end());
-    set_constants();
+    near.rubs.clear();
+    for (ContactPair& pair : near.pairs) constants().set(pair, near.rubs);
     // ---- forces, then friction
     for (ContactPair& pair : near.pairs) {
       pair.layer = layer;
@@ -118,7 +118,8 @@ ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x
       pair.impulse = kick * law.force(pair.gap, pair.stiffness);
       if (pair.impulse > 0) push(pair, pair.impulse * pair.normal, work, work.v);
     }
-    for (ContactPair& pair : near.pairs) rub(pair, work);
+    for (const ContactPair& pair : near.pairs)
+      if (pair.rub >= 0) end_slip(pair, near.rubs[pair.rub], work);
     double most = 0;
     for (int i = 0; i < work.body_entries; ++i) {
       const double squared = dot3(work.v[i], work.v[i]);
@@ -132,8 +133,9 @@ ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x
 
   ContactStep step;
   step.dt = dt;
-  book_impulses(step);
+  Books books = open_books(step);
   for (const ContactPair& pair : near.pairs) {
+    books.add(pair);
     step.min_gap_over_layer = std::min(step.min_gap_over_layer, pair.gap / layer);
     const double middle = std::abs(pair.gap + 0.5 * dt * dot3(pair.normal, relative(pair, work.v)));
     step.potential += law.potential(std::max(middle, 1e-12 * layer), pair.stiffness);

@@ -11,7 +11,6 @@
 // node deeper than its motion of one step is lost.
 #include "contact/impl.h"
 #include "forming_sim/contact/impulse.h"
-#include "forming_sim/contact/sweeps.h"
 
 namespace forming_sim {
 
@@ -69,14 +68,14 @@ double Contact::Impl::nearest_side(const NearList::VertexGroup& g, double deepes
 }
 
 void Contact::Impl::put_back(ContactPair pair) {
-  set_constants(pair);
+  constants().set(pair, near.rubs);
   if (pair.w == 0) return;
   push(pair, (layer - pair.gap) / pair.w * pair.normal, work, work.x);
   const double closing = -dot3(pair.normal, relative(pair, work.v));
   if (closing > 0) {
     pair.impulse = closing / pair.w;
     push(pair, pair.impulse * pair.normal, work, work.v);
-    rub(pair, work);
+    if (pair.rub >= 0) end_slip(pair, near.rubs[pair.rub], work);
   }
   near.pairs.push_back(pair);
 }
@@ -86,8 +85,7 @@ ContactStep Contact::Impl::advance_geometric(double dt, NodeField& x, NodeField&
   predict(dt, v_star);
   const double tool_way = step_way(motion, x), predicted = both * fastest(v_star) * dt + tool_way;
   const double deepest = layer + 2 * predicted;
-  near.pairs.clear();
-  near.close.clear();
+  near = Narrow();
   ensure_list(x, motion, deepest, 2 * predicted);
   double way = predicted;
   if (list.size() > 0) {
@@ -126,9 +124,12 @@ ContactStep Contact::Impl::advance_geometric(double dt, NodeField& x, NodeField&
 
   ContactStep step;
   step.dt = dt;
-  step.dissipated = -book_impulses(step);
-  for (const ContactPair& pair : near.pairs)
+  Books books = open_books(step);
+  for (const ContactPair& pair : near.pairs) {
+    books.add(pair);
     step.min_gap_over_layer = std::min(step.min_gap_over_layer, dot3(pair.normal, relative(pair, work.x)) / layer);
+  }
+  step.dissipated = -books.normal_work();
   return step;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "forming_sim/contact/books.h"
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/contact.h"
 #include "forming_sim/contact/layers.h"
@@ -49,6 +50,7 @@ struct Contact::Impl {
   double travel = 0;        ///< bound on relative motion since the list was built (never falls)
   double used = 0;          ///< of the list's radius
   std::vector<bool> listed_present;
+  ContactTimes times;
   NodeField x_at_build;     ///< of the bodies' surface vertices, in their order
   std::vector<ToolMotion> motion_at_build;
   // ---- scratch
@@ -71,19 +73,16 @@ struct Contact::Impl {
   void ensure_list(const NodeField& x, const std::vector<ToolMotion>& motion, double reach, double step_bound);
   /// Into the workspace: x at the start, v_star, v before the kick (of tools: over the step before).
   void gather(const NodeField& x, const NodeField& v, double dt, const std::vector<ToolMotion>& motion, const std::vector<PlanePose>& planes);
-  /// Stiffness E A h0, friction and inverse masses of the pairs.
-  void set_constants();
-  void set_constants(ContactPair& pair) const;
+  PairConstants constants() const { return {features, work, modulus, layer}; }
   /// Counts `way` of relative motion towards the list's margin.
   void moved_by(double way);
 
   // contact.cpp
   /// Velocities back from the workspace, and x + dt v.
   void move(double dt, NodeField& x, NodeField& v);
-  /// What the pairs' impulses did to the tools, how many act, and what slid
-  /// (step.dt: the step taken). Returns the
-  /// work of the impulses along the normals on the relative motion, J.
-  double book_impulses(ContactStep& step);
+  /// Adds the slip of the step (step.dt: the step taken) to the nodes', and books the ties; the
+  /// caller adds the pairs.
+  Books open_books(ContactStep& step);
 
   // surface_fields.cpp
   /// Adds to the slip of every node that rubs what its pairs slid in the step,

@@ -1,5 +1,6 @@
 // The package's own method: the mild law at the end of the step, swept over the
 // pairs; a continuous check, and halving of the step where that finds a touch.
+#include <chrono>
 #include <sstream>
 
 #include "contact/impl.h"
@@ -8,6 +9,25 @@
 #include "forming_sim/contact/sweeps.h"
 
 namespace forming_sim {
+
+namespace {
+/// Adds to a part of the times what has passed since the part before was done.
+class Laps {
+ public:
+  explicit Laps(ContactTimes& times) : times_(times) {}
+  void start() { last_ = Clock::now(); }
+  void done(double ContactTimes::*part) {
+    const Clock::time_point now = Clock::now();
+    times_.*part += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  ContactTimes& times_;
+  Clock::time_point last_;
+};
+}  // namespace
 
 // The first close pair that touches on the way, -1: none.
 int Contact::Impl::first_touch(double dt) {
@@ -96,10 +116,12 @@ void Contact::Impl::check_unmovable(double time) const {
 
 ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at) {
   ContactStep step;
+  Laps laps(times);
   bool all = false;  // let pairs that push askew act before they are in their layer
   for (;;) {
     const std::vector<ToolMotion> motion = tools_at(dt);
     predict(dt, v_star);
+    laps.start();
     const double tool_way = step_way(motion, x);
     double bound = 2 * (both * fastest(v_star) * dt + tool_way);
     double thickest = layer;
@@ -114,13 +136,15 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
       near.pairs.clear();
       near.close.clear();
       way = bound / 2;
+      laps.done(&ContactTimes::list);
       if (list.size() == 0) break;
       gather(x, v, dt, motion, planes);
-      narrow_phase(features, work, planes, layer, all, reach, travel, list, near);
-      set_constants();
+      narrow_phase(constants(), planes, all, reach, travel, list, near);
       assign_layers(records, work, dt, layer, ceiling, near.pairs);
+      laps.done(&ContactTimes::narrow);
       swept = SweepResult();
-      if (!near.pairs.empty() || !tie_pairs.empty()) swept = solve_pairs(dt, 1e-3 * layer, config.max_sweeps, work, tie_pairs, near.pairs);
+      if (!near.pairs.empty() || !tie_pairs.empty()) swept = solve_pairs(dt, 1e-3 * layer, config.max_sweeps, work, tie_pairs, near.pairs, near.rubs);
+      laps.done(&ContactTimes::sweeps);
       double most = 0;
       for (int i = 0; i < work.body_entries; ++i) most = std::max(most, dot3(work.v[i], work.v[i]));
       way = std::max(bound / 2, both * std::sqrt(most) * dt + tool_way);
@@ -129,6 +153,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
     step.sweeps += swept.sweeps;
     check_unmovable(time + dt);
     const int touch = swept.open ? first_touch(dt) : -1;
+    laps.done(&ContactTimes::check);
     if (swept.open && touch < 0) {
       moved_by(way);
       break;
@@ -145,19 +170,24 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
 
   move(dt, x, v);
 
+  laps.start();
+  Books books = open_books(step);
+  RelaxedPotential end;
   double start = 0;
-  for (const ContactPair& pair : near.pairs) {
+  next_records.clear();
+  for (ContactPair& pair : near.pairs) {
+    books.add(pair);
     start += mild_potential(pair.gap, pair.layer, pair.stiffness);
     step.min_gap_over_layer = std::min(step.min_gap_over_layer, pair.end_gap / layer);
+    relax_layer(push_speed * dt, pair, end, next_records);
   }
-  const double normal_work = book_impulses(step);
-  const RelaxedPotential end = relax_layers(push_speed * dt, near.pairs, next_records);
   step.soft_start_work = end.after - end.before;
   step.potential = end.after;
   records.swap(next_records);
   // Potential that comes or goes with the change of features counts as dissipation, of either sign.
-  step.dissipated = -normal_work - (end.before - start) - (start - potential);
+  step.dissipated = -books.normal_work() - (end.before - start) - (start - potential);
   potential = step.potential;
+  laps.done(&ContactTimes::books);
   return step;
 }
 

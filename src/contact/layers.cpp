@@ -30,7 +30,7 @@ template <class PairOrRecord> int meetings(const PairOrRecord& pair, Meeting (&a
   const std::int64_t tag = edges ? kEdge : 0;
   all[0] = {tag + static_cast<std::int64_t>(pair.key.group & 0xffffffffu), pair.surface};
   all[1] = {tag + static_cast<std::int64_t>(pair.key.feature & 0xffffffffu), pair.own};
-  return edges || (pair.key.kind() == PairKey::vertex_facet && pair.key.feature >> 32 == Closest::corner) ? 2 : 1;
+  return edges || pair.key.kind() == PairKey::vertex_vertex ? 2 : 1;
 }
 
 /// The records whose pairs are gone, by their meetings; each may be taken once.
@@ -98,17 +98,12 @@ void assign_layers(const std::vector<LayerRecord>& before, const Workspace& work
   }
 }
 
-RelaxedPotential relax_layers(double growth, std::vector<ContactPair>& pairs, std::vector<LayerRecord>& after) {
-  after.clear();
-  RelaxedPotential potential;
-  for (ContactPair& pair : pairs) {
-    const double old = pair.layer, before = mild_potential(pair.end_gap, old, pair.stiffness);
-    pair.layer = old < pair.base ? std::min(pair.base, old + growth) : std::max(pair.base, old - growth);
-    potential.before += before;
-    potential.after += pair.layer == old ? before : mild_potential(pair.end_gap, pair.layer, pair.stiffness);
-    if (pair.end_gap < std::max(pair.layer, pair.base)) after.push_back({pair.key, pair.own, pair.surface, pair.layer, pair.end_gap});
-  }
-  return potential;
+void relax_layer(double growth, ContactPair& pair, RelaxedPotential& potential, std::vector<LayerRecord>& after) {
+  const double old = pair.layer, before = mild_potential(pair.end_gap, old, pair.stiffness);
+  pair.layer = old < pair.base ? std::min(pair.base, old + growth) : std::max(pair.base, old - growth);
+  potential.before += before;
+  potential.after += pair.layer == old ? before : mild_potential(pair.end_gap, pair.layer, pair.stiffness);
+  if (pair.end_gap < std::max(pair.layer, pair.base)) after.push_back({pair.key, pair.own, pair.surface, pair.layer, pair.end_gap});
 }
 
 }  // namespace forming_sim

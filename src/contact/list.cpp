@@ -44,7 +44,7 @@ class Builder {
       if (found.empty()) continue;
       std::sort(found.begin(), found.end());
       const int first = static_cast<int>(list.facets.size());
-      for (int facet : found) list.facets.push_back({facet, {f_.facets[facet][0], f_.facets[facet][1], f_.facets[facet][2]}});
+      for (int facet : found) list.facets.push_back({facet, {f_.facets[facet][0], f_.facets[facet][1], f_.facets[facet][2]}, kAwake});
       const int near_first = static_cast<int>(list.neighbours.size());
       for (int i = f_.first_neighbour[v]; i < f_.first_neighbour[v + 1]; ++i) list.neighbours.push_back(f_.neighbours[i]);
       list.groups.push_back({v, v, b, first, static_cast<int>(list.facets.size()), near_first, static_cast<int>(list.neighbours.size()), kAwake});

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 #include "forming_sim/contact/closest.h"
 
@@ -15,29 +15,55 @@ namespace {
 // that came and went with the waves would lose their potential each time.
 constexpr double kWedge = 1e-3;
 
+bool rising(const ContactPair& a, const ContactPair& b) { return a.key < b.key; }
+
 class Phase {
  public:
-  Phase(const Features& f, const Workspace& work, double layer, bool all, Narrow& result)
-      : f_(f), work_(work), layer_(layer), all_(all), out_(result) {}
+  Phase(const PairConstants& constants, bool all, Narrow& result)
+      : constants_(constants), f_(constants.features), work_(constants.work), layer_(constants.layer), all_(all), out_(result) {}
 
-  // Returns the distance of the nearest facet.
-  double group(const NearList& list, int index, double reach) {
-    const NearList::VertexGroup& g = list.groups[index];
+  /// Looks at the facets of the group that are awake; sets when they need be looked at again.
+  void group(NearList& list, int index, double reach, double travel, double awake) {
+    NearList::VertexGroup& g = list.groups[index];
     const Node& p = work_.x[g.node];
     const double reach2 = reach * reach;
     hits_.clear();
-    double least = -1;
+    g.wake = std::numeric_limits<double>::infinity();
     for (int i = g.first; i < g.last; ++i) {
-      const NearList::FacetEntry& e = list.facets[i];
-      const Closest c = f_.dimension == 2 ? closest_on_segment_facet(p, work_.x[e.node[0]], work_.x[e.node[1]])
-                                          : closest_on_triangle(p, work_.x[e.node[0]], work_.x[e.node[1]], work_.x[e.node[2]]);
-      if (least < 0 || c.squared < least) least = c.squared;
-      if (c.squared > reach2) continue;
-      hits_.push_back({c, i, feature_of(c, e.facet), false});
-      out_.close.push_back({i, index, std::sqrt(c.squared)});
+      NearList::FacetEntry& e = list.facets[i];
+      if (e.wake <= awake) {
+        const Closest c = f_.dimension == 2 ? closest_on_segment_facet(p, work_.x[e.node[0]], work_.x[e.node[1]])
+                                            : closest_on_triangle(p, work_.x[e.node[0]], work_.x[e.node[1]], work_.x[e.node[2]]);
+        const double distance = std::sqrt(c.squared);
+        e.wake = travel + distance;
+        if (c.squared <= reach2) {
+          hits_.push_back({c, i, feature_of(c, e.facet), false});
+          out_.close.push_back({i, index, distance});
+        }
+      }
+      g.wake = std::min(g.wake, e.wake);
     }
-    if (!hits_.empty()) choose(list, g);
-    return std::sqrt(least);
+    if (hits_.empty()) return;
+    if (g.vertex != vertex_) finish_vertex();
+    vertex_ = g.vertex;
+    choose(list, g);
+  }
+
+  /// Before the next vertex, or at the end of all: in their order, complete.
+  void finish_vertex() {
+    std::vector<ContactPair>& all = out_.pairs;
+    const auto first = all.begin() + static_cast<long>(finished_);
+    if (!std::is_sorted(first, all.end(), rising)) std::sort(first, all.end(), rising);
+    finish();
+  }
+  /// After all vertices, before the edges: pairs of two vertices, found from either side.
+  void finish_corners() {
+    put_in_order(corners_);
+    out_.pairs.insert(out_.pairs.end(), corners_.begin(), corners_.end());
+    finish();
+  }
+  void finish() {
+    for (; finished_ < out_.pairs.size(); ++finished_) constants_.set(out_.pairs[finished_], out_.rubs);
   }
 
   double edges(const NearList& list, int index, double reach) {
@@ -62,7 +88,8 @@ class Phase {
     pair.normal = c.apart / distance;
     const bool nearest = outside(a0, a1, e.opposite, -pair.normal) && outside(b0, b1, e.opposite + 2, pair.normal);
     pair.base = nearest ? layer_ : layer_ / 2;
-    offer(pair);
+    offer(pair, out_.pairs);
+    finish();
     return distance;
   }
 
@@ -131,15 +158,16 @@ class Phase {
       for (int k = 0; k < f_.corners(); ++k) with(k, c.weight[k]);
     }
     int first = g.vertex, second = static_cast<int>(hit.feature & 0xffffffffu);
-    if (c.feature == Closest::corner && second < first) {  // the same pair is found from both sides
+    const bool corners = c.feature == Closest::corner;
+    if (corners && second < first) {  // the same pair is found from both sides
       std::swap(first, second);
       std::swap(pair.node[0], pair.node[1]);
       std::swap(pair.own, pair.surface);
     }
-    pair.key = PairKey::make(PairKey::vertex_facet, first, c.feature, second);
+    pair.key = corners ? PairKey::make(PairKey::vertex_vertex, first, 0, second) : PairKey::make(PairKey::vertex_facet, first, c.feature, second);
     Node d = c.apart;
     if (pair.node[0] != g.node) d = -d;
-    if (c.feature == Closest::corner) d = work_.x[pair.node[0]] - work_.x[pair.node[1]];  // the same bits from both sides
+    if (corners) d = work_.x[pair.node[0]] - work_.x[pair.node[1]];  // the same bits from both sides
     pair.gap = std::sqrt(dot3(d, d));
     if (!(pair.gap > 0)) return;  // no direction; the start check and the continuous check exclude it
     pair.normal = d / pair.gap;
@@ -148,13 +176,14 @@ class Phase {
     const double sense = pair.node[0] == g.node ? 1 : -1;
     for (int i = g.near_first; i < g.near_last; ++i) {
       const Node along = work_.x[list.neighbours[i]] - from;
-      if (-sense * dot3(pair.normal, along) > kWedge * std::sqrt(dot3(along, along)) + layer_) pair.base = layer_ / 2;
+      const double nearer = -sense * dot3(pair.normal, along) - layer_;
+      if (nearer > 0 && nearer * nearer > kWedge * kWedge * dot3(along, along)) pair.base = layer_ / 2;
     }
-    offer(pair);
+    offer(pair, corners ? corners_ : out_.pairs);
   }
 
-  void offer(const ContactPair& pair) {
-    if (all_ || pair.base == layer_ || pair.gap < pair.base) out_.pairs.push_back(pair);
+  void offer(const ContactPair& pair, std::vector<ContactPair>& to) {
+    if (all_ || pair.base == layer_ || pair.gap < pair.base) to.push_back(pair);
   }
 
   // Does `away` from the edge ab point out of the slab of every facet at the edge?
@@ -164,34 +193,29 @@ class Phase {
       if (opposite[k] < 0) continue;
       const Node r = work_.x[opposite[k]] - a;
       const Node inward = r - dot3(r, u) / dot3(u, u) * u;
-      if (dot3(away, inward) > kWedge * std::sqrt(dot3(inward, inward))) return false;
+      const double within = dot3(away, inward);
+      if (within > 0 && within * within > kWedge * kWedge * dot3(inward, inward)) return false;
     }
     return true;
   }
 
+  const PairConstants& constants_;
   const Features& f_;
   const Workspace& work_;
   double layer_;
   bool all_;
   Narrow& out_;
   std::vector<Hit> hits_;
+  std::vector<ContactPair> corners_;  ///< pairs of two vertices
+  int vertex_ = -1;                   ///< whose pairs are being found
+  size_t finished_ = 0;               ///< so many pairs are in order and complete
 };
 
 }  // namespace
 
 void put_in_order(std::vector<ContactPair>& pairs) {
-  const auto rising = [](const ContactPair& a, const ContactPair& b) { return a.key < b.key; };
-  bool done = true;
-  for (size_t i = 1; i < pairs.size() && done; ++i) done = rising(pairs[i - 1], pairs[i]);
-  if (done) return;
-  std::vector<int> order(pairs.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return rising(pairs[a], pairs[b]); });
-  std::vector<ContactPair> sorted;
-  sorted.reserve(pairs.size());
-  for (int i : order)
-    if (sorted.empty() || !(sorted.back().key == pairs[i].key)) sorted.push_back(pairs[i]);
-  pairs.swap(sorted);
+  std::sort(pairs.begin(), pairs.end(), rising);
+  pairs.erase(std::unique(pairs.begin(), pairs.end(), [](const ContactPair& a, const ContactPair& b) { return a.key == b.key; }), pairs.end());
 }
 
 void add_plane_pairs(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, double reach,
@@ -216,19 +240,22 @@ void add_plane_pairs(const Features& features, const Workspace& work, const std:
   }
 }
 
-void narrow_phase(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, bool all, double reach,
-                  double travel, NearList& list, Narrow& result) {
+void narrow_phase(const PairConstants& constants, const std::vector<PlanePose>& planes, bool all, double reach, double travel, NearList& list,
+                  Narrow& result) {
   result.pairs.clear();
+  result.rubs.clear();
   result.close.clear();
-  Phase phase(features, work, layer, all, result);
-  add_plane_pairs(features, work, planes, layer, reach, list, result.pairs);
+  Phase phase(constants, all, result);
+  add_plane_pairs(constants.features, constants.work, planes, constants.layer, reach, list, result.pairs);
+  phase.finish();
   // Distances are computed to rounding; the factor keeps the bound on its safe side.
   const double awake = (travel + reach) * (1 + 1e-12);
   for (size_t i = 0; i < list.groups.size(); ++i)
-    if (list.groups[i].wake <= awake) list.groups[i].wake = travel + phase.group(list, static_cast<int>(i), reach);
+    if (list.groups[i].wake <= awake) phase.group(list, static_cast<int>(i), reach, travel, awake);
+  phase.finish_vertex();
+  phase.finish_corners();
   for (size_t i = 0; i < list.edges.size(); ++i)
     if (list.edges[i].wake <= awake) list.edges[i].wake = travel + phase.edges(list, static_cast<int>(i), reach);
-  put_in_order(result.pairs);
 }
 
 }  // namespace forming_sim

@@ -1,8 +1,7 @@
-// Which features are near: the list and its margin, the workspace, the constants of the pairs.
+// Which features are near: the list and its margin, the workspace.
 #include <Eigen/Geometry>
 
 #include "contact/impl.h"
-#include "forming_sim/contact/sweeps.h"
 
 namespace forming_sim {
 
@@ -114,25 +113,6 @@ void Contact::Impl::gather(const NodeField& x, const NodeField& v, double dt, co
   for (const TiePair& tie : tie_pairs)
     if (tie.tool >= 0) place_on_tool(tie.node[1], tie.tool, ties[tie.tie].kept);
   for (TiePair& tie : tie_pairs) aim_tie(ties[tie.tie], work, tie);
-}
-
-void Contact::Impl::set_constants() {
-  for (ContactPair& pair : near.pairs) set_constants(pair);
-}
-
-void Contact::Impl::set_constants(ContactPair& pair) const {
-  // The mean area of the deformable nodes.
-  double sum = 0;
-  int count = 0;
-  for (int k = 0; k < pair.nodes; ++k)
-    if (pair.node[k] < work.body_entries) {
-      sum += features.area[work.vertex[pair.node[k]]];
-      ++count;
-    }
-  pair.stiffness = count > 0 ? modulus * layer * sum / count : 0;
-  pair.tool = std::max(-1, std::max(pair.own, pair.surface) - features.bodies);
-  pair.friction = features.relation(pair.own, pair.surface).friction;
-  prepare_pair(work, pair);
 }
 
 void Contact::Impl::moved_by(double way) {

@@ -9,7 +9,7 @@ void Contact::Impl::add_slip(double dt) {
   weighted.assign(work.body_entries, 0.0);
   total.assign(work.body_entries, 0.0);
   for (const ContactPair& pair : near.pairs) {
-    if (pair.impulse == 0 || !(pair.friction > 0)) continue;
+    if (pair.impulse == 0 || pair.rub < 0) continue;
     const Node u = relative(pair, work.v);
     const double speed = (u - dot3(pair.normal, u) * pair.normal).norm();
     for (int k = 0; k < pair.nodes; ++k) {

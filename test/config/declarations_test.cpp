@@ -9,117 +9,118 @@
 namespace forming_sim {
 namespace {
 
-/// Visits a Config and all Configs it can contain, each type once.
-template <class Config, class Visit> void for_each_type(Visit&& visit, std::set<std::string>& seen) {
+/// What a declaration says, and the default that stands beside it.
+struct Declared {
+  int type;  ///< number of its Config
+  std::string name;
+  Field field;
+  std::optional<double> number;
+  std::optional<Vec3> vector;
+  std::optional<bool> flag;
+  std::optional<std::string> text;
+  std::vector<Fault> faults;  ///< of the default
+};
+
+/// Every field of a Config and of all Configs it can contain, each type once.
+template <class Config> void collect(std::set<std::string>& seen, std::vector<Declared>& all) {
   if (!seen.insert(__PRETTY_FUNCTION__).second) return;
-  Config config{};
-  visit(config);
-  for_each_field(config, [&](const char*, auto& value, const Field&) {
+  const int type = static_cast<int>(seen.size());
+  const Config config{};
+  for_each_field(config, [&](const char* name, const auto& value, const Field& field) {
     using T = std::decay_t<decltype(value)>;
-    if constexpr (is_config<T>) for_each_type<T>(visit, seen);
-    else if constexpr (is_group<T>) for_each_type<typename T::value_type>(visit, seen);
+    Declared declared{type, name, field, {}, {}, {}, {}, {}};
+    if constexpr (is_number<T>) declared.number = value;
+    else if constexpr (std::is_same_v<T, Vec3>) declared.vector = value;
+    else if constexpr (std::is_same_v<T, bool>) declared.flag = value;
+    else if constexpr (std::is_same_v<T, std::string>) declared.text = value;
+    if constexpr (!is_group<T>) {
+      FaultList list(declared.faults);
+      check_value(value, name, field, list);
+    }
+    all.push_back(std::move(declared));
+    if constexpr (is_config<T>) collect<T>(seen, all);
+    else if constexpr (is_group<T>) collect<typename T::value_type>(seen, all);
   });
 }
 
-template <class Check> int check_all(Check&& check) {
-  std::set<std::string> seen;
-  int fields = 0;
-  for_each_type<Scene>([&](auto& config) {
-    const auto& constant = config;
-    for_each_field(constant, [&](const std::string& name, const auto& value, const Field& field) {
-      ++fields;
-      check(config, name, value, field);
-    });
-  }, seen);
-  return fields;
+const std::vector<Declared>& declared() {
+  static const std::vector<Declared> all = [] {
+    std::set<std::string> seen;
+    std::vector<Declared> fields;
+    collect<Scene>(seen, fields);
+    return fields;
+  }();
+  return all;
 }
 
 TEST(Declarations, AreAllReached) {
-  std::set<std::string> seen;
   int types = 0;
-  for_each_type<Scene>([&](auto&) { ++types; }, seen);
+  for (const Declared& d : declared()) types = std::max(types, d.type);
   EXPECT_EQ(types, 21);  // Scene, Body, Tool, Blank, Mesh, Set, ProfilePiece, Profile, Hardening, Layer, Material, Contact, Pair,
                          // Boundary, Pressure, Motion, TimeStep, Stage, Output, Probe, Springback
-  EXPECT_GT(check_all([](auto&, const std::string&, const auto&, const Field&) {}), 100);
+  EXPECT_GT(declared().size(), 100u);
 }
 
 TEST(Declarations, ZeroIsOutOfRangeWhereTheDefaultIsNotZero) {
-  check_all([](auto&, const std::string& name, const auto& value, const Field& field) {
-    using T = std::decay_t<decltype(value)>;
-    if constexpr (is_number<T>) {
-      if (value == 0) return;
-      EXPECT_FALSE(field.contains(0)) << name << ": a message could not tell 0 from nothing";
-    } else if constexpr (std::is_same_v<T, Vec3>) {
-      EXPECT_TRUE(value.isZero(0)) << name;
-    } else if constexpr (std::is_same_v<T, bool>) {
-      EXPECT_FALSE(value) << name;
-    } else if constexpr (std::is_same_v<T, std::string>) {
-      if (!value.empty()) {
-        const auto& words = field.choices();
-        EXPECT_TRUE(!words.empty() && std::find(words.begin(), words.end(), "") == words.end()) << name;
-      }
+  for (const Declared& d : declared()) {
+    if (d.number && *d.number != 0) {
+      EXPECT_FALSE(d.field.contains(0)) << d.name << ": a message could not tell 0 from nothing";
     }
-  });
+    if (d.vector) {
+      EXPECT_TRUE(d.vector->isZero(0)) << d.name;
+    }
+    if (d.flag) {
+      EXPECT_FALSE(*d.flag) << d.name;
+    }
+    if (d.text && !d.text->empty()) {
+      const auto& words = d.field.choices();
+      EXPECT_TRUE(!words.empty() && std::find(words.begin(), words.end(), "") == words.end()) << d.name;
+    }
+  }
 }
 
 TEST(Declarations, RequiredNumbersExcludeZeroOrSayThatItIsGiven) {
-  check_all([](auto&, const std::string& name, const auto& value, const Field& field) {
-    using T = std::decay_t<decltype(value)>;
-    if constexpr (is_number<T>) {
-      if (!field.is_required()) return;
-      EXPECT_TRUE(!field.contains(0) || field.zero_is_given()) << name;
+  for (const Declared& d : declared())
+    if (d.number && d.field.is_required()) {
+      EXPECT_TRUE(!d.field.contains(0) || d.field.zero_is_given()) << d.name;
     }
-  });
 }
 
 TEST(Declarations, DefaultsLieInRange) {
-  check_all([](auto&, const std::string& name, const auto& value, const Field& field) {
-    using T = std::decay_t<decltype(value)>;
-    if constexpr (!is_group<T>) {
-      if (field.is_required()) return;
-      std::vector<Fault> faults;
-      FaultList list(faults);
-      if constexpr (std::is_same_v<T, std::string>) {
-        if (value.empty()) return;
-      }
-      check_value(value, name, field, list);
-      EXPECT_TRUE(faults.empty()) << (faults.empty() ? "" : faults.front().sentence());
-    }
-  });
+  for (const Declared& d : declared()) {
+    if (d.field.is_required() || (d.text && d.text->empty())) continue;
+    EXPECT_TRUE(d.faults.empty()) << (d.faults.empty() ? "" : d.faults.front().sentence());
+  }
 }
 
 TEST(Declarations, AreDocumented) {
-  check_all([](auto&, const std::string& name, const auto&, const Field& field) {
-    EXPECT_GT(field.doc().size(), 8u) << name;
-    EXPECT_EQ(field.doc().find('\n'), std::string::npos) << name;
-    EXPECT_FALSE(field.unit().empty()) << name;
-  });
+  for (const Declared& d : declared()) {
+    EXPECT_GT(d.field.doc().size(), 8u) << d.name;
+    EXPECT_EQ(d.field.doc().find('\n'), std::string::npos) << d.name;
+    EXPECT_FALSE(d.field.unit().empty()) << d.name;
+  }
 }
 
 TEST(Declarations, ConditionsNameASiblingAndItsChoices) {
   int conditions = 0;
-  check_all([&](auto& config, const std::string& name, const auto&, const Field& field) {
-    if (field.when_field().empty()) return;
+  for (const Declared& d : declared()) {
+    if (d.field.when_field().empty()) continue;
     ++conditions;
-    bool found = false;
-    for_each_field(config, [&](const std::string& sibling, const auto& value, const Field& declared) {
-      if (sibling != field.when_field()) return;
-      found = true;
-      const bool is_text = std::is_same_v<std::decay_t<decltype(value)>, std::string>;
-      EXPECT_TRUE(is_text) << name;
-      EXPECT_FALSE(field.when_values().empty()) << name;
-      for (const std::string& word : field.when_values()) {
-        const auto& words = declared.choices();
-        EXPECT_NE(std::find(words.begin(), words.end(), word), words.end()) << name << " when " << sibling << " is " << word;
-      }
-    });
-    EXPECT_TRUE(found) << name << " depends on " << field.when_field();
-  });
+    const auto sibling = std::find_if(declared().begin(), declared().end(),
+                                      [&](const Declared& other) { return other.type == d.type && other.name == d.field.when_field(); });
+    ASSERT_NE(sibling, declared().end()) << d.name << " depends on " << d.field.when_field();
+    EXPECT_TRUE(sibling->text.has_value()) << d.name;
+    EXPECT_FALSE(d.field.when_values().empty()) << d.name;
+    for (const std::string& word : d.field.when_values()) {
+      const auto& words = sibling->field.choices();
+      EXPECT_NE(std::find(words.begin(), words.end(), word), words.end()) << d.name << " when " << sibling->name << " is " << word;
+    }
+  }
   EXPECT_GT(conditions, 20);
 }
 
 TEST(Declarations, RangesHoldSomething) {
-  check_all([](auto&, const std::string& name, const auto&, const Field& field) { EXPECT_LT(field.min(), field.max()) << name; });
+  for (const Declared& d : declared()) EXPECT_LT(d.field.min(), d.field.max()) << d.name;
 }
 
 }  // namespace

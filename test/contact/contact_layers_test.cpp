@@ -21,7 +21,7 @@ ContactPair pair_of(const PairKey& key, int own, int surface, double gap) {
   return pair;
 }
 PairKey on_facet(int vertex, int facet) { return PairKey::make(PairKey::vertex_facet, vertex, Closest::face, facet); }
-PairKey on_vertex(int vertex, int other) { return PairKey::make(PairKey::vertex_facet, std::min(vertex, other), Closest::corner, std::max(vertex, other)); }
+PairKey on_vertex(int vertex, int other) { return PairKey::make(PairKey::vertex_vertex, std::min(vertex, other), 0, std::max(vertex, other)); }
 PairKey on_edge(int edge, int other) { return PairKey::make(PairKey::edge_edge, edge, 0, other); }
 
 /// The layers that `pairs` get after a step that ended with `before`, in the order of their keys.

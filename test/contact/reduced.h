@@ -46,19 +46,13 @@ class Reduced {
       work_.v[i] = rigid ? Node((end[v - features_.body_nodes] - work_.x[i]) / dt) : world.v[v];
       work_.inverse_mass[i] = rigid ? 0 : 1 / world.mass[v];
     }
-    narrow_phase(features_, work_, planes, layer_, true, reach, 0, list, near_);
+    narrow_phase({features_, work_, world.modulus, layer_}, planes, true, reach, 0, list, near_);
     if (reduce_) reduce_(work_, near_.pairs);
-    for (ContactPair& pair : near_.pairs) {
-      double area = 0;
-      int count = 0;
-      for (int k = 0; k < pair.nodes; ++k)
-        if (pair.node[k] < work_.body_entries) area += features_.area[work_.vertex[pair.node[k]]], ++count;
-      pair.stiffness = count > 0 ? world.modulus * layer_ * area / count : 0;
-      prepare_pair(work_, pair);
-    }
     assign_layers(records_, work_, dt, layer_, layer_, near_.pairs);
-    solve_pairs(dt, 1e-3 * layer_, 50, work_, ties_, near_.pairs);
-    relax_layers(.1 * dt, near_.pairs, records_);
+    solve_pairs(dt, 1e-3 * layer_, 50, work_, ties_, near_.pairs, near_.rubs);
+    RelaxedPotential potential;
+    records_.clear();
+    for (ContactPair& pair : near_.pairs) relax_layer(.1 * dt, pair, potential, records_);
     for (int i = 0; i < work_.body_entries; ++i) world.v[work_.vertex[i]] = work_.v[i];
     for (size_t i = 0; i < world.x.size(); ++i) world.x[i] += dt * world.v[i];
     world.time += dt;
@@ -107,17 +101,20 @@ inline Reduced::Reduce without_parallel_edges(double least) {
   };
 }
 
+/// Two pairs of one vertex with facets or vertices, or of one edge.
+inline bool same_vertex(const ContactPair& a, const ContactPair& b) { return is_edge_pair(a) == is_edge_pair(b) && a.key.first() == b.key.first(); }
+
 /// Of every vertex its nearest feature alone, as a search for the closest point gives it.
 inline void nearest_only(const Workspace&, std::vector<ContactPair>& pairs) {
   const std::vector<ContactPair> all = pairs;
   drop(pairs, [&](const ContactPair& p) {
-    return std::any_of(all.begin(), all.end(), [&](const ContactPair& o) { return o.key.group == p.key.group && (o.gap < p.gap || (o.gap == p.gap && o.key < p.key)); });
+    return std::any_of(all.begin(), all.end(), [&](const ContactPair& o) { return same_vertex(o, p) && (o.gap < p.gap || (o.gap == p.gap && o.key < p.key)); });
   });
 }
 
 /// Without pairs whose first feature is a tool's vertex.
 inline void without_tool_nodes(const Workspace& work, std::vector<ContactPair>& pairs) {
-  drop(pairs, [&](const ContactPair& p) { return p.key.kind() == PairKey::vertex_facet && p.node[0] >= work.body_entries; });
+  drop(pairs, [&](const ContactPair& p) { return !is_edge_pair(p) && p.node[0] >= work.body_entries; });
 }
 
 }  // namespace contact_test

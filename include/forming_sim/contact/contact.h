@@ -87,6 +87,15 @@ struct ContactStep {
   std::vector<Vec3> tool_angular_impulse;  ///< about the world's origin, N m s
 };
 
+/// Wall time that the parts of contact took in all steps so far, s (method implicit).
+struct ContactTimes {
+  double list = 0;    ///< bounds on the motion, and which features are near
+  double narrow = 0;  ///< from listed features to pairs: places, closest points, constants, layers
+  double sweeps = 0;
+  double check = 0;   ///< the continuous check
+  double books = 0;   ///< energies, tool forces, layers that grow
+};
+
 class Contact {
  public:
   /// Chooses h0, stiffness and push speed; sets the tools back by h0; backs off
@@ -139,6 +148,7 @@ class Contact {
   double push_speed() const;                          ///< m/s
   long listed_pairs() const;                          ///< pairs of features near enough to be watched
   long list_builds() const;                           ///< how often the list was built
+  const ContactTimes& times() const;
   /// Bodies that touched each other at the start are moved apart by so much, m: one
   /// per body, mostly zero. The caller moves their nodes before the first step.
   const std::vector<Vec3>& body_shifts() const;

@@ -27,15 +27,15 @@ inline void push(const Link& pair, const Node& impulse, const Workspace& work, N
 }
 
 /// The impulse by which friction comes nearest to ending the slip of the pair
-/// within the Coulomb cone of its normal impulse, N s; added to pair.slip and
-/// to the velocities.
-inline void rub(ContactPair& pair, Workspace& work) {
-  if (!(pair.friction > 0) || pair.impulse == 0) return;
+/// within the Coulomb cone of its normal impulse, N s; into rub.slip and
+/// added to the velocities.
+inline void end_slip(const ContactPair& pair, Rub& rub, Workspace& work) {
+  if (pair.impulse == 0) return;
   const Node u = relative(pair, work.v);
-  Node q = -(u - pair.normal.dot(u) * pair.normal) / pair.w_slip;
-  const double size = q.norm(), most = pair.friction * pair.impulse;
+  Node q = -(u - pair.normal.dot(u) * pair.normal) / rub.w;
+  const double size = q.norm(), most = rub.friction * pair.impulse;
   if (size > most) q *= most / size;
-  pair.slip = q;
+  rub.slip = q;
   push(pair, q, work, work.v);
 }
 

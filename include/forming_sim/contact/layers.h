@@ -25,13 +25,13 @@ struct LayerRecord {
 void assign_layers(const std::vector<LayerRecord>& before, const Workspace& work, double dt, double full, double ceiling,
                    std::vector<ContactPair>& pairs);
 
-/// Potential of all pairs at their end gaps, J, before and after relax_layers;
+/// Potential of pairs at their end gaps, J, before and after relax_layer;
 /// the difference is the work of the layers' growth.
 struct RelaxedPotential {
   double before = 0, after = 0;
 };
-/// Lets each layer grow (or shrink) to its base by at most `growth`, and keeps
-/// the pairs inside.
-RelaxedPotential relax_layers(double growth, std::vector<ContactPair>& pairs, std::vector<LayerRecord>& after);
+/// Lets the layer of a pair grow (or shrink) to its base by at most `growth`, adds its
+/// potential, and keeps the pair in `after` where it is inside.
+void relax_layer(double growth, ContactPair& pair, RelaxedPotential& potential, std::vector<LayerRecord>& after);
 
 }  // namespace forming_sim

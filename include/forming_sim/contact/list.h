@@ -13,6 +13,7 @@ struct NearList {
   struct FacetEntry {
     int facet;
     int node[3];               ///< corners in the workspace
+    double wake;               ///< need not be looked at while travel + reach <= wake
   };
   /// A vertex and all facets of one other surface within the radius.
   struct VertexGroup {
@@ -20,7 +21,7 @@ struct NearList {
     int surface;
     int first, last;           ///< of `facets`
     int near_first, near_last; ///< of `neighbours`
-    double wake;               ///< need not be looked at while travel + reach <= wake
+    double wake;               ///< the least of its facets
   };
   struct EdgePair {
     int first, second;         ///< edges

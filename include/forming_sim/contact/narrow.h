@@ -9,6 +9,7 @@
 // lie inside both and they are not parallel.
 #include <vector>
 
+#include "forming_sim/contact/constants.h"
 #include "forming_sim/contact/list.h"
 
 namespace forming_sim {
@@ -21,7 +22,8 @@ struct ClosePair {
 };
 
 struct Narrow {
-  std::vector<ContactPair> pairs;  ///< geometry and key; in the order of their keys, each once
+  std::vector<ContactPair> pairs;  ///< in the order of their keys, each once
+  std::vector<Rub> rubs;           ///< of those that rub
   std::vector<ClosePair> close;    ///< for the continuous check
 };
 
@@ -33,11 +35,12 @@ struct Narrow {
 /// thick: such a pair pushes askew, and is needed only where nothing else has
 /// held. It counts only once it is inside its layer: where a fast step would end
 /// along a frozen, askew normal says little. `all`: without this restriction
-/// (for a step that met something). layer: h0.
-void narrow_phase(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, bool all, double reach,
-                  double travel, NearList& list, Narrow& result);
+/// (for a step that met something). The pairs have geometry, key and constants.
+void narrow_phase(const PairConstants& constants, const std::vector<PlanePose>& planes, bool all, double reach, double travel, NearList& list,
+                  Narrow& result);
 
-/// Adds the pairs of vertices with the planes that they are nearer to than `reach`, or behind.
+/// Adds the pairs of vertices with the planes that they are nearer to than `reach`, or behind;
+/// geometry and key only.
 void add_plane_pairs(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, double reach,
                      const NearList& list, std::vector<ContactPair>& pairs);
 

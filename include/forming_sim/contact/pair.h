@@ -13,11 +13,12 @@ namespace forming_sim {
 /// Names a pair for good: the order in which pairs are swept, and by which a
 /// pair is found again in the next step, depends on nothing else.
 struct PairKey {
-  enum Kind : std::uint64_t { plane = 0, vertex_facet = 1, edge_edge = 2 };
+  enum Kind : std::uint64_t { plane = 0, vertex_facet = 1, vertex_vertex = 2, edge_edge = 3 };
   std::uint64_t group = 0;    ///< kind << 32 | vertex, or first edge
-  std::uint64_t feature = 0;  ///< (Closest::Feature) << 32 | facet, edge or vertex; second edge; tool
+  std::uint64_t feature = 0;  ///< (Closest::Feature) << 32 | facet or edge; second vertex or edge; tool
 
   Kind kind() const { return static_cast<Kind>(group >> 32); }
+  int first() const { return static_cast<int>(group & 0xffffffffu); }  ///< vertex, or first edge
   static PairKey make(Kind kind, int first, std::uint64_t type, int second) {
     return {static_cast<std::uint64_t>(kind) << 32 | static_cast<std::uint32_t>(first), type << 32 | static_cast<std::uint32_t>(second)};
   }
@@ -32,18 +33,23 @@ struct Link {
   int nodes = 0;
 };
 
+/// Friction of a pair that rubs.
+struct Rub {
+  Node slip = Node::Zero();    ///< friction impulse, N s
+  double friction = 0;
+  double w = 0;                ///< inverse mass of the pair, 1/kg
+};
+
 struct ContactPair : Link {
   Node normal = Node::Zero();  ///< from the second feature to the first, length 1
-  Node slip = Node::Zero();    ///< friction impulse, N s
+  int rub = -1;                ///< index of its friction, -1: none
   int own = -1, surface = -1;  ///< surfaces of the first and of the second feature
   int tool = -1;
   double gap = 0;              ///< h at the start of the step, m
   double layer = 0;            ///< h0 of this pair, m
   double base = 0;             ///< h0 it tends to
   double stiffness = 0;        ///< c, N m
-  double friction = 0;
   double w = 0;                ///< inverse mass along the normal, held directions removed, 1/kg
-  double w_slip = 0;           ///< inverse mass, 1/kg
   double impulse = 0;          ///< along the normal, N s
   double end_gap = 0;          ///< h at the end of the step, m
   PairKey key;

@@ -8,12 +8,9 @@
 
 namespace forming_sim {
 
-/// Sets w and w_slip. A pair that nothing can move gets stiffness 0 and w 0.
-void prepare_pair(const Workspace& work, ContactPair& pair);
-
 /// One visit of every pair, in their order; changes work.v. Returns the largest
 /// change of a gap or of a slip distance, m.
-double sweep(double dt, Workspace& work, std::vector<ContactPair>& pairs);
+double sweep(double dt, Workspace& work, std::vector<ContactPair>& pairs, std::vector<Rub>& rubs);
 
 struct SweepResult {
   int sweeps = 0;
@@ -21,12 +18,7 @@ struct SweepResult {
 };
 /// Sweeps until every pair ends with a gap > 0 and nothing changes by more than
 /// `tolerance`, at most `most` times; in each sweep ties come before pairs. Sets end_gap.
-SweepResult solve_pairs(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, std::vector<ContactPair>& pairs);
-
-/// Where the energy of a step went, J; see ContactStep.
-struct PairWork {
-  double tool = 0, held = 0, friction = 0, normal = 0;  ///< normal: of the impulses along the normals, and of ties, on the relative motion
-};
-PairWork work_of(const Workspace& work, const std::vector<TiePair>& ties, const std::vector<ContactPair>& pairs);
+SweepResult solve_pairs(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, std::vector<ContactPair>& pairs,
+                        std::vector<Rub>& rubs);
 
 }  // namespace forming_sim

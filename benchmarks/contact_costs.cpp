@@ -1,0 +1,159 @@
+// What contact costs: a pair that is listed, a pair that carries force, and a tool
+// that a body never comes near.
+#include <algorithm>
+#include <cmath>
+
+#include "contact_costs.h"
+#include "forming_sim/contact/contact.h"
+#include "support/runs.h"
+#include "timed_body.h"
+
+namespace forming_sim::bench {
+namespace {
+
+/// n x n squares of 1 m in the plane z = 0, each two triangles.
+Mesh flat_tool(int n) {
+  Mesh tool;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) tool.nodes.emplace_back(-0.0037 + 1.0051 * i / n, -0.0029 + 1.0047 * j / n, 0);
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i;
+      for (const auto& [b, c] : {std::pair(a + 1, a + n + 2), std::pair(a + n + 2, a + n + 1)}) {
+        Facet facet;
+        facet.nodes = {a, b, c};
+        tool.surface.push_back(facet);
+      }
+    }
+  return tool;
+}
+
+/// The surface of a square plate of n x n cells over a flat tool of n x n squares
+/// whose mesh does not match.
+class PlateOverTool {
+ public:
+  explicit PlateOverTool(int n) : x_(positions_of(plate(n))) {
+    const Mesh body_mesh = plate(n);
+    const Mesh tool = flat_tool(n);
+    ContactSetup setup;
+    setup.config.layer = kLayer;
+    setup.softest_modulus = 70e9;
+    setup.thinnest = 0.02;
+    setup.wave_speed = 5000;
+    ContactSurface body, die;
+    body.name = "plate";
+    body.facets = body_mesh.surface;
+    die.name = "die";
+    die.rigid = true;
+    die.facets = tool.surface;
+    setup.bodies = {body};
+    setup.tools = {die};
+    setup.tool_meshes = {&tool};
+    for (Node& node : x_) node[2] += 1e-3;  // clear of the tool at the start
+    contact_ = std::make_unique<Contact>(setup, x_, std::vector<ToolMotion>(1));
+    contact_->set_masses(std::vector<double>(x_.size(), 1.0), {});
+    for (Node& node : x_) node[2] -= kLayer + 1e-3;  // the tool stands a layer back
+  }
+
+  /// One step with all nodes `gap` layers from the tool, at rest; adds to times().
+  ContactStep step(double gap) {
+    NodeField x = x_, v(x_.size(), Node::Zero());
+    for (Node& node : x) node[2] += gap * kLayer;
+    return contact_->advance(0, 1e-7, x, v, [&](double, NodeField& v_star) { v_star = v; }, [](double) { return std::vector<ToolMotion>(1); });
+  }
+  const Contact& contact() const { return *contact_; }
+
+ private:
+  static constexpr double kLayer = 1e-4;  // m
+  static Mesh plate(int n) {
+    BlankConfig blank;
+    blank.shape = "plate";
+    blank.pattern = "coarse";
+    blank.length = blank.width = 1;
+    blank.thickness = 0.02;
+    blank.cells_along = blank.cells_across = n;
+    blank.cells_through = 1;
+    return generate_blank(blank);
+  }
+  NodeField x_;
+  std::unique_ptr<Contact> contact_;
+};
+
+/// Least times of the parts over some steps at the same gap; 223 x 223 squares make 100k triangles.
+void pair_costs(double gap, const std::string& name, std::vector<Row>& rows) {
+  const Clock clock;
+  PlateOverTool scene(223);
+  ContactStep step = scene.step(gap);  // builds the list
+  ContactTimes least{1, 1, 1, 1, 1};
+  for (int turn = 0; turn < 20; ++turn) {
+    const ContactTimes before = scene.contact().times();
+    step = scene.step(gap);
+    const ContactTimes& after = scene.contact().times();
+    for (auto part : {&ContactTimes::list, &ContactTimes::narrow, &ContactTimes::sweeps, &ContactTimes::check, &ContactTimes::books})
+      least.*part = std::min(least.*part, after.*part - before.*part);
+  }
+  const double listed = static_cast<double>(scene.contact().listed_pairs()), active = static_cast<double>(step.active);
+  const auto per = [](double time, double count) { return 1e9 * time / count; };
+  rows.push_back(just(name, "listed pairs", listed, clock.seconds()));
+  const double search = least.list + least.narrow + least.check;
+  if (step.active == 0) {
+    rows.push_back(at_most(name, "ns a listed pair", per(search + least.sweeps + least.books, listed), 20, clock.seconds()));
+    return;
+  }
+  rows.push_back(just(name, "active pairs", active, clock.seconds()));
+  rows.push_back(just(name, "sweeps", step.sweeps, clock.seconds()));
+  rows.push_back(at_most(name, "search, ns a listed pair", per(search, listed), 20, clock.seconds()));
+  rows.push_back(just(name, "  of this closest points, layers", per(least.narrow, listed), clock.seconds()));
+  rows.push_back(just(name, "  of this the continuous check", per(least.check, listed), clock.seconds()));
+  rows.push_back(at_most(name, "sweeps, ns an active pair and sweep", per(least.sweeps, active * step.sweeps), 45, clock.seconds()));
+  rows.push_back(just(name, "energies and forces, ns an active pair", per(least.books, active), clock.seconds()));
+}
+
+/// A plate that flies past a tool, far from it, over the same plate alone.
+void far_costs(std::vector<Row>& rows) {
+  const Clock clock;
+  const auto run = [](bool tool) {
+    Model model;
+    RunPlan plan;
+    model.dimension = 3;
+    BlankConfig blank;
+    blank.shape = "plate";
+    blank.pattern = "fine";
+    blank.length = blank.width = 0.2;
+    blank.thickness = 0.01;
+    blank.cells_along = blank.cells_across = 40;
+    blank.cells_through = 2;
+    plan.stages.push_back(form_for(1));
+    add_flying(model, plan, body_of(generate_blank(blank), aluminium(false)), "plate", Vec3(1, 0, 0));
+    if (tool) {
+      ToolModel die;
+      die.name = "die";
+      die.mesh = flat_tool(100);
+      die.position = Vec3(0, 0, -0.5);
+      model.tools.push_back(die);
+    }
+    return std::make_unique<Simulation>(plan, model, 1);
+  };
+  const std::unique_ptr<Simulation> with = run(true), without = run(false);
+  const auto time = [](Simulation& sim) {
+    const Clock step;
+    for (int i = 0; i < 20; ++i) sim.step();
+    return step.seconds();
+  };
+  std::vector<double> a, b;
+  for (int turn = 0; turn < 40; ++turn) {
+    a.push_back(time(*with));
+    b.push_back(time(*without));
+  }
+  rows.push_back(at_most("a plate far from a tool", "time of a step / without the tool", median_ratio(a, b), 1.03, clock.seconds()));
+}
+
+}  // namespace
+
+void contact_costs(std::vector<Row>& rows) {
+  pair_costs(3, "contact, 100k nodes on 100k facets, apart", rows);
+  pair_costs(0.9, "contact, 100k nodes on 100k facets, pressed", rows);
+  far_costs(rows);
+}
+
+}  // namespace forming_sim::bench

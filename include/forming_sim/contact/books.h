@@ -1,0 +1,28 @@
+#pragma once
+// What the impulses of a step did: energies, the tools' forces, how many act.
+#include "forming_sim/contact/contact.h"
+#include "forming_sim/contact/ties.h"
+
+namespace forming_sim {
+
+class Books {
+ public:
+  /// Fills tool impulses, tool_work, held_work, friction_work, active and layer of the step,
+  /// which start at 0 (layer: at h0).
+  Books(const Workspace& work, const std::vector<Rub>& rubs, int tools, double layer, ContactStep& step);
+  void add(const TiePair& tie);
+  void add(const ContactPair& pair);
+  /// Of the impulses along the normals, and of ties, on the relative motion, J.
+  double normal_work() const { return normal_; }
+
+ private:
+  /// Books the impulse of a link; returns the relative velocity, mean of before and after.
+  Node book(const Link& link, int tool, const Node& impulse);
+
+  const Workspace& work_;
+  const std::vector<Rub>& rubs_;
+  ContactStep& step_;
+  double normal_ = 0;
+};
+
+}  // namespace forming_sim

@@ -1,0 +1,53 @@
+#include "forming_sim/contact/books.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "forming_sim/contact/closest.h"
+#include "forming_sim/contact/impulse.h"
+
+namespace forming_sim {
+
+Books::Books(const Workspace& work, const std::vector<Rub>& rubs, int tools, double layer, ContactStep& step)
+    : work_(work), rubs_(rubs), step_(step) {
+  step.tool_impulse.assign(tools, Vec3::Zero());
+  step.tool_angular_impulse.assign(tools, Vec3::Zero());
+  step.layer = layer;
+}
+
+Node Books::book(const Link& link, int tool, const Node& impulse) {
+  Node mean = Node::Zero();
+  for (int k = 0; k < link.nodes; ++k) {
+    const int n = link.node[k];
+    const Node v = 0.5 * (work_.before[n] + work_.v[n]);
+    mean += link.weight[k] * v;
+    if (n >= work_.body_entries) {
+      const Node on_tool = link.weight[k] * impulse;
+      step_.tool_work -= dot3(on_tool, v);
+      step_.tool_impulse[tool] += vec3(on_tool);
+      step_.tool_angular_impulse[tool] += vec3(work_.x[n]).cross(vec3(on_tool));
+    } else if (work_.projector[n]) {
+      step_.held_work += link.weight[k] * dot3(impulse - project(*work_.projector[n], impulse), v);
+    }
+  }
+  return mean;
+}
+
+void Books::add(const TiePair& tie) { normal_ += dot3(tie.impulse, book(tie, tie.tool, tie.impulse)); }
+
+void Books::add(const ContactPair& pair) {
+  if (pair.impulse == 0) return;
+  ++step_.active;
+  step_.layer = std::max(step_.layer, pair.layer);
+  const Node along = pair.impulse * pair.normal;
+  if (pair.rub < 0) {
+    normal_ += dot3(along, book(pair, pair.tool, along));
+    return;
+  }
+  const Node& slip = rubs_[pair.rub].slip;
+  const Node mean = book(pair, pair.tool, along + slip);
+  normal_ += dot3(along, mean);
+  step_.friction_work -= dot3(slip, mean);
+}
+
+}  // namespace forming_sim
