@@ -1,6 +1,7 @@
 // Two blocks meet: speeds from .5 to 1500 m/s, layers h0 from 1e-1 to 1e-6 of a
 // cell, meshes that match or not, tilted, in the plane and in space, elastic, and
-// plastic (tilted). Nothing may cross. And, where it is asked for, the long run of
+// plastic (tilted), and with a cut in the one that the blow closes, so that it meets
+// itself. Nothing may cross. And, where it is asked for, the long run of
 // benchmarks/contact_shaken.cpp.
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <stdexcept>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/contact/grid.h"
 #include "rows.h"
 #include "shaken.h"
 #include "support/runs.h"
@@ -24,6 +26,7 @@ struct Scene {
   int cells, other_cells;  ///< over the 1 m of a block
   double tilt;             ///< of the other block, rad
   bool plastic;
+  bool cut = false;        ///< through half of the left block
 };
 
 struct Found {
@@ -36,7 +39,34 @@ struct Found {
   std::string error;
 };
 
-BodyModel block(const Scene& scene, int side) {
+/// Cuts a block of five cells a side along a plane of nodes, from its top to the
+/// second row, and opens the cut by `gap`.
+void cut(Mesh& mesh, double gap) {
+  Box box;
+  for (const Vec3& X : mesh.nodes) box.add(node(X));
+  const double x = box.low[0] + 0.6, y = box.low[1] + 0.4;
+  std::map<int, int> twin;
+  const int whole = static_cast<int>(mesh.nodes.size());
+  for (int i = 0; i < whole; ++i) {
+    if (std::abs(mesh.nodes[i].x() - x) > 1e-9 || mesh.nodes[i].y() < y + 1e-9) continue;
+    twin[i] = static_cast<int>(mesh.nodes.size());
+    mesh.nodes.push_back(mesh.nodes[i] + Vec3(gap, 0, 0));
+  }
+  for (Cells& cells : mesh.cells) {
+    const int corners = shape_of(cells.kind).nodes;
+    for (int c = 0; c < cells.count(); ++c) {
+      int* nodes = &cells.nodes[c * corners];
+      double centre = 0;
+      for (int a = 0; a < corners; ++a) centre += mesh.nodes[nodes[a]].x() / corners;
+      if (centre < x) continue;
+      for (int a = 0; a < corners; ++a)
+        if (twin.count(nodes[a])) nodes[a] = twin[nodes[a]];
+    }
+  }
+  find_surface(mesh);
+}
+
+BodyModel block(const Scene& scene, int side, double layer) {
   const int n = side == 0 ? scene.cells : scene.other_cells;
   BlankConfig blank;
   blank.shape = scene.dimension == 2 ? "strip" : "plate";
@@ -44,12 +74,14 @@ BodyModel block(const Scene& scene, int side) {
   blank.length = blank.width = blank.thickness = 1;
   blank.cells_along = blank.cells_across = blank.cells_through = n;
   Mesh mesh = generate_blank(blank);
+  if (scene.cut && side == 0) cut(mesh, 1.1 * layer);
   // About all axes in space, so that edges meet edges and corners faces.
   const Vec3 axis = scene.dimension == 2 ? Vec3(0, 0, 1) : Vec3(.3, .5, 1).normalized();
   const Mat3 turn = Eigen::AngleAxisd(side == 0 ? 0 : scene.tilt, axis).toRotationMatrix();
   for (Vec3& X : mesh.nodes) X = turn * X;
   BodyModel body = body_of(std::move(mesh), aluminium(scene.plastic));
   body.name = side == 0 ? "left" : "right";
+  body.self_contact = scene.cut && side == 0;
   return body;
 }
 
@@ -65,7 +97,7 @@ Found meet(const Scene& scene, double speed, double layer, int alone = -1) {
   plan.contact.layer = layer;
   for (int side = 0; side < 2; ++side) {
     if (alone >= 0 && alone != side) continue;
-    BodyModel body = block(scene, side);
+    BodyModel body = block(scene, side, layer);
     double least = 1e300;
     for (const Vec3& X : body.mesh.nodes) least = std::min(least, side == 0 ? -X.x() : X.x());
     for (Vec3& X : body.mesh.nodes) X.x() += side == 0 ? least - gap / 2 : gap / 2 - least;
@@ -115,7 +147,8 @@ std::vector<Row> contact(const Request& request) {
   const Scene scenes[] = {{"2D, same meshes", 2, 16, 16, 0, false},      {"2D, 16 on 19", 2, 16, 19, 0, false},
                           {"2D, 16 on 19, tilted", 2, 16, 19, .1, false}, {"2D, 16 on 19, plastic", 2, 16, 19, .1, true},
                           {"3D, same meshes", 3, 5, 5, 0, false},        {"3D, 5 on 6", 3, 5, 6, 0, false},
-                          {"3D, 5 on 6, tilted", 3, 5, 6, .1, false}, {"3D, 5 on 6, plastic", 3, 5, 6, .1, true}};
+                          {"3D, 5 on 6, tilted", 3, 5, 6, .1, false}, {"3D, 5 on 6, plastic", 3, 5, 6, .1, true},
+                          {"3D, 5 on 6, onto itself", 3, 5, 6, .1, false, true}};
   std::vector<Row> rows;
   for (const Scene& scene : scenes) {
     const double free = meet(scene, 5, 1e-3, 0).step_time + meet(scene, 5, 1e-3, 1).step_time;

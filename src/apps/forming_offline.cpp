@@ -7,6 +7,7 @@
 
 #include "forming_sim/results/command_line.h"
 #include "forming_sim/results/estimate.h"
+#include "forming_sim/results/plan_text.h"
 #include "forming_sim/results/progress_line.h"
 #include "forming_sim/results/run_scene.h"
 #include "forming_sim/results/start.h"
@@ -44,7 +45,9 @@ int perform(const OfflineOptions& options) {
       const std::vector<Fault> faults = validate_start(scene, {}, options.thread_count());
       if (!faults.empty()) throw SceneError(faults);
     }
-    text = options.task == Task::estimate ? estimate_text(estimate_run(scene, options.thread_count())) : "The scene has no faults.\n";
+    text = options.task == Task::estimate ? estimate_text(estimate_run(scene, options.thread_count()))
+           : options.task == Task::plan   ? plan_text(scene, options.thread_count())
+                                          : "The scene has no faults.\n";
   }
   std::fputs(text.c_str(), stdout);
   return std::fflush(stdout) == 0 ? 0 : 1;

@@ -37,9 +37,7 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
   check_start(m.layer, m.sides, setup, x, at_start, m.features, m.tools, m.warnings);
   keep_ties(x, at_start, m.ties);
   if (m.method == Impl::Method::geometric) m.know_sides();
-  m.tools.frame_box.resize(setup.tools.size());
-  for (size_t t = 0; t < setup.tools.size(); ++t)
-    for (int v : m.features.surfaces[m.features.bodies + t].vertices) m.tools.frame_box[t].add(m.features.place[v - m.features.body_nodes]);
+  m.tool_index = std::make_unique<ToolIndex>(m.features, m.features.place, std::vector<bool>(setup.tools.size(), true));
 }
 Contact::~Contact() = default;
 Contact::Contact(Contact&&) noexcept = default;
@@ -100,6 +98,18 @@ double Contact::stiffness() const { return impl_->modulus; }
 double Contact::push_speed() const { return impl_->push_speed; }
 long Contact::listed_pairs() const { return impl_->list.size(); }
 long Contact::list_builds() const { return impl_->builds; }
+std::vector<SurfacePair> Contact::surface_pairs() const {
+  const Features& f = impl_->features;
+  std::vector<std::string> names = impl_->body_names;
+  names.insert(names.end(), impl_->tools.names.begin(), impl_->tools.names.end());
+  std::vector<SurfacePair> all;
+  for (int a = 0; a < f.bodies; ++a)
+    for (int b = a; b < static_cast<int>(names.size()); ++b) {
+      const Features::Relation& relation = f.relation(a, b);
+      if (relation.meet || relation.tie >= 0) all.push_back({names[a], names[b], relation.friction, relation.tie >= 0});
+    }
+  return all;
+}
 const ContactTimes& Contact::times() const { return impl_->times; }
 const std::vector<Vec3>& Contact::body_shifts() const { return impl_->body_shifts; }
 const std::vector<std::string>& Contact::warnings() const { return impl_->warnings; }

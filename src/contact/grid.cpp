@@ -14,7 +14,8 @@ double Box::distance(const Box& b) const {
   return std::sqrt(sum);
 }
 
-Grid::Grid(const std::vector<Box>& boxes, const Box& region, double cell) : boxes_(&boxes), stamp_(boxes.size(), 0) {
+Grid::Grid(std::vector<Box> all, const Box& region, double cell) : boxes_(std::move(all)), stamp_(boxes_.size(), 0) {
+  const std::vector<Box>& boxes = boxes_;
   long inside = 0;
   for (const Box& b : boxes) {
     if (!b.overlaps(region)) continue;

@@ -31,6 +31,7 @@ struct Contact::Impl {
   double both = 1;          ///< 2 where both sides of a pair can be deformable and move
   double layer = 0, ceiling = 0, modulus = 0, push_speed = 0;
   std::vector<std::string> warnings;
+  std::unique_ptr<ToolIndex> tool_index;  ///< in the tools' frames
   // ---- masses
   std::vector<double> inverse_mass;
   std::vector<HeldNode> held;
@@ -54,7 +55,7 @@ struct Contact::Impl {
   NodeField x_at_build;     ///< of the bodies' surface vertices, in their order
   std::vector<ToolMotion> motion_at_build;
   // ---- scratch
-  NodeField v_star, place;
+  NodeField v_star;
   Narrow near;
   std::vector<double> moved;
   std::vector<LayerRecord> next_records;

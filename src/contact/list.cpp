@@ -10,69 +10,78 @@ namespace {
 
 constexpr double kAwake = -std::numeric_limits<double>::infinity();
 
+/// A surface as the search asks it: its index, and where it stands.
+struct Indexed {
+  int surface;
+  const SurfaceIndex* index;
+  const ToolMotion* motion = nullptr;  ///< null: the index is of the world
+
+  Node to_index(const Node& p) const {
+    return motion ? node(motion->rotation0.transpose() * (vec3(p) - motion->position0)) : p;
+  }
+  /// A box in the index' frame around points of the world, with `radius` to spare.
+  template <class... Points> Box query(double radius, const Points&... points) const {
+    Box box;
+    (box.add(to_index(points)), ...);
+    box.grow(radius * (1 + 1e-9));  // the way into the frame rounds
+    return box;
+  }
+};
+
 class Builder {
  public:
-  Builder(const Features& f, const NodeField& x, const NodeField& place, double radius)
-      : f_(f), x_(x), place_(place), radius_(radius) {}
+  Builder(const Features& f, const NodeField& x, const PlacedTools& tools, double radius) : f_(f), x_(x), tools_(tools), radius_(radius) {}
 
-  const Node& at(int vertex) const { return vertex < f_.body_nodes ? x_[vertex] : place_[vertex - f_.body_nodes]; }
-
-  // Vertices of surface `a` against facets of surface `b`.
-  void vertices_against_facets(int a, int b, const Box& near, double cell) {
-    const auto& sb = f_.surfaces[b];
-    std::vector<Box> boxes(sb.last_facet - sb.first_facet);
-    for (size_t i = 0; i < boxes.size(); ++i)
-      for (int k = 0; k < f_.corners(); ++k) boxes[i].add(at(f_.facets[sb.first_facet + i][k]));
-    Grid grid(boxes, near, cell);
-    std::vector<int> found;
-    const Features::Relation& relation = f_.relation(a, b);
-    for (int v : f_.surfaces[a].vertices) {
-      const Node& p = at(v);
-      Box query;
-      query.add(p);
-      query.grow(radius_);
-      if (!query.overlaps(near)) continue;
-      found.clear();
-      grid.query(query, [&](int i) {
-        const auto& c = f_.facets[sb.first_facet + i];
-        if (a == b && (c[0] == v || c[1] == v || c[2] == v)) return;
-        if (f_.tied(relation, std::array<int, 1>{v}, c)) return;
-        const double squared = f_.dimension == 2 ? closest_on_segment_facet(p, at(c[0]), at(c[1])).squared
-                                                 : closest_on_triangle(p, at(c[0]), at(c[1]), at(c[2])).squared;
-        if (squared <= radius_ * radius_) found.push_back(sb.first_facet + i);
-      });
-      if (found.empty()) continue;
-      std::sort(found.begin(), found.end());
-      const int first = static_cast<int>(list.facets.size());
-      for (int facet : found) list.facets.push_back({facet, {f_.facets[facet][0], f_.facets[facet][1], f_.facets[facet][2]}, kAwake});
-      const int near_first = static_cast<int>(list.neighbours.size());
-      for (int i = f_.first_neighbour[v]; i < f_.first_neighbour[v + 1]; ++i) list.neighbours.push_back(f_.neighbours[i]);
-      list.groups.push_back({v, v, b, first, static_cast<int>(list.facets.size()), near_first, static_cast<int>(list.neighbours.size()), kAwake});
-    }
+  Node at(int vertex) const {
+    if (vertex < f_.body_nodes) return x_[vertex];
+    const Node& p = tools_.index.place(vertex);
+    return tools_.motion.empty() ? p : node(pose0(tools_.motion[f_.vertex_surface[vertex] - f_.bodies], vec3(p)));
   }
 
-  void edges_against_edges(int a, int b, const Box& near, double cell) {
+  // Vertices of body `a` against facets of `b`.
+  void vertices_against_facets(int a, const Indexed& b, const Box& near) {
+    for (int v : f_.surfaces[a].vertices) {
+      const Node p = at(v);
+      Box here;
+      here.add(p);
+      if (!here.overlaps(near)) continue;
+      b.index->facets(b.query(radius_, p), [&](int facet) { meet(v, p, a, facet, b.surface); });
+    }
+    group(b.surface);
+  }
+
+  // Facets of body `a` against vertices of `b`.
+  void facets_against_vertices(int a, const Indexed& b, const Box& near) {
+    for (int facet = f_.surfaces[a].first_facet; facet < f_.surfaces[a].last_facet; ++facet) {
+      const auto& c = f_.facets[facet];
+      const Node p = at(c[0]), q = at(c[1]), r = at(c[f_.corners() - 1]);
+      Box here;
+      here.add(p);
+      here.add(q);
+      here.add(r);
+      if (!here.overlaps(near)) continue;
+      b.index->vertices(b.query(radius_, p, q, r), [&](int v) { meet(v, at(v), b.surface, facet, a); });
+    }
+    group(a);
+  }
+
+  void edges_against_edges(int a, const Indexed& b, const Box& near) {
     const auto& sa = f_.surfaces[a];
-    const auto& sb = f_.surfaces[b];
-    std::vector<Box> boxes(sb.last_edge - sb.first_edge);
-    for (size_t i = 0; i < boxes.size(); ++i)
-      for (int k = 0; k < 2; ++k) boxes[i].add(at(f_.edges[sb.first_edge + i].node[k]));
-    Grid grid(boxes, near, cell);
-    const Features::Relation& relation = f_.relation(a, b);
+    const Features::Relation& relation = f_.relation(a, b.surface);
     for (int e = sa.first_edge; e < sa.last_edge; ++e) {
       const auto& p = f_.edges[e].node;
-      Box query;
-      query.add(at(p[0]));
-      query.add(at(p[1]));
-      query.grow(radius_);
-      if (!query.overlaps(near)) continue;
-      grid.query(query, [&](int i) {
-        const auto& q = f_.edges[sb.first_edge + i].node;
-        if (a == b && (sb.first_edge + i <= e || p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1])) return;
+      const Node p0 = at(p[0]), p1 = at(p[1]);
+      Box here;
+      here.add(p0);
+      here.add(p1);
+      if (!here.overlaps(near)) continue;
+      b.index->edges(b.query(radius_, p0, p1), [&](int other) {
+        const auto& q = f_.edges[other].node;
+        if (a == b.surface && (other <= e || p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1])) return;
         if (f_.tied(relation, p, q)) return;
-        if (closest_on_edges(at(p[0]), at(p[1]), at(q[0]), at(q[1])).squared > radius_ * radius_) return;
-        const auto &op = f_.edges[e].opposite, &oq = f_.edges[sb.first_edge + i].opposite;
-        list.edges.push_back({e, sb.first_edge + i, {p[0], p[1], q[0], q[1]}, {op[0], op[1], oq[0], oq[1]}, kAwake});
+        if (closest_on_edges(p0, p1, at(q[0]), at(q[1])).squared > radius_ * radius_) return;
+        const auto &op = f_.edges[e].opposite, &oq = f_.edges[other].opposite;
+        list.edges.push_back({e, other, {p[0], p[1], q[0], q[1]}, {op[0], op[1], oq[0], oq[1]}, kAwake});
       });
     }
   }
@@ -135,10 +144,49 @@ class Builder {
   NearList list;
 
  private:
+  // Keeps vertex v (at p, of surface `own`) and a facet of surface `other` where they are near enough.
+  void meet(int v, const Node& p, int own, int facet, int other) {
+    const auto& c = f_.facets[facet];
+    if (own == other && (c[0] == v || c[1] == v || c[2] == v)) return;
+    if (f_.tied(f_.relation(own, other), std::array<int, 1>{v}, c)) return;
+    const double squared = f_.dimension == 2 ? closest_on_segment_facet(p, at(c[0]), at(c[1])).squared
+                                             : closest_on_triangle(p, at(c[0]), at(c[1]), at(c[2])).squared;
+    if (squared <= radius_ * radius_) found_.emplace_back(v, facet);
+  }
+
+  // What was kept since the last call, by its vertices; the facets are of `surface`.
+  void group(int surface) {
+    std::sort(found_.begin(), found_.end());
+    for (size_t i = 0; i < found_.size();) {
+      const int v = found_[i].first, first = static_cast<int>(list.facets.size());
+      for (; i < found_.size() && found_[i].first == v; ++i) {
+        const auto& c = f_.facets[found_[i].second];
+        list.facets.push_back({found_[i].second, {c[0], c[1], c[2]}, kAwake});
+      }
+      const int near_first = static_cast<int>(list.neighbours.size());
+      for (int k = f_.first_neighbour[v]; k < f_.first_neighbour[v + 1]; ++k) list.neighbours.push_back(f_.neighbours[k]);
+      list.groups.push_back({v, v, surface, first, static_cast<int>(list.facets.size()), near_first, static_cast<int>(list.neighbours.size()), kAwake});
+    }
+    found_.clear();
+  }
+
   const Features& f_;
-  const NodeField &x_, &place_;
+  const NodeField& x_;
+  const PlacedTools& tools_;
   double radius_;
+  std::vector<std::pair<int, int>> found_;  ///< vertex, facet
 };
+
+// Of a box that is turned with its frame, one that holds it.
+Box moved(const Box& box, const ToolMotion& motion) {
+  Box all;
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec3 p;
+    for (int k = 0; k < 3; ++k) p[k] = corner >> k & 1 ? box.high[k] : box.low[k];
+    all.add(node(pose0(motion, p)));
+  }
+  return all;
+}
 
 }  // namespace
 
@@ -148,43 +196,54 @@ Box box_of(const Features& f, int surface, const NodeField& x, const NodeField& 
   return box;
 }
 
-NearList build_list(const Features& f, const NodeField& x, const NodeField& place, const std::vector<bool>& present,
-                    const std::vector<bool>& is_plane, const std::vector<PlanePose>& planes,
-                    const std::vector<Tie>& ties, double radius, Workspace& work) {
-  Builder build(f, x, place, radius);
+NearList build_list(const Features& f, const NodeField& x, const PlacedTools& tools, const std::vector<Tie>& ties, double radius, Workspace& work) {
+  Builder build(f, x, tools, radius);
   double clear = std::numeric_limits<double>::infinity();  // of all boxes from one another
   bool any = false;
   const double cell = std::max(f.mean_edge, 2 * radius);
-  const auto meet = [&](int a, int b, const Box& box_a, const Box& box_b) {
-    if (box_a.empty() || box_b.empty()) return;
-    const double distance = box_a.distance(box_b);
+  // The part of either box in which the other can be met; empty: they cannot meet.
+  const auto part_near = [&](const Box& a, const Box& b) {
+    Box near;
+    if (a.empty() || b.empty()) return near;
+    const double distance = a.distance(b);
     clear = std::min(clear, distance);
-    if (distance > radius) return;
+    if (distance > radius) return near;
     any = true;
-    Box near = box_a, near_b = box_b;
-    near.grow(radius);
-    near_b.grow(radius);
-    near.low = near.low.cwiseMax(near_b.low);
-    near.high = near.high.cwiseMin(near_b.high);
-    build.vertices_against_facets(a, b, near, cell);
-    if (a != b) build.vertices_against_facets(b, a, near, cell);
-    if (f.dimension == 3) build.edges_against_edges(a, b, near, cell);
+    Box wide_a = a, wide_b = b;
+    wide_a.grow(radius);
+    wide_b.grow(radius);
+    near.low = wide_a.low.cwiseMax(wide_b.low);
+    near.high = wide_a.high.cwiseMin(wide_b.high);
+    return near;
+  };
+  const auto search = [&](int a, const Indexed& b, const Box& near) {
+    build.vertices_against_facets(a, b, near);
+    if (a != b.surface) build.facets_against_vertices(a, b, near);
+    if (f.dimension == 3) build.edges_against_edges(a, b, near);
   };
   for (int a = 0; a < f.bodies; ++a) {
-    const Box body = box_of(f, a, x, place);
-    for (size_t t = 0; t < present.size(); ++t) {
-      if (!present[t] || !f.relation(a, f.bodies + static_cast<int>(t)).meet) continue;
-      if (is_plane[t]) {
-        build.vertices_against_plane(a, static_cast<int>(t), planes[t]);
+    const Box body = box_of(f, a, x, NodeField());
+    for (size_t t = 0; t < tools.present.size(); ++t) {
+      const int b = f.bodies + static_cast<int>(t);
+      if (!tools.present[t] || !f.relation(a, b).meet) continue;
+      if (tools.is_plane[t]) {
+        build.vertices_against_plane(a, static_cast<int>(t), tools.planes[t]);
         any = true;
         continue;
       }
-      const int b = f.bodies + static_cast<int>(t);
-      const Box tool = box_of(f, b, x, place);
-      meet(a, b, body, tool);
+      const SurfaceIndex& index = tools.index.of(static_cast<int>(t));
+      if (index.box().empty()) continue;
+      const ToolMotion* motion = tools.motion.empty() ? nullptr : &tools.motion[t];
+      const Box near = part_near(body, motion ? moved(index.box(), *motion) : index.box());
+      if (!near.empty()) search(a, {b, &index, motion}, near);
     }
-    for (int b = a; b < f.bodies; ++b)
-      if (f.relation(a, b).meet) meet(a, b, body, b == a ? body : box_of(f, b, x, place));
+    for (int b = a; b < f.bodies; ++b) {
+      if (!f.relation(a, b).meet) continue;
+      const Box near = part_near(body, b == a ? body : box_of(f, b, x, NodeField()));
+      if (near.empty()) continue;
+      const SurfaceIndex index(f, b, [&](int v) -> const Node& { return x[v]; }, near, cell);
+      search(a, {b, &index}, near);
+    }
   }
   std::sort(build.list.groups.begin(), build.list.groups.end(), [](const auto& p, const auto& q) {
     return p.vertex != q.vertex ? p.vertex < q.vertex : p.surface < q.surface;
@@ -196,7 +255,7 @@ NearList build_list(const Features& f, const NodeField& x, const NodeField& plac
     return p.vertex != q.vertex ? p.vertex < q.vertex : p.tool < q.tool;
   });
   for (size_t i = 0; i < ties.size(); ++i)
-    if (ties[i].tool < 0 || present[ties[i].tool])
+    if (ties[i].tool < 0 || tools.present[ties[i].tool])
       build.list.ties.push_back({static_cast<int>(i), {ties[i].vertex, ties[i].corner[0], ties[i].corner[1], ties[i].corner[2]}});
   build.number(work);
   build.list.radius = any ? radius : std::max(radius, clear);

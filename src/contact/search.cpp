@@ -20,7 +20,7 @@ double Contact::Impl::farthest(const std::vector<ToolMotion>& motion, const Node
   bool have = false;
   for (size_t t = 0; t < motion.size(); ++t) {
     if (!motion[t].present) continue;
-    Box box = tools.frame_box[t];
+    Box box = tool_index->of(static_cast<int>(t)).box();
     if (tools.is_plane[t]) {
       if (!have) each_body_vertex([&](int i) { bodies.add(x[i]); });
       have = true;
@@ -58,9 +58,8 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
     used = (both * std::sqrt(body) + tool) * (1 + 1e-12);
     if (used + reach <= list.radius - std::max(0.1 * features.mean_edge, step_bound)) return;
   }
-  tools.place_all(features, motion, false, place);
   const double radius = reach + std::max(0.25 * features.mean_edge, 4 * step_bound);
-  list = build_list(features, x, place, present, tools.is_plane, tools.planes(motion), ties, radius, work);
+  list = build_list(features, x, {*tool_index, motion, present, tools.is_plane, tools.planes(motion)}, ties, radius, work);
   listed = true;
   listed_present = present;
   motion_at_build = motion;

@@ -35,7 +35,7 @@ class Start {
     Workspace work;
     const std::vector<PlanePose> planes = tools_.planes(motion);
     const double radius = 5 * layer_;
-    const NearList list = build_list(f_, x_, place, only, tools_.is_plane, planes, {}, radius, work);
+    const NearList list = build_list(f_, x_, {ToolIndex(f_, place, only), {}, only, tools_.is_plane, planes}, {}, radius, work);
     std::vector<StartGap> found;
     for (const auto& p : list.planes) found.push_back({p.vertex, f_.bodies + tool, dot3(x_[p.vertex] - planes[tool].point, planes[tool].normal), planes[tool].normal});
     const auto at = [&](int v) -> const Node& { return v < f_.body_nodes ? x_[v] : place[v - f_.body_nodes]; };

@@ -36,7 +36,7 @@ std::vector<double> Contact::gaps(const NodeField& x, const std::vector<ToolMoti
   m.tools.place_all(f, motion, false, place);
   const std::vector<PlanePose> planes = m.tools.planes(motion);
   Workspace work;
-  const NearList list = build_list(f, x, place, ToolSet::present(motion), m.tools.is_plane, planes, {}, reach + m.layer, work);
+  const NearList list = build_list(f, x, {*m.tool_index, motion, ToolSet::present(motion), m.tools.is_plane, planes}, {}, reach + m.layer, work);
   const auto at = [&](int v) -> const Node& { return v < f.body_nodes ? x[v] : place[v - f.body_nodes]; };
   for (const auto& g : list.groups) {
     if (f.rigid(g.vertex)) continue;

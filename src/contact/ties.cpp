@@ -91,7 +91,8 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
   }
   if (pairs.empty()) return ties;
   Workspace work;
-  const NearList list = build_list(f, x, place, std::vector<bool>(setup.tools.size(), true), is_plane, planes, {}, radius, work);
+  const std::vector<bool> all(setup.tools.size(), true);
+  const NearList list = build_list(f, x, {ToolIndex(f, place, all), {}, all, is_plane, planes}, {}, radius, work);
   const auto at = [&](int v) -> const Node& { return v < f.body_nodes ? x[v] : place[v - f.body_nodes]; };
   for (const TiedPair& pair : pairs) {
     std::vector<bool> zone(f.vertex_count, false);

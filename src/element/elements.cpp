@@ -12,6 +12,8 @@ namespace forming_sim {
 struct Elements::Group : CellGroup {
   std::vector<int> node_storage;
   std::vector<double> plastic, viscous, lowest;
+  enum Rest : char { changed, kept, passed_over };  ///< a block's memory by the last evaluation, or none was needed
+  std::vector<Rest> rest;  ///< per block; empty where all are evaluated
   CurveTables curves;
   std::vector<Lane> memory_storage;
   int first_element = 0;
@@ -104,6 +106,8 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.density = body.material.density * options.mass_scaling;
       g.linear_viscosity = options.linear_viscosity;
       g.quadratic_viscosity = options.quadratic_viscosity;
+      const bool viscous = g.linear_viscosity > 0 || g.quadratic_viscosity > 0;
+      may_sleep_ = may_sleep_ && g.pressure != PressureMode::node && g.solid.law != Law::classical && !viscous;
       g.first_element = element;
       g.first_record = records;
       g.body = body.name;
@@ -184,6 +188,24 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   }
 }
 
+std::vector<GroupPlan> Elements::plan() const {
+  std::vector<GroupPlan> groups;
+  for (const Group& g : groups_) {
+    GroupPlan plan;
+    plan.body = g.body;
+    plan.kind = static_cast<CellKind>(g.kind);
+    plan.pressure = g.pressure;
+    plan.layers = g.solid.layers;
+    plan.cells = g.cells;
+    plan.elements = static_cast<long>(g.cells) * g.cell_simplices;
+    plan.memory_bytes = static_cast<double>(g.memory_storage.size() * sizeof(Lane));
+    plan.force_bytes = static_cast<double>(g.node_storage.size()) * record_size_ * sizeof(double);
+    plan.index_bytes = static_cast<double>(g.node_storage.size()) * 2 * sizeof(int);  // of the cell's nodes, of the node's forces
+    groups.push_back(plan);
+  }
+  return groups;
+}
+
 /// A thread gets 512 packs or more: below that, waiting for each other costs more.
 long Elements::blocks_of_a_thread(const Group& g) { return 512 / g.cell_simplices; }
 
@@ -212,11 +234,34 @@ void Elements::nodal_pressure(const NodalView& view) const {
   });
 }
 
+void Elements::forces_of_moved(Group& g, const NodalView& view) {
+  g.rest.resize(g.blocks, Group::changed);
+  const int nodes = static_cast<int>(g.node_storage.size()) / g.blocks;
+  team_->share(g.blocks, blocks_of_a_thread(g), [&](long begin, long end) {
+    for (int b = static_cast<int>(begin); b < end; ++b) {
+      const int* first = &g.node_storage[static_cast<std::size_t>(b) * nodes];
+      if (g.rest[b] != Group::changed && std::none_of(first, first + nodes, [&](int n) { return stillness_.moved(n); })) {
+        g.rest[b] = Group::passed_over;
+        continue;
+      }
+      const double before = g.plastic[b];
+      kernels_.forces(g, view, b, b + 1);
+      g.rest[b] = g.plastic[b] == before ? Group::kept : Group::changed;
+    }
+  });
+}
+
 void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, double dt, NodeField& f) {
   if (axisymmetric_) check_axis(x);
   NodalView view{x.data()->data(), v.data()->data(), nullptr, pressure_.data(), dt, last_dt};
   if (any_nodal_) nodal_pressure(view);
-  over_blocks([&](const Group& g, int first, int last) { kernels_.forces(g, view, first, last); });
+  if (may_sleep_) stillness_.look(x, *team_);
+  if (stillness_.any()) {
+    for (Group& g : groups_) forces_of_moved(g, view);
+  } else {
+    for (Group& g : groups_) g.rest.clear();
+    over_blocks([&](const Group& g, int first, int last) { kernels_.forces(g, view, first, last); });
+  }
   for (const Group& g : groups_)
     for (double ratio : g.lowest)
       if (!(ratio > 0)) report_inversion(x);
@@ -249,6 +294,18 @@ void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, i
         element = g.first_element + std::min(b * kLanes + steps[b].lane, g.cells - 1) * g.cell_simplices;
       }
   }
+}
+
+long Elements::blocks() const {
+  long sum = 0;
+  for (const Group& g : groups_) sum += g.blocks;
+  return sum;
+}
+
+long Elements::blocks_at_rest() const {
+  long sum = 0;
+  for (const Group& g : groups_) sum += std::count(g.rest.begin(), g.rest.end(), Group::passed_over);
+  return sum;
 }
 
 double Elements::plastic_work() const {
@@ -358,6 +415,7 @@ void Elements::append_state(std::vector<double>& to) const {
 }
 
 const double* Elements::read_state(const double* from) {
+  stillness_.forget();
   for (Group& g : groups_) {
     double* memory = reinterpret_cast<double*>(g.memory_storage.data());
     std::copy(from, from + g.memory_storage.size() * 8, memory);

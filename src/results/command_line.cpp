@@ -17,6 +17,8 @@ std::string offline_usage() {
   forming_offline --validate SCENE.yaml     all faults of the scene, without running it
   forming_offline --estimate SCENE.yaml [--threads N]
                                             elements, time step, steps, wall time, memory
+  forming_offline --plan SCENE.yaml [--threads N]
+                                            what a step of the scene does and keeps, and nothing more
   forming_offline --schema [markdown]       every field that a scene may have
   forming_offline --help
 
@@ -61,7 +63,7 @@ std::string value_of(const std::vector<std::string>& arguments, std::size_t& i) 
 
 OfflineOptions read_options(const std::vector<std::string>& arguments) {
   using Task = OfflineOptions::Task;
-  static const std::vector<std::string> known{"--output", "--threads", "--resume", "--quiet", "--validate", "--estimate", "--schema", "--help"};
+  static const std::vector<std::string> known{"--output", "--threads", "--resume", "--quiet", "--validate", "--estimate", "--plan", "--schema", "--help"};
   OfflineOptions options;
   std::set<std::string> given;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -83,14 +85,16 @@ OfflineOptions read_options(const std::vector<std::string>& arguments) {
     else if (word == "--quiet") options.quiet = true;
     else if (word == "--validate") options.task = Task::validate;
     else if (word == "--estimate") options.task = Task::estimate;
+    else if (word == "--plan") options.task = Task::plan;
     else if (word == "--help") options.task = Task::help;
     else if (word == "--schema") options.task = Task::schema;
   }
 
-  const int tasks = static_cast<int>(given.count("--validate") + given.count("--estimate") + given.count("--schema") + given.count("--help"));
-  if (tasks > 1) refuse("Give one of --validate, --estimate, --schema and --help.");
+  const int tasks = static_cast<int>(given.count("--validate") + given.count("--estimate") + given.count("--plan") + given.count("--schema") + given.count("--help"));
+  if (tasks > 1) refuse("Give one of --validate, --estimate, --plan, --schema and --help.");
   const std::set<std::string> allowed = options.task == Task::run        ? std::set<std::string>{"--output", "--threads", "--resume", "--quiet"}
                                         : options.task == Task::estimate ? std::set<std::string>{"--estimate", "--threads"}
+                                       : options.task == Task::plan     ? std::set<std::string>{"--plan", "--threads"}
                                                                          : std::set<std::string>{"--validate", "--schema", "--help"};
   for (const std::string& option : given) {
     if (allowed.count(option) == 0) refuse(option + " does not go with what is asked for.");

@@ -14,6 +14,7 @@ faults of a scene are told at once, each with its field, its line, what was give
 ```
 forming_offline --validate my_scene.yaml            # all faults; exit code 0 if there is none
 forming_offline --estimate my_scene.yaml            # elements, time step, steps, wall time, memory
+forming_offline --plan my_scene.yaml                # what a step does and keeps, and what is not there
 forming_offline my_scene.yaml --output my_run       # the run and its files
 ```
 

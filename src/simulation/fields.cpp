@@ -7,6 +7,8 @@
 
 namespace forming_sim {
 
+std::vector<GroupPlan> Simulation::groups() const { return impl_->elements.plan(); }
+std::vector<SurfacePair> Simulation::surface_pairs() const { return impl_->contact ? impl_->contact->surface_pairs() : std::vector<SurfacePair>(); }
 const Model& Simulation::model() const { return impl_->model; }
 const RunPlan& Simulation::plan() const { return impl_->plan; }
 const std::vector<std::array<int, 4>>& Simulation::elements() const { return impl_->elements.simplices(); }

@@ -202,11 +202,15 @@ TEST(ContactSearch, ListAgainstAllPairs) {
     setup.tools = world.tools;
     setup.tool_meshes = {&world.meshes[0]};
     const Features f = build_features(setup, world.x);
-    NodeField place = f.place;
-    for (Node& p : place) p += node(world.path[0](0));
+    // The tool turned and moved: the search goes into its frame.
+    std::vector<ToolMotion> motion(1);
+    motion[0].position0 = world.path[0](0);
+    motion[0].rotation0 = Eigen::AngleAxisd(dimension == 2 ? .1 : .3, dimension == 2 ? Vec3(0, 0, 1) : Vec3(.2, .3, 1).normalized()).toRotationMatrix();
+    NodeField place;
+    for (const Node& p : f.place) place.push_back(node(pose0(motion[0], vec3(p))));
     for (double radius : {.02, .1, .4}) {
       Workspace work;
-      const NearList list = build_list(f, world.x, place, {true}, {false}, {PlanePose()}, {}, radius, work);
+      const NearList list = build_list(f, world.x, {ToolIndex(f, f.place, {true}), motion, {true}, {false}, {PlanePose()}}, {}, radius, work);
       std::set<std::pair<int, int>> listed, expected, edges_listed, edges_expected;
       for (const auto& g : list.groups)
         for (int i = g.first; i < g.last; ++i) EXPECT_TRUE(listed.insert({g.vertex, list.facets[i].facet}).second);

@@ -37,7 +37,7 @@ class Reduced {
     const double reach = 2 * layer_ + 4 * fastest * dt + 2 * tool_way;
     const std::vector<bool> present(motion.size(), true), is_plane(motion.size(), false);
     const std::vector<PlanePose> planes(motion.size());
-    NearList list = build_list(features_, world.x, place(motion, false), present, is_plane, planes, {}, reach, work_);
+    NearList list = build_list(features_, world.x, {ToolIndex(features_, features_.place, present), motion, present, is_plane, planes}, {}, reach, work_);
     const NodeField start = place(motion, false), end = place(motion, true);
     for (size_t i = 0; i < work_.vertex.size(); ++i) {
       const int v = work_.vertex[i];

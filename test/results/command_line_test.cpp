@@ -37,6 +37,7 @@ TEST(CommandLine, OtherTasks) {
   EXPECT_EQ(read_options({"--validate", "a.yaml"}).task, Task::validate);
   EXPECT_EQ(read_options({"a.yaml", "--validate"}).scene, "a.yaml");
   EXPECT_EQ(read_options({"--estimate", "a.yaml", "--threads", "1"}).threads, 1);
+  EXPECT_EQ(read_options({"--plan", "a.yaml", "--threads", "1"}).task, Task::plan);
 }
 
 TEST(CommandLine, WrongOnesAreRefused) {
@@ -51,6 +52,7 @@ TEST(CommandLine, WrongOnesAreRefused) {
   for (const char* threads : {"0", "-1", "two", "2x", "99999999999"}) expect_refused({"a.yaml", "--output", "o", "--threads", threads}, "--threads");
   expect_refused({"--validate", "--estimate", "a.yaml"}, "one of");
   expect_refused({"--validate", "a.yaml", "--output", "o"}, "does not go");
+  expect_refused({"--plan", "a.yaml", "--quiet"}, "does not go");
   expect_refused({"--validate"}, "No scene");
   expect_refused({"--schema", "html"}, "markdown");
 }

@@ -44,6 +44,9 @@ struct ToolMotion {
   bool present = true;  ///< false: the tool has left
 };
 
+inline Vec3 pose0(const ToolMotion& m, const Vec3& p) { return m.rotation0 * p + m.position0; }
+inline Vec3 pose1(const ToolMotion& m, const Vec3& p) { return m.rotation1 * p + m.position1; }
+
 /// A node with held or prescribed directions. Contact changes its velocity
 /// only within the range of the projector (identity minus the held directions).
 struct HeldNode {
@@ -85,6 +88,13 @@ struct ContactStep {
   double stable_dt = 0;           ///< explicit only: the step up to which the layer as it stands is stable, s; 0: nothing is in it
   std::vector<Vec3> tool_impulse;          ///< on each tool by the bodies, N s
   std::vector<Vec3> tool_angular_impulse;  ///< about the world's origin, N m s
+};
+
+/// Two surfaces that can meet, or are tied.
+struct SurfacePair {
+  std::string first, second;
+  double friction = 0;       ///< the largest double: sticking
+  bool tied = false;
 };
 
 /// Wall time that the parts of contact took in all steps so far, s (method implicit).
@@ -152,6 +162,7 @@ class Contact {
   /// Bodies that touched each other at the start are moved apart by so much, m: one
   /// per body, mostly zero. The caller moves their nodes before the first step.
   const std::vector<Vec3>& body_shifts() const;
+  std::vector<SurfacePair> surface_pairs() const;
   const std::vector<std::string>& warnings() const;   ///< "tool die was backed off by 1e-6 m along (0, -1, 0) ..."
 
   /// All that the next steps depend on beside x, v and the tools' motion.

@@ -35,10 +35,11 @@ class Grid {
  public:
   /// Boxes that lie outside `region` are left out. `cell` is the wanted size;
   /// it is enlarged so that there are not many more cells than boxes.
-  Grid(const std::vector<Box>& boxes, const Box& region, double cell);
+  Grid(std::vector<Box> boxes, const Box& region, double cell);
+  Grid() = default;  ///< of nothing
 
-  /// Calls found(index of box) once for every box that overlaps `query`.
-  template <class Found> void query(const Box& query, Found&& found) {
+  /// Calls found(index of box) once for every box that overlaps `query`. Not from two threads at once.
+  template <class Found> void query(const Box& query, Found&& found) const {
     if (first_.empty() || !region_.overlaps(query)) return;
     const auto range = cells(query);
     ++stamp_now_;
@@ -50,7 +51,7 @@ class Grid {
             const int b = entry_[e];
             if (stamp_[b] == stamp_now_) continue;
             stamp_[b] = stamp_now_;
-            if ((*boxes_)[b].overlaps(query)) found(b);
+            if (boxes_[b].overlaps(query)) found(b);
           }
         }
   }
@@ -58,12 +59,13 @@ class Grid {
  private:
   std::array<int, 6> cells(const Box& box) const;
 
-  const std::vector<Box>* boxes_;
+  std::vector<Box> boxes_;
   Box region_;
   Node inverse_cell_ = Node::Zero();
   std::array<int, 3> count_{1, 1, 1};
-  std::vector<int> first_, entry_, stamp_;
-  int stamp_now_ = 0;
+  std::vector<int> first_, entry_;
+  mutable std::vector<int> stamp_;  ///< of every box the last query that met it
+  mutable int stamp_now_ = 0;
 };
 
 }  // namespace forming_sim

@@ -12,7 +12,6 @@ namespace forming_sim {
 struct ToolSet {
   std::vector<bool> is_plane;
   std::vector<Vec3> point, normal;   ///< of planes, in the tool's frame, set back
-  std::vector<Box> frame_box;        ///< of the vertices in the tool's frame, set back
   std::vector<std::string> names;
 
   /// Places of all tool vertices with the tools at position0, rotation0 (or 1).
@@ -20,9 +19,6 @@ struct ToolSet {
   std::vector<PlanePose> planes(const std::vector<ToolMotion>& motion) const;
   static std::vector<bool> present(const std::vector<ToolMotion>& motion);
 };
-
-inline Vec3 pose0(const ToolMotion& m, const Vec3& p) { return m.rotation0 * p + m.position0; }
-inline Vec3 pose1(const ToolMotion& m, const Vec3& p) { return m.rotation1 * p + m.position1; }
 
 /// The side of every tool facet on which the bodies are: +1 the side of the
 /// normal (corners in rising order; 2D: to the right of rising), -1 the other,

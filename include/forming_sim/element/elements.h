@@ -10,6 +10,7 @@
 #include "forming_sim/element/cell_group.h"
 #include "forming_sim/config/fault.h"
 #include "forming_sim/element/body.h"
+#include "forming_sim/element/stillness.h"
 #include "forming_sim/parallel/team.h"
 #include "forming_sim/tensor/vec.h"
 
@@ -21,6 +22,18 @@ struct ElementFields {
   std::vector<Sym> stress;             ///< Cauchy, Pa
   std::vector<double> volume_ratio;    ///< V / V0
   double stored_energy = 0;            ///< J
+};
+
+/// Cells of one body and kind, and what they own.
+struct GroupPlan {
+  std::string body;
+  CellKind kind;
+  PressureMode pressure;
+  int layers = 1;            ///< of the law
+  long cells = 0, elements = 0;
+  double memory_bytes = 0;   ///< state of the law, of all elements
+  double force_bytes = 0;    ///< forces on the cells' nodes before they are summed
+  double index_bytes = 0;    ///< which nodes the cells have
 };
 
 struct ElementOptions {
@@ -40,6 +53,7 @@ class Elements {
 
   const std::vector<std::array<int, 4>>& simplices() const { return simplices_; }
   const std::vector<double>& nodal_mass() const { return mass_; }  ///< kg, scaled
+  std::vector<GroupPlan> plan() const;
 
   /// f = internal forces at x (N); updates the memory of what yields.
   /// v: the velocities that led to x in last_dt (0: nothing has moved yet), for Law::classical
@@ -50,6 +64,8 @@ class Elements {
   /// Stable time step at x, without a safety factor: dt and the simplex' cell.
   void stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const;
 
+  long blocks() const;           ///< of cells, over all groups
+  long blocks_at_rest() const;   ///< of those, passed over by the last forces(): see element/stillness.h
   double plastic_work() const;   ///< dissipated so far, J
   double viscous_work() const;   ///< dissipated so far by bulk viscosity, J
   std::vector<double> plastic_strain() const;
@@ -68,6 +84,8 @@ class Elements {
   [[noreturn]] void report_inversion(const NodeField& x) const;
   void check_axis(const NodeField& x) const;
   void nodal_pressure(const NodalView& view) const;
+  /// Those of the blocks whose nodes moved, or whose memory the last evaluation changed.
+  void forces_of_moved(Group& g, const NodalView& view);
   static long blocks_of_a_thread(const Group& group);
   template <class Work> void over_blocks(Work&& work) const;
 
@@ -85,6 +103,8 @@ class Elements {
   int record_size_ = 0;
   mutable std::vector<double> pressure_, nodal_volume0_, nodal_bulk_;  ///< nodal pressure only
   bool any_nodal_ = false;
+  bool may_sleep_ = true;                            ///< forces follow from positions and memory alone
+  Stillness stillness_;
 };
 
 }  // namespace forming_sim

@@ -6,7 +6,7 @@
 namespace forming_sim {
 
 struct OfflineOptions {
-  enum class Task { help, schema, schema_markdown, validate, estimate, run };
+  enum class Task { help, schema, schema_markdown, validate, estimate, plan, run };
   Task task = Task::run;
   std::string scene;   ///< path of the YAML file
   std::string output;  ///< directory

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "forming_sim/contact/contact.h"
 #include "forming_sim/element/elements.h"
 #include "forming_sim/simulation/model.h"
 #include "forming_sim/simulation/observer.h"
@@ -45,6 +46,9 @@ class Simulation {
   const std::vector<std::array<int, 4>>& elements() const;  ///< simplices of the joined mesh
   const std::vector<Facet>& surface() const;                ///< of the joined mesh, joined numbering
   const std::vector<double>& nodal_mass() const;            ///< kg (kg/m), scaled
+
+  std::vector<GroupPlan> groups() const;                    ///< of cells: what each is and owns
+  std::vector<SurfacePair> surface_pairs() const;                    ///< surfaces that can meet; none: there is no contact
 
   // ---- state
   double time() const;

@@ -1,0 +1,127 @@
+#include "forming_sim/results/plan_text.h"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "forming_sim/config/words.h"
+#include "forming_sim/results/estimate.h"
+#include "forming_sim/results/start.h"
+#include "forming_sim/scene/build.h"
+#include "forming_sim/scene/validate.h"
+
+namespace forming_sim {
+namespace {
+
+const char* name_of(PressureMode mode) {
+  return mode == PressureMode::cell ? "cell" : mode == PressureMode::element ? "element" : "node";
+}
+
+std::string law_of(const MaterialConfig& m, int layers) {
+  if (m.law == "hyperelastic") return "hyperelastic";
+  std::string text = m.law;
+  if (!m.layers.empty()) text += ", " + std::to_string(layers) + (layers == 1 ? " layer" : " layers");
+  else if (m.hardening) text += ", plastic (" + m.hardening->curve + ")";
+  else text += ", elastic";
+  return text;
+}
+
+std::string kind_of(const SurfacePair& pair) {
+  if (pair.tied) return "tied";
+  if (pair.friction == std::numeric_limits<double>::max()) return "sticking";
+  return pair.friction > 0 ? "friction " + number_text(pair.friction) : "no friction";
+}
+
+/// One line of the plan: a word that starts it once, then text.
+class Lines {
+ public:
+  explicit Lines(std::ostream& out) : out_(out) {}
+  void start(const std::string& word) { word_ = word; }
+  void add(const std::string& text) {
+    out_ << word_ << std::string(std::max<int>(1, 13 - static_cast<int>(word_.size())), ' ') << text << "\n";
+    word_.clear();
+  }
+
+ private:
+  std::ostream& out_;
+  std::string word_;
+};
+
+}  // namespace
+
+std::string plan_text(const Simulation& simulation) {
+  const Model& model = simulation.model();
+  const RunPlan& plan = simulation.plan();
+  const TimeStepConfig& step = plan.time_step;
+  std::ostringstream out;
+  Lines lines(out);
+  std::vector<std::string> absent;
+  const auto if_any = [&](bool there, const std::string& text, const std::string& name) {
+    if (there) lines.add(text);
+    else absent.push_back(name);
+  };
+
+  lines.start("cells");
+  bool nodal = false;
+  for (const GroupPlan& g : simulation.groups()) {
+    const auto body = std::find_if(model.bodies.begin(), model.bodies.end(), [&](const BodyModel& b) { return b.name == g.body; });
+    const double count = static_cast<double>(g.elements);
+    nodal = nodal || g.pressure == PressureMode::node;
+    lines.add(g.body + ": " + std::to_string(g.cells) + " " + shape_of(g.kind).name + ", " + std::to_string(g.elements) + " elements; pressure per " +
+              name_of(g.pressure) + "; " + law_of(body->material, g.layers));
+    lines.add("  bytes an element: " + number_text(std::round(g.memory_bytes / count)) + " state, " + number_text(std::round(g.force_bytes / count)) +
+              " forces, " + number_text(std::round(g.index_bytes / count)) + " numbers of nodes");
+  }
+  const double nodes = static_cast<double>(model.node_count());
+  lines.start("nodes");
+  lines.add(number_text(nodes) + ": positions, velocities, forces, masses");
+
+  lines.start("loads");
+  std::size_t held = 0, pressed = 0;
+  bool moving = false;
+  for (const BodyLoads& loads : plan.bodies) {
+    held += loads.boundaries.size();
+    pressed += loads.pressures.size();
+    moving = moving || !loads.initial_velocity.isZero() || !loads.initial_spin_deg_s.isZero();
+  }
+  if_any(held > 0, std::to_string(held) + " boundaries", "held or driven nodes");
+  if_any(pressed > 0, std::to_string(pressed) + " pressures on surfaces", "pressure on surfaces");
+  if_any(!plan.gravity.isZero(), "gravity", "gravity");
+  if_any(moving, "initial motion", "initial motion");
+  if_any(step.damping > 0, "damping " + number_text(step.damping) + " 1/s", "damping");
+  if_any(step.linear_viscosity > 0 || step.quadratic_viscosity > 0, "bulk viscosity", "bulk viscosity");
+  if_any(step.mass_scaling != 1, "masses times " + number_text(step.mass_scaling), "mass scaling");
+
+  lines.start("contact");
+  const std::vector<SurfacePair> surface_pairs = simulation.surface_pairs();
+  bool rubs = false;
+  for (const SurfacePair& pair : surface_pairs) {
+    rubs = rubs || pair.friction > 0;
+    lines.add((pair.first == pair.second ? pair.first + " with itself" : pair.first + " with " + pair.second) + ": " + kind_of(pair));
+  }
+  if (surface_pairs.empty()) absent.push_back("contact");
+  else if (!rubs) absent.push_back("friction and slip");
+
+  lines.start("stages");
+  for (const StageConfig& stage : plan.stages) {
+    const bool settles = stage.kind == "settle";
+    lines.add(stage.name + ": " + (stage.kind == stage.name ? "" : stage.kind + ", ") + (settles ? "at most " : "") + number_text(settles ? stage.limit : stage.duration) + " s");
+  }
+  if (!nodal) absent.push_back("nodal pressure");
+  lines.start("not there");
+  std::string names;
+  for (const std::string& name : absent) names += (names.empty() ? "" : ", ") + name;
+  lines.add(names.empty() ? "nothing: the scene asks for everything" : names);
+  return out.str();
+}
+
+std::string plan_text(const Scene& scene, int threads) {
+  std::vector<Fault> faults = validate(scene);
+  if (!faults.empty()) throw SceneError(std::move(faults));
+  Simulation simulation(build_plan(scene), build_model(scene), threads);
+  check_length(simulation);
+  const std::string plan = plan_text(simulation);
+  return plan + estimate_text(estimate_run(simulation));
+}
+
+}  // namespace forming_sim

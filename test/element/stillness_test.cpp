@@ -1,0 +1,65 @@
+// Cells that stand still are passed over, and nothing that anybody can see changes.
+#include <gtest/gtest.h>
+
+#include "support/bodies.h"
+
+namespace forming_sim {
+namespace {
+
+std::vector<double> state_of(const Elements& elements) {
+  std::vector<double> state;
+  elements.append_state(state);
+  return state;
+}
+
+// One end of a block is stretched into yield, later left alone; the other never moves.
+// An engine that is told its own state before every step knows of nothing at rest.
+void same_bits(CellKind kind, int cells, int threads) {
+  const Mesh mesh = block_of(kind, cells);
+  const NodeField X = positions_of(mesh);
+  const std::vector<BodyModel> bodies{body_of(mesh, aluminium(true))};
+  Elements lazy(bodies, mesh.dimension, X, ElementOptions(), threads), busy(bodies, mesh.dimension, X, ElementOptions(), threads);
+  double low = 1e300, high = -1e300;
+  for (const Node& n : X) low = std::min(low, n[0]), high = std::max(high, n[0]);
+  const double middle = 0.5 * (low + high);
+  NodeField x = X, f(X.size()), g(X.size());
+  const NodeField v(X.size(), Node::Zero());
+  long most = 0;
+  for (int step = 0; step < 60; ++step) {
+    const double stretch = 0.03 * std::sin(0.1 * std::min(step, 40));
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (X[i][0] > middle) x[i][0] = X[i][0] + stretch * (X[i][0] - middle);
+    lazy.forces(x, v, 1e-8, 1e-8, f);
+    const std::vector<double> before = state_of(busy);
+    busy.read_state(before.data());
+    busy.forces(x, v, 1e-8, 1e-8, g);
+    EXPECT_EQ(busy.blocks_at_rest(), 0);
+    ASSERT_EQ(f, g) << "step " << step;
+    ASSERT_EQ(state_of(lazy), state_of(busy)) << "step " << step;
+    most = std::max(most, lazy.blocks_at_rest());
+    if (step > 20 && step < 40) {
+      EXPECT_GT(lazy.blocks_at_rest(), lazy.blocks() / 4) << "step " << step;
+      EXPECT_LT(lazy.blocks_at_rest(), lazy.blocks() * 3 / 4) << "step " << step;
+    }
+  }
+  EXPECT_GT(lazy.plastic_work(), 0);
+  EXPECT_EQ(most, lazy.blocks());  // at the end nothing moves
+}
+
+TEST(Stillness, CrossedTriangles) { same_bits(CellKind::crossed, 16, 1); }
+TEST(Stillness, Hexahedra) { same_bits(CellKind::hex24, 8, 1); }
+TEST(Stillness, TwoThreads) { same_bits(CellKind::hex24, 8, 2); }
+
+TEST(Stillness, NodalPressureIsAlwaysFoundAnew) {
+  const Mesh mesh = block_of(CellKind::tetrahedron, 4);
+  const NodeField X = positions_of(mesh), v(X.size(), Node::Zero());
+  Elements elements({body_of(mesh, aluminium(), "node")}, 3, X, ElementOptions(), 1);
+  NodeField f(X.size());
+  for (int step = 0; step < 40; ++step) {
+    elements.forces(X, v, 1e-8, 1e-8, f);
+    EXPECT_EQ(elements.blocks_at_rest(), 0);
+  }
+}
+
+}  // namespace
+}  // namespace forming_sim
