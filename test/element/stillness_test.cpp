@@ -12,15 +12,16 @@ std::vector<double> state_of(const Elements& elements) {
   return state;
 }
 
-// One end of a block is stretched into yield, later left alone; the other never moves.
+// One side of a block is stretched into yield, later left alone; the other never moves.
 // An engine that is told its own state before every step knows of nothing at rest.
 void same_bits(CellKind kind, int cells, int threads) {
   const Mesh mesh = block_of(kind, cells);
   const NodeField X = positions_of(mesh);
   const std::vector<BodyModel> bodies{body_of(mesh, aluminium(true))};
   Elements lazy(bodies, mesh.dimension, X, ElementOptions(), threads), busy(bodies, mesh.dimension, X, ElementOptions(), threads);
+  const int axis = mesh.dimension - 1;  // cells are numbered along it last: blocks of cells lie across it
   double low = 1e300, high = -1e300;
-  for (const Node& n : X) low = std::min(low, n[0]), high = std::max(high, n[0]);
+  for (const Node& n : X) low = std::min(low, n[axis]), high = std::max(high, n[axis]);
   const double middle = 0.5 * (low + high);
   NodeField x = X, f(X.size()), g(X.size());
   const NodeField v(X.size(), Node::Zero());
@@ -28,7 +29,7 @@ void same_bits(CellKind kind, int cells, int threads) {
   for (int step = 0; step < 60; ++step) {
     const double stretch = 0.03 * std::sin(0.1 * std::min(step, 40));
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (X[i][0] > middle) x[i][0] = X[i][0] + stretch * (X[i][0] - middle);
+      if (X[i][axis] > middle) x[i][axis] = X[i][axis] + stretch * (X[i][axis] - middle);
     lazy.forces(x, v, 1e-8, 1e-8, f);
     const std::vector<double> before = state_of(busy);
     busy.read_state(before.data());
