@@ -65,6 +65,7 @@ class Elements {
   struct Group;
   struct Location { int group, cell, simplex; };
   Location locate(int element) const;
+  double volume_ratio(const NodeField& x, int element) const;
   [[noreturn]] void report_inversion(const NodeField& x) const;
   void check_axis(const NodeField& x) const;
   void nodal_pressure(const NodalView& view) const;
