@@ -120,6 +120,41 @@ template <int D> void hourglass_stiffness(const SolidConstants& m, const double*
   s.gradient(A, g);
 }
 
+/// sum_a h_alpha,a x_a of all modes; the signs are those of kHourglass.
+template <class T, int D> void sum_modes(const Vector<T, D>* x, Vector<T, D>* sum) {
+  for (int i = 0; i < D; ++i) {
+    if constexpr (D == 2) {
+      sum[0][i] = (x[0][i] - x[1][i]) + (x[2][i] - x[3][i]);
+    } else {
+      T even[4], odd[4];  // in zeta
+      for (int k = 0; k < 4; ++k) even[k] = x[k + 4][i] + x[k][i], odd[k] = x[k + 4][i] - x[k][i];
+      const T u = odd[2] - odd[0], v = odd[3] - odd[1];
+      sum[0][i] = u + v;
+      sum[1][i] = u - v;
+      sum[2][i] = (even[0] - even[1]) + (even[2] - even[3]);
+      sum[3][i] = (odd[0] - odd[1]) + (odd[2] - odd[3]);
+    }
+  }
+}
+/// f_a -= sum_alpha h_alpha,a r_alpha.
+template <class T, int D> void take_modes(const Vector<T, D>* r, Vector<T, D>* f) {
+  for (int i = 0; i < D; ++i) {
+    if constexpr (D == 2) {
+      for (int a = 0; a < 4; ++a) f[a][i] = a % 2 == 0 ? f[a][i] - r[0][i] : f[a][i] + r[0][i];
+    } else {
+      const T p = r[0][i] + r[1][i], m = r[0][i] - r[1][i], low = r[2][i] - r[3][i], high = r[2][i] + r[3][i];
+      f[0][i] -= p + low;
+      f[1][i] -= m - low;
+      f[2][i] += p - low;
+      f[3][i] += m + low;
+      f[4][i] += p - high;
+      f[5][i] += m + high;
+      f[6][i] -= p + high;
+      f[7][i] -= m - high;
+    }
+  }
+}
+
 template <class T, int D> class Hourglass {
   using Cell = OnePoint<D>;
 
@@ -127,16 +162,13 @@ template <class T, int D> class Hourglass {
   /// constants: of the cell; x: of its corners; e: its edges.
   Hourglass(const SolidConstants& m, const double* constants, const Edges<T, D>& e, const Vector<T, D>* x) : moduli_(m), edges_(e) {
     for (int i = 0; i < Cell::pairs; ++i) load(constants, Cell::slopes + i, slopes_[i]);
+    Vector<T, D> sum[Cell::modes];
+    sum_modes<T, D>(x, sum);
     for (int k = 0; k < Cell::modes; ++k) {
-      Vector<T, D> sum;
-      for (int i = 0; i < D; ++i) {
-        sum[i] = T(0);
-        for (int a = 0; a < Cell::nodes; ++a) sum[i] = kHourglass<D>[k][a] > 0 ? sum[i] + x[a][i] : sum[i] - x[a][i];
-      }
       for (int i = 0; i < D; ++i) {
         T start;
         load(constants, Cell::start + k * D + i, start);
-        rise_[k][i] = dot(e.up[i], sum);
+        rise_[k][i] = dot(e.up[i], sum[k]);
         z_[k][i] = rise_[k][i] - start;
       }
     }
@@ -180,13 +212,13 @@ template <class T, int D> class Hourglass {
   void add_forces(const T& V0, Vector<T, D>* on_edges, Vector<T, D>* on_corners) const {
     T g[Cell::modes][D];
     stress_.gradient(slopes_, g);
+    Vector<T, D> r[Cell::modes];
     for (int k = 0; k < Cell::modes; ++k) {
-      Vector<T, D> r = (V0 * g[k][0]) * edges_.up[0];  // dU / d(sum_a h_a x_a)
-      for (int m = 1; m < D; ++m) r += (V0 * g[k][m]) * edges_.up[m];
-      for (int m = 0; m < D; ++m) on_edges[m] += rise_[k][m] * r;  // d x^m = -(x^m . d x_k) x^k
-      for (int a = 0; a < Cell::nodes; ++a)
-        for (int i = 0; i < D; ++i) on_corners[a][i] = kHourglass<D>[k][a] > 0 ? on_corners[a][i] - r[i] : on_corners[a][i] + r[i];
+      r[k] = (V0 * g[k][0]) * edges_.up[0];  // dU / d(sum_a h_a x_a)
+      for (int m = 1; m < D; ++m) r[k] += (V0 * g[k][m]) * edges_.up[m];
+      for (int m = 0; m < D; ++m) on_edges[m] += rise_[k][m] * r[k];  // d x^m = -(x^m . d x_k) x^k
     }
+    take_modes<T, D>(r, on_corners);
   }
 
  private:
