@@ -191,7 +191,7 @@ Pack viscous_pressure(const CellGroup& g, const double* constants, const Vector<
 }
 
 /// OneLayer: the law is one of material/von_mises.h with a single layer, for which the
-/// kernel is made as lean as it can be; all others are told apart at run time.
+/// kernel is made as lean as it can be; all others, and the laws of one-point cells, are told apart at run time.
 template <class Cell, bool OneLayer>
 [[gnu::flatten]] void forces_of_block(const CellGroup& g, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
@@ -395,7 +395,7 @@ void forces(const CellGroup& g, const NodalView& view, int first, int last) {
   const bool one_layer = (g.solid.law == Law::green_elastic || g.solid.law == Law::paper) && g.solid.layers == 1;
   with_cell(g, [&](auto cell) {
     for (int b = first; b < last; ++b) {
-      if (one_layer) forces_of_block<decltype(cell), true>(g, view, b);
+      if (one_layer && !decltype(cell)::one_point) forces_of_block<decltype(cell), !decltype(cell)::one_point>(g, view, b);
       else forces_of_block<decltype(cell), false>(g, view, b);
     }
   });
