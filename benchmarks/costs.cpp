@@ -17,7 +17,7 @@ struct Family {
 
 BodyModel block(const Family& family, int elements) {
   const CellShape& shape = shape_of(family.kind);
-  const double cells = static_cast<double>(elements) / (family.kind == CellKind::tetrahedron ? 6 : family.kind == CellKind::triangle ? 2 : shape.simplices);
+  const double cells = static_cast<double>(elements) / (family.kind == CellKind::tetrahedron ? 6 : family.kind == CellKind::triangle ? 2 : shape.points);
   const int n = std::max(2, static_cast<int>(std::lround(shape.dimension == 2 ? std::sqrt(cells) : std::cbrt(cells))));
   return body_of(block_of(family.kind, n), aluminium(true), family.average);
 }
@@ -31,7 +31,7 @@ void element_costs(const Family& family, int elements, const char* size, std::ve
   double one_thread = 0;
   for (int threads : {1, 2}) {
     Elements engine({body}, D, X, ElementOptions(), threads);
-    const double count = static_cast<double>(engine.simplices().size());
+    const double count = static_cast<double>(engine.simplices().size()) / shape_of(family.kind).simplices * shape_of(family.kind).points;
     NodeField x = X, v(X.size(), Node::Zero()), f(X.size());
     long calls = 0;
     const double force = least_time([&] {
@@ -71,7 +71,8 @@ double bandwidth() {
 
 std::vector<Row> costs(const Request&) {
   const Family families[] = {{CellKind::crossed, "cell", 8},      {CellKind::quad2, "cell", 8},        {CellKind::triangle, "node", 8},
-                             {CellKind::hex24, "cell", 12},       {CellKind::hex6, "cell", 12},        {CellKind::tetrahedron, "node", 12}};
+                             {CellKind::hex24, "cell", 12},       {CellKind::hex6, "cell", 12},        {CellKind::tetrahedron, "node", 12},
+                             {CellKind::quad1, "cell", 20},       {CellKind::hex1, "cell", 40}};
   std::vector<Row> rows;
   const Clock clock;
   const double speed = bandwidth();

@@ -5,6 +5,8 @@
 #include <sstream>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/element/hourglass.h"
+#include "forming_sim/element/one_point.h"
 #include "forming_sim/material/law.h"
 
 namespace forming_sim {
@@ -15,7 +17,8 @@ struct Elements::Group : CellGroup {
   enum Rest : char { changed, kept, passed_over };  ///< a block's memory by the last evaluation, or none was needed
   std::vector<Rest> rest;  ///< per block; empty where all are evaluated
   CurveTables curves;
-  std::vector<Lane> memory_storage;
+  std::vector<Lane> memory_storage, constants_storage, hourglass_storage;
+  int parts = 0;  ///< simplices of a cell, all of them its one point's in a one-point cell
   int first_element = 0;
   long first_record = 0;
   std::string body;
@@ -25,6 +28,7 @@ namespace {
 
 /// The classical pressure is a memory of each simplex, which no node has.
 PressureMode mode_of(const BodyModel& body, CellKind kind) {
+  if (is_one_point(kind)) return PressureMode::element;
   if (body.pressure_average == "element") return PressureMode::element;
   if (body.pressure_average == "node") return PressureMode::node;
   if (kind != CellKind::triangle && kind != CellKind::tetrahedron) return PressureMode::cell;
@@ -71,6 +75,35 @@ double mass_share(const NodeField& x, const std::array<int, 4>& corner, int a, i
   return (sum + x[corner[a]][0]) / (4 * sum);
 }
 
+/// An element with a memory at the start.
+struct ElementStart {
+  Eigen::Matrix3d edges;
+  double volume;
+  int nodes;
+  int node[8];       ///< joined
+  double share[8];   ///< in the mass
+  std::vector<double> constants;  ///< of a one-point cell
+
+  ElementStart(const NodeField& x, const std::array<int, 4>& corner, int dimension, bool ring) : nodes(dimension + 1) {
+    const SimplexShape shape(x, corner, dimension, ring);
+    edges = shape.edges;
+    volume = shape.volume;
+    for (int a = 0; a < nodes; ++a) {
+      node[a] = corner[a];
+      share[a] = mass_share(x, corner, a, dimension, ring);
+    }
+  }
+  ElementStart(const NodeField& x, const int* cell, int first_node, int dimension, const SolidConstants& solid) : nodes(dimension == 2 ? 4 : 8) {
+    Vec3 corners[8];
+    for (int a = 0; a < nodes; ++a) corners[a] = vec3(x[node[a] = cell[a] + first_node]);
+    OnePointStart start = start_one_point(corners, dimension, solid);
+    edges = start.edges;
+    volume = start.volume;
+    std::copy(start.share, start.share + nodes, share);
+    constants = std::move(start.constants);
+  }
+};
+
 }  // namespace
 
 Elements::~Elements() = default;
@@ -86,7 +119,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   inertia_.assign(axisymmetric_ ? nodes : 0, 0.0);
   long records = 0;
   for (const BodyModel& body : bodies) {
-    int element = body.first_element;
+    int first_element = body.first_element;
     for (const Cells& cells : body.mesh.cells) {
       if (cells.count() == 0) continue;
       const CellShape& shape = shape_of(cells.kind);
@@ -95,7 +128,8 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.dimension = D;
       g.ring = axisymmetric_;
       g.cell_nodes = shape.nodes;
-      g.cell_simplices = shape.simplices;
+      g.cell_simplices = shape.points;
+      g.parts = shape.simplices;
       g.cells = cells.count();
       g.blocks = (g.cells + kLanes - 1) / kLanes;
       g.pressure = mode_of(body, cells.kind);
@@ -108,24 +142,36 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.quadratic_viscosity = options.quadratic_viscosity;
       const bool viscous = g.linear_viscosity > 0 || g.quadratic_viscosity > 0;
       may_sleep_ = may_sleep_ && g.pressure != PressureMode::node && g.solid.law != Law::classical && !viscous;
-      g.first_element = element;
+      g.first_element = first_element;
+      first_element += g.cells * shape.simplices;
       g.first_record = records;
       g.body = body.name;
       g.plastic.assign(g.blocks, 0.0);
       g.viscous.assign(g.blocks, 0.0);
       g.lowest.assign(g.blocks, 1.0);
       g.node_storage.resize(static_cast<std::size_t>(g.blocks) * shape.nodes * kLanes);
-      g.memory_storage.resize(static_cast<std::size_t>(g.blocks) * shape.simplices * g.items);
+      g.memory_storage.resize(static_cast<std::size_t>(g.blocks) * shape.points * g.items);
+      if (is_one_point(cells.kind)) {
+        g.constants_storage.resize(static_cast<std::size_t>(g.blocks) * (D == 2 ? OnePoint<2>::items : OnePoint<3>::items));
+        g.hourglass_items = D == 2 ? hourglass_items<2>(g.solid) : hourglass_items<3>(g.solid);
+        g.hourglass_storage.resize(static_cast<std::size_t>(g.blocks) * g.hourglass_items);
+      }
       for (int b = 0; b < g.blocks; ++b) {
         for (int l = 0; l < kLanes; ++l) {
           const int cell = std::min(b * kLanes + l, g.cells - 1);
           const int* of_cell = cells.nodes.data() + static_cast<std::size_t>(cell) * shape.nodes;
           for (int a = 0; a < shape.nodes; ++a)
             g.node_storage[(static_cast<std::size_t>(b) * shape.nodes + a) * kLanes + l] = of_cell[a] + body.first_node;
-          for (int s = 0; s < shape.simplices; ++s) {
+          const bool first = b * kLanes + l == cell;  // not a copy
+          for (int s = 0; s < shape.simplices && first; ++s) {
             std::array<int, 4> corner{-1, -1, -1, -1};
             for (int a = 0; a <= D; ++a) corner[a] = of_cell[shape.simplex[s][a]] + body.first_node;
-            const SimplexShape initial(x, corner, D, axisymmetric_);
+            simplices_.push_back(corner);
+          }
+          for (int s = 0; s < shape.points; ++s) {
+            const int element = g.first_element + cell * shape.simplices + s;
+            const ElementStart initial = is_one_point(cells.kind) ? ElementStart(x, of_cell, body.first_node, D, g.solid)
+                                                                  : ElementStart(x, simplices_[element], D, axisymmetric_);
             const double V0 = initial.volume;
             if (!(V0 > 0)) {
               std::ostringstream what;
@@ -135,19 +181,20 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
             }
             const Eigen::Matrix3d up = initial.edges.inverse();  // rows: X^m
             const Eigen::Matrix3d G = up * up.transpose();
-            Lane* memory = g.memory_storage.data() + (static_cast<std::size_t>(b) * shape.simplices + s) * g.items;
+            Lane* memory = g.memory_storage.data() + (static_cast<std::size_t>(b) * shape.points + s) * g.items;
             const auto start = [&](int item, double value) { memory[item][l] = value; };
             if (D == 2) start_memory<2>(g.solid, {{G(0, 0), G(1, 1), G(2, 2), G(0, 1)}}, start);
             else start_memory<3>(g.solid, {{G(0, 0), G(1, 1), G(2, 2), G(0, 1), G(1, 2), G(2, 0)}}, start);
             memory[g.items - 1][l] = V0;
-            if (b * kLanes + l != cell) continue;
-            simplices_.push_back(corner);
-            ++element;
-            for (int a = 0; a <= D; ++a) {
-              mass_[corner[a]] += g.density * V0 * mass_share(x, corner, a, D, axisymmetric_);
-              nodal_volume0_[corner[a]] += V0 / (D + 1);
-              nodal_bulk_[corner[a]] = g.solid.K;
-              if (axisymmetric_) inertia_[corner[a]] = g.density;
+            const std::size_t items = initial.constants.size();
+            for (std::size_t i = 0; i < items; ++i) g.constants_storage[b * items + i][l] = initial.constants[i];
+            if (!first) continue;
+            for (int a = 0; a < initial.nodes; ++a) mass_[initial.node[a]] += g.density * V0 * initial.share[a];
+            if (is_one_point(cells.kind)) continue;  // it has no share in nodal pressures
+            for (int a = 0; a < initial.nodes; ++a) {
+              nodal_volume0_[initial.node[a]] += V0 / (D + 1);
+              nodal_bulk_[initial.node[a]] = g.solid.K;
+              if (axisymmetric_) inertia_[initial.node[a]] = g.density;
             }
           }
         }
@@ -181,6 +228,8 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   for (Group& g : groups_) {
     g.nodes = g.node_storage.data();
     g.memory = reinterpret_cast<double*>(g.memory_storage.data());
+    g.constants = reinterpret_cast<double*>(g.constants_storage.data());
+    g.hourglass = reinterpret_cast<double*>(g.hourglass_storage.data());
     g.records = records_ + g.first_record * record_size_;
     g.plastic_work = g.plastic.data();
     g.viscous_work = g.viscous.data();
@@ -198,7 +247,7 @@ std::vector<GroupPlan> Elements::plan() const {
     plan.layers = g.solid.layers;
     plan.cells = g.cells;
     plan.elements = static_cast<long>(g.cells) * g.cell_simplices;
-    plan.memory_bytes = static_cast<double>(g.memory_storage.size() * sizeof(Lane));
+    plan.memory_bytes = static_cast<double>((g.memory_storage.size() + g.constants_storage.size() + g.hourglass_storage.size()) * sizeof(Lane));
     plan.force_bytes = static_cast<double>(g.node_storage.size()) * record_size_ * sizeof(double);
     plan.index_bytes = static_cast<double>(g.node_storage.size()) * 2 * sizeof(int);  // of the cell's nodes, of the node's forces
     groups.push_back(plan);
@@ -229,7 +278,7 @@ void Elements::nodal_pressure(const NodalView& view) const {
     for (long n = first; n < last; ++n) {
       double V = 0;
       for (int k = record_start_[n]; k < record_start_[n + 1]; ++k) V += records_[record_index_[k]];
-      pressure_[n] = nodal_bulk_[n] * (V / nodal_volume0_[n] - 1);
+      pressure_[n] = nodal_volume0_[n] > 0 ? nodal_bulk_[n] * (V / nodal_volume0_[n] - 1) : 0;
     }
   });
 }
@@ -291,7 +340,7 @@ void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, i
     for (int b = 0; b < g.blocks; ++b)
       if (!(steps[b].dt >= dt)) {
         dt = steps[b].dt;
-        element = g.first_element + std::min(b * kLanes + steps[b].lane, g.cells - 1) * g.cell_simplices;
+        element = g.first_element + std::min(b * kLanes + steps[b].lane, g.cells - 1) * g.parts;
       }
   }
 }
@@ -326,10 +375,10 @@ std::vector<double> Elements::plastic_strain() const {
   std::vector<double> p(simplices_.size());
   for (const Group& g : groups_)
     for (int cell = 0; cell < g.cells; ++cell)
-      for (int s = 0; s < g.cell_simplices; ++s) {
-        const Lane* memory = g.memory_storage.data() + (static_cast<std::size_t>(cell / kLanes) * g.cell_simplices + s) * g.items;
+      for (int s = 0; s < g.parts; ++s) {
+        const Lane* memory = g.memory_storage.data() + (static_cast<std::size_t>(cell / kLanes) * g.cell_simplices + s % g.cell_simplices) * g.items;
         const auto at = [&](int item) { return memory[item][cell % kLanes]; };
-        p[g.first_element + cell * g.cell_simplices + s] = dimension_ == 2 ? plastic_strain_of<2>(g.solid, at) : plastic_strain_of<3>(g.solid, at);
+        p[g.first_element + cell * g.parts + s] = dimension_ == 2 ? plastic_strain_of<2>(g.solid, at) : plastic_strain_of<3>(g.solid, at);
       }
   return p;
 }
@@ -349,9 +398,9 @@ ElementFields Elements::observe(const NodeField& x) const {
     });
     for (double e : energy) fields.stored_energy += e;
     for (int cell = 0; cell < g.cells; ++cell)
-      for (int s = 0; s < g.cell_simplices; ++s) {
-        const std::size_t at = static_cast<std::size_t>(cell / kLanes) * g.cell_simplices + s;
-        const int l = cell % kLanes, element = g.first_element + cell * g.cell_simplices + s;
+      for (int s = 0; s < g.parts; ++s) {
+        const std::size_t at = static_cast<std::size_t>(cell / kLanes) * g.cell_simplices + s % g.cell_simplices;
+        const int l = cell % kLanes, element = g.first_element + cell * g.parts + s;
         Sym& sigma = fields.stress[element];
         for (int i = 0; i < 6; ++i) sigma[i] = stress[at * 6 + i][l];
         fields.volume_ratio[element] = ratio[at][l];
@@ -372,22 +421,36 @@ Elements::Location Elements::locate(int element) const {
   for (int k = static_cast<int>(groups_.size()) - 1; k >= 0; --k) {
     const Group& g = groups_[k];
     if (element >= g.first_element)
-      return {k, (element - g.first_element) / g.cell_simplices, (element - g.first_element) % g.cell_simplices};
+      return {k, (element - g.first_element) / g.parts, (element - g.first_element) % g.parts};
   }
   return {0, 0, 0};
 }
 
+/// V/V0 of an element whose simplex is number `element`.
+double Elements::volume_ratio(const NodeField& x, int element) const {
+  const Location where = locate(element);
+  const Group& g = groups_[where.group];
+  const int block = where.cell / kLanes, l = where.cell % kLanes, point = where.simplex % g.cell_simplices;
+  const double V0 = g.memory_storage[(static_cast<std::size_t>(block) * g.cell_simplices + point + 1) * g.items - 1][l];
+  if (g.constants_storage.empty()) return SimplexShape(x, simplices_[element], dimension_, axisymmetric_).volume / V0;
+  const int D = dimension_, items = D == 2 ? OnePoint<2>::items : OnePoint<3>::items;
+  Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
+  edges.topLeftCorner(D, D).setZero();
+  for (int a = 0; a < g.cell_nodes; ++a)
+    for (int m = 0; m < D; ++m)
+      edges.col(m) += g.constants_storage[static_cast<std::size_t>(block) * items + a * D + m][l] *
+                      vec3(x[g.node_storage[(static_cast<std::size_t>(block) * g.cell_nodes + a) * kLanes + l]]);
+  return edges.determinant() / (D == 2 ? 2 : 6) / V0;
+}
+
 void Elements::report_inversion(const NodeField& x) const {
   for (std::size_t e = 0; e < simplices_.size(); ++e) {
-    const double V = SimplexShape(x, simplices_[e], dimension_, axisymmetric_).volume;
-    if (V > 0) continue;
-    const Location where = locate(static_cast<int>(e));
-    const Group& g = groups_[where.group];
-    const double V0 = g.memory_storage[(static_cast<std::size_t>(where.cell / kLanes) * g.cell_simplices + where.simplex + 1) * g.items - 1][where.cell % kLanes];
+    const double ratio = volume_ratio(x, static_cast<int>(e));
+    if (ratio > 0) continue;
     std::ostringstream what;
-    what << "element " << e << " of body " << g.body << " (nodes";
+    what << "element " << e << " of body " << groups_[locate(static_cast<int>(e)).group].body << " (nodes";
     for (int a = 0; a <= dimension_; ++a) what << ' ' << simplices_[e][a];
-    what << ") turned inside out at (" << vec3(x[simplices_[e][0]]).transpose() << ") m: V/V0 = " << V / V0
+    what << ") turned inside out at (" << vec3(x[simplices_[e][0]]).transpose() << ") m: V/V0 = " << ratio
          << "; a finer mesh there, larger tool radii or slower tools avoid it";
     throw Error(Code::mesh_error, what.str());
   }
@@ -407,8 +470,10 @@ void Elements::check_axis(const NodeField& x) const {
 
 void Elements::append_state(std::vector<double>& to) const {
   for (const Group& g : groups_) {
-    const double* memory = reinterpret_cast<const double*>(g.memory_storage.data());
-    to.insert(to.end(), memory, memory + g.memory_storage.size() * 8);
+    for (const std::vector<Lane>* storage : {&g.memory_storage, &g.hourglass_storage}) {
+      const double* memory = reinterpret_cast<const double*>(storage->data());
+      to.insert(to.end(), memory, memory + storage->size() * kLanes);
+    }
     to.insert(to.end(), g.plastic.begin(), g.plastic.end());
     to.insert(to.end(), g.viscous.begin(), g.viscous.end());
   }
@@ -416,14 +481,15 @@ void Elements::append_state(std::vector<double>& to) const {
 
 const double* Elements::read_state(const double* from) {
   stillness_.forget();
+  const auto take = [&](double* to, std::size_t count) {
+    std::copy(from, from + count, to);
+    from += count;
+  };
   for (Group& g : groups_) {
-    double* memory = reinterpret_cast<double*>(g.memory_storage.data());
-    std::copy(from, from + g.memory_storage.size() * 8, memory);
-    from += g.memory_storage.size() * 8;
-    std::copy(from, from + g.plastic.size(), g.plastic.begin());
-    from += g.plastic.size();
-    std::copy(from, from + g.viscous.size(), g.viscous.begin());
-    from += g.viscous.size();
+    for (std::vector<Lane>* storage : {&g.memory_storage, &g.hourglass_storage})
+      take(reinterpret_cast<double*>(storage->data()), storage->size() * kLanes);
+    take(g.plastic.data(), g.plastic.size());
+    take(g.viscous.data(), g.viscous.size());
   }
   return from;
 }

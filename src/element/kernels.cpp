@@ -2,8 +2,10 @@
 // Only raw arrays and types of this width's namespace are used here, so that no
 // inline function of a wider instruction set can leak into the rest of the program.
 #include "forming_sim/element/cell_group.h"
-#include "forming_sim/element/time_step.h"
 #include "forming_sim/element/cell_types.h"
+#include "forming_sim/element/hourglass.h"
+#include "forming_sim/element/one_point_step.h"
+#include "forming_sim/element/time_step.h"
 #include "forming_sim/material/law.h"
 
 namespace forming_sim {
@@ -27,17 +29,53 @@ void gather(const int* nodes, const double* field, Vector<Pack, kD<Cell>>* out) 
   }
 }
 
+/// Constants of a block of one-point cells; null elsewhere.
+template <class Cell> const double* constants_of(const CellGroup& g, long block) {
+  if constexpr (Cell::one_point) return g.constants + block * OnePoint<kD<Cell>>::items * kLanes;
+  else return nullptr;
+}
+template <class Cell> double* hourglass_of(const CellGroup& g, long block) { return g.hourglass + block * g.hourglass_items * kLanes; }
+
+/// w_ma of a one-point cell.
+inline Pack weight(const double* constants, int item) { return Pack::load(constants + item * kLanes); }
+
 template <class Cell>
-void edges_of(const Vector<Pack, kD<Cell>>* x, int s, Vector<Pack, kD<Cell>>* edge) {
-  const auto& corner = Cell::table[s];
-  for (int m = 0; m < kD<Cell>; ++m) edge[m] = x[corner[m + 1]] - x[corner[0]];
-  if constexpr (Cell::ring) edge[2] = {{Pack(1.0 / 3) * (x[corner[0]][0] + x[corner[1]][0] + x[corner[2]][0]), Pack(0.0)}};
+void edges_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s, Vector<Pack, kD<Cell>>* edge) {
+  constexpr int D = kD<Cell>;
+  if constexpr (Cell::one_point) {  // x_m = sum_a w_ma x_a
+    for (int m = 0; m < D; ++m) {
+      edge[m] = weight(constants, m) * x[0];
+      for (int a = 1; a < Cell::nodes; ++a) edge[m] += weight(constants, a * D + m) * x[a];
+    }
+  } else {
+    const auto& corner = Cell::table[s];
+    for (int m = 0; m < D; ++m) edge[m] = x[corner[m + 1]] - x[corner[0]];
+    if constexpr (Cell::ring) edge[2] = {{Pack(1.0 / 3) * (x[corner[0]][0] + x[corner[1]][0] + x[corner[2]][0]), Pack(0.0)}};
+  }
 }
 
-template <class Cell> void simplex_volumes(const Vector<Pack, kD<Cell>>* x, Pack* V) {
+/// Hands the forces on the edges to the nodes, through the weights by which they make the edges.
+template <class Cell>
+void spread(const double* constants, int s, const Vector<Pack, kD<Cell>>* force, Vector<Pack, kD<Cell>>* f) {
+  constexpr int D = kD<Cell>;
+  if constexpr (Cell::one_point) {
+    for (int a = 0; a < Cell::nodes; ++a)
+      for (int m = 0; m < D; ++m) f[a] += weight(constants, a * D + m) * force[m];
+  } else {
+    const auto& corner = Cell::table[s];
+    Vector<Pack, D> rest = force[0];
+    for (int m = 0; m < D; ++m) {
+      f[corner[m + 1]] += force[m];
+      if (m > 0) rest += force[m];
+    }
+    for (int i = 0; i < D; ++i) f[corner[0]][i] -= rest[i];
+  }
+}
+
+template <class Cell> void simplex_volumes(const double* constants, const Vector<Pack, kD<Cell>>* x, Pack* V) {
   for (int s = 0; s < Cell::simplices; ++s) {
     Vector<Pack, kD<Cell>> edge[kE<Cell>];
-    edges_of<Cell>(x, s, edge);
+    edges_of<Cell>(constants, x, s, edge);
     V[s] = simplex_volume<Pack, kD<Cell>, Cell::ring>(edge);
   }
 }
@@ -49,8 +87,8 @@ inline Pack initial_volume(const CellGroup& g, const double* memory) { return Pa
 
 /// The ways of the edges of simplex s in the last step; in: velocities of the cell's nodes.
 template <class Cell>
-void moved_edges(const NodalView& view, const Vector<Pack, kD<Cell>>* v, int s, Vector<Pack, kD<Cell>>* w) {
-  edges_of<Cell>(v, s, w);
+void moved_edges(const NodalView& view, const double* constants, const Vector<Pack, kD<Cell>>* v, int s, Vector<Pack, kD<Cell>>* w) {
+  edges_of<Cell>(constants, v, s, w);
   for (int m = 0; m < kE<Cell>; ++m) w[m] = Pack(view.last_dt) * w[m];
 }
 
@@ -60,13 +98,14 @@ template <class Cell>
 void classical_pressures(const CellGroup& g, const NodalView& view, long block, const Vector<Pack, kD<Cell>>* x,
                          const Vector<Pack, kD<Cell>>* v, Pack* p) {
   constexpr int D = kD<Cell>;
+  const double* constants = constants_of<Cell>(g, block);
   Pack rate[Cell::simplices], sum_V(0.0), sum_rate(0.0);
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
-    edges_of<Cell>(x, s, e.x);
+    edges_of<Cell>(constants, x, s, e.x);
     find_reciprocal(e);
     Vector<Pack, D> w[kE<Cell>];
-    moved_edges<Cell>(view, v, s, w);
+    moved_edges<Cell>(view, constants, v, s, w);
     rate[s] = CellIncrement<Cell>(e, w).divergence();
     sum_V += e.volume;
     sum_rate += e.volume * rate[s];
@@ -86,17 +125,18 @@ template <class Cell>
 void pressures(const CellGroup& g, const NodalView& view, long block, const Pack* V, Pack* p) {
   constexpr int D = kD<Cell>;
   const Pack K(g.solid.K);
-  if (g.pressure == PressureMode::node) {
-    const int* nodes = g.nodes + block * Cell::nodes * kLanes;
-    for (int s = 0; s < Cell::simplices; ++s) {
-      Pack total(0.0);
-      for (int a = 0; a <= D; ++a)
-        for (int l = 0; l < kLanes; ++l)
-          total.v[l] += view.pressure[nodes[Cell::table[s][a] * kLanes + l]];
-      p[s] = total * Pack(1.0 / (D + 1));
+  if constexpr (!Cell::one_point)
+    if (g.pressure == PressureMode::node) {
+      const int* nodes = g.nodes + block * Cell::nodes * kLanes;
+      for (int s = 0; s < Cell::simplices; ++s) {
+        Pack total(0.0);
+        for (int a = 0; a <= D; ++a)
+          for (int l = 0; l < kLanes; ++l)
+            total.v[l] += view.pressure[nodes[Cell::table[s][a] * kLanes + l]];
+        p[s] = total * Pack(1.0 / (D + 1));
+      }
+      return;
     }
-    return;
-  }
   if (g.solid.law == Law::classical) {
     for (int s = 0; s < Cell::simplices; ++s) load(memory_of<Cell>(g, block, s), kClassicalPressure<D>, p[s]);
     return;
@@ -118,15 +158,15 @@ void pressures(const CellGroup& g, const NodalView& view, long block, const Pack
 
 /// V, dV/dt and extent (tensor.h) of the cell whose nodes stand at x and move with v.
 template <class Cell>
-void volume_and_rate(const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v, Pack& V, Pack& rate, Pack& size) {
+void volume_and_rate(const double* constants, const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v, Pack& V, Pack& rate, Pack& size) {
   constexpr int D = kD<Cell>;
   V = rate = size = Pack(0.0);
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
-    edges_of<Cell>(x, s, e.x);
+    edges_of<Cell>(constants, x, s, e.x);
     find_reciprocal(e);
     Vector<Pack, D> w[kE<Cell>];
-    edges_of<Cell>(v, s, w);
+    edges_of<Cell>(constants, v, s, w);
     V += e.volume;
     size += extent(e);
     rate += e.volume * CellIncrement<Cell>(e, w).divergence();
@@ -136,11 +176,11 @@ void volume_and_rate(const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell
 /// Bulk viscosity of the cell: q = rho l (b1 c D + b2^2 l D |D| where D < 0),
 /// D = (dV/dt)/V, l = extent^(1/d), added to p; returns q D V, the power it takes.
 template <class Cell>
-Pack viscous_pressure(const CellGroup& g, const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v,
+Pack viscous_pressure(const CellGroup& g, const double* constants, const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v,
                       Pack& q) {
   constexpr int D = kD<Cell>;
   Pack V, rate, size;
-  volume_and_rate<Cell>(x, v, V, rate, size);
+  volume_and_rate<Cell>(constants, x, v, V, rate, size);
   const Pack D_v = rate / V;
   const Pack l = lanewise([](double volume) { return D == 2 ? __builtin_sqrt(volume) : __builtin_cbrt(volume); }, size);
   const Pack c(__builtin_sqrt((g.solid.K + 4.0 / 3 * g.solid.mu) / g.density));
@@ -151,10 +191,11 @@ Pack viscous_pressure(const CellGroup& g, const Vector<Pack, kD<Cell>>* x, const
 }
 
 /// OneLayer: the law is one of material/von_mises.h with a single layer, for which the
-/// kernel is made as lean as it can be; all others are told apart at run time.
+/// kernel is made as lean as it can be; all others, and the laws of one-point cells, are told apart at run time.
 template <class Cell, bool OneLayer>
 [[gnu::flatten]] void forces_of_block(const CellGroup& g, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
+  const double* constants = constants_of<Cell>(g, block);
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   Vector<Pack, D> x[Cell::nodes], f[Cell::nodes];
   gather<Cell>(nodes, view.x, x);
@@ -168,45 +209,51 @@ template <class Cell, bool OneLayer>
   if (classical) {
     classical_pressures<Cell>(g, view, block, x, v, p);
   } else {
-    simplex_volumes<Cell>(x, V);
+    simplex_volumes<Cell>(constants, x, V);
     pressures<Cell>(g, view, block, V, p);
   }
   const int in_use = block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes;
   if (viscous) {
     Pack q;
-    const Pack power = viscous_pressure<Cell>(g, x, v, q);
+    const Pack power = viscous_pressure<Cell>(g, constants, x, v, q);
     for (int s = 0; s < Cell::simplices; ++s) p[s] += q;
     for (int l = 0; l < in_use; ++l) g.viscous_work[block] += power[l] * view.dt;
   }
 
   Pack dissipated(0.0), lowest(1e300);
   for (int s = 0; s < Cell::simplices; ++s) {
-    const auto& corner = Cell::table[s];
     CellEdges<Cell> e;
-    edges_of<Cell>(x, s, e.x);
+    edges_of<Cell>(constants, x, s, e.x);
     find_reciprocal(e);
     double* memory = memory_of<Cell>(g, block, s);
     const Pack V0 = initial_volume(g, memory);
     const Pack J = e.volume / V0;
     lowest = smaller(lowest, J);
-    Vector<Pack, D> w[kE<Cell>];
-    if (classical) moved_edges<Cell>(view, v, s, w);
+    Vector<Pack, D> w[kE<Cell>], force[D];
+    if (classical) moved_edges<Cell>(view, constants, v, s, w);
     PointResponse<Pack, D> point;
-    if constexpr (OneLayer) point = layer_step(g.solid, 0, stress_factor(g.solid, J), e, J, memory, Keep::yes);
-    else point = point_step(g.solid, e, classical ? w : nullptr, J, memory, Keep::yes);
+    if constexpr (Cell::one_point) {
+      Hourglass<Pack, D> hourglass(g.solid, constants, e, x);
+      point = one_point_step(g.solid, e, classical ? w : nullptr, J, memory, hourglass, hourglass_of<Cell>(g, block), Keep::yes);
+      for (int m = 0; m < D; ++m)
+        for (int i = 0; i < D; ++i) force[m][i] = Pack(0.0);
+      hourglass.add_forces(V0, force, f);
+    } else if constexpr (OneLayer) {
+      point = layer_step(g.solid, 0, stress_factor(g.solid, J), e, J, memory, Keep::yes);
+    } else {
+      point = point_step(g.solid, e, classical ? w : nullptr, J, memory, Keep::yes);
+    }
     dissipated += point.dissipation * V0;
     for (int i = 0; i < 3; ++i) point.S[i] += p[s];  // sigma = p I + S (3.4)
-    Vector<Pack, D> rest;
     for (int m = 0; m < D; ++m) {
-      const Vector<Pack, D> force = -e.volume * (point.S * e.up[m]);  // -V sigma . x^m
-      f[corner[m + 1]] += force;
-      rest = m == 0 ? force : rest;
-      if (m > 0) rest += force;
+      const Vector<Pack, D> of_mean = -e.volume * (point.S * e.up[m]);  // -V sigma . x^m
+      if constexpr (Cell::one_point) force[m] += of_mean;
+      else force[m] = of_mean;
     }
-    for (int i = 0; i < D; ++i) f[corner[0]][i] -= rest[i];
+    spread<Cell>(constants, s, force, f);
     if constexpr (Cell::ring) {  // the hoop: -V sigma . x^3, a third on each corner since x_3 is their mean radius
       const Pack hoop = e.volume * e.up[2][0] * point.S[2] * Pack(1.0 / 3);
-      for (int a = 0; a <= D; ++a) f[corner[a]][0] -= hoop;
+      for (int a = 0; a <= D; ++a) f[Cell::table[s][a]][0] -= hoop;
     }
   }
   for (int l = 0; l < in_use; ++l) g.plastic_work[block] += dissipated[l];
@@ -223,24 +270,30 @@ template <class Cell, bool OneLayer>
 
 template <class Cell> void volumes_of_block(const CellGroup& g, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
+  const double* constants = constants_of<Cell>(g, block);
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   Vector<Pack, D> x[Cell::nodes];
   gather<Cell>(nodes, view.x, x);
   Pack share[Cell::nodes];
   for (int a = 0; a < Cell::nodes; ++a) share[a] = Pack(0.0);
   Pack V[Cell::simplices];
-  simplex_volumes<Cell>(x, V);
+  simplex_volumes<Cell>(constants, x, V);
   for (int s = 0; s < Cell::simplices; ++s) {
     const Pack part = V[s] * Pack(1.0 / (D + 1));
-    for (int a = 0; a <= D; ++a) share[Cell::table[s][a]] += part;
+    if constexpr (!Cell::one_point)  // which has a pressure of its own
+      for (int a = 0; a <= D; ++a) share[Cell::table[s][a]] += part;
   }
   double* out = g.records + block * Cell::nodes * kLanes;
   for (int a = 0; a < Cell::nodes; ++a) share[a].store(out + a * kLanes);
 }
 
 template <class Cell>
+using CellBound = std::conditional_t<Cell::one_point, OnePointBound<Pack, kD<Cell>>, StepBound<Pack, kD<Cell>, Cell::nodes, Cell::ring>>;
+
+template <class Cell>
 [[gnu::flatten]] BlockStep step_of_block(const CellGroup& g, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
+  const double* constants = constants_of<Cell>(g, block);
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   Vector<Pack, D> x[Cell::nodes];
   gather<Cell>(nodes, view.x, x);
@@ -250,20 +303,21 @@ template <class Cell>
       for (int l = 0; l < kLanes; ++l) inertia[a][1].v[l] = view.inertia[nodes[a * kLanes + l]];
       inertia[a][0] = select(x[a][0] > Pack(0.0), inertia[a][1], Pack(0.0));  // no radial motion on the axis
     }
-  StepBound<Pack, D, Cell::nodes, Cell::ring> bound(g, inertia);
+  CellBound<Cell> bound(g, inertia);
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
-    edges_of<Cell>(x, s, e.x);
+    edges_of<Cell>(constants, x, s, e.x);
     find_reciprocal(e);
     const double* memory = memory_of<Cell>(g, block, s);
-    bound.add(e, memory, initial_volume(g, memory), Cell::table[s]);
+    if constexpr (Cell::one_point) bound.set(e, memory, initial_volume(g, memory), constants, Hourglass<Pack, D>(g.solid, constants, e, x));
+    else bound.add(e, memory, initial_volume(g, memory), Cell::table[s]);
   }
   Pack rate(0.0);
   if (g.quadratic_viscosity > 0) {
     Vector<Pack, D> v[Cell::nodes];
     gather<Cell>(nodes, view.v, v);
     Pack V, size;
-    volume_and_rate<Cell>(x, v, V, rate, size);
+    volume_and_rate<Cell>(constants, x, v, V, rate, size);
     rate = absolute(rate / V);
   }
   const Pack dt = bound.step(rate);
@@ -277,23 +331,25 @@ template <class Cell>
 void observe_block(const CellGroup& g, const NodalView& view, long block, double* stress, double* ratio,
                    double* energy) {
   constexpr int D = kD<Cell>;
+  const double* constants = constants_of<Cell>(g, block);
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   Vector<Pack, D> x[Cell::nodes];
   gather<Cell>(nodes, view.x, x);
   Pack V[Cell::simplices], p[Cell::simplices];
-  simplex_volumes<Cell>(x, V);
+  simplex_volumes<Cell>(constants, x, V);
   pressures<Cell>(g, view, block, V, p);
   Pack stored(0.0), cell_V(0.0), cell_V0(0.0);
   const double own = g.pressure == PressureMode::element ? 1 : g.element_share;
   const bool classical = g.solid.law == Law::classical;
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
-    edges_of<Cell>(x, s, e.x);
+    edges_of<Cell>(constants, x, s, e.x);
     find_reciprocal(e);
     double* memory = memory_of<Cell>(g, block, s);
     const Pack V0 = initial_volume(g, memory);
     const Pack J = e.volume / V0;
     stored += V0 * point_energy(g.solid, e, J, memory);
+    if constexpr (Cell::one_point) stored += V0 * Hourglass<Pack, D>(g.solid, constants, e, x).energy(g.solid, hourglass_of<Cell>(g, block));
     if (classical) stored += e.volume * p[s] * p[s] * Pack(0.5 / g.solid.K);
     else if (g.pressure != PressureMode::node) stored += Pack(0.5 * g.solid.K * own) * V0 * (J - Pack(1.0)) * (J - Pack(1.0));
     cell_V += e.volume;
@@ -330,6 +386,8 @@ template <class Work> void with_cell(const CellGroup& g, Work&& work) {
     case CellKind::tetrahedron: return work(cell_types::Tetrahedron());
     case CellKind::hex6: return work(cell_types::Hex6());
     case CellKind::hex24: return work(cell_types::Hex24());
+    case CellKind::quad1: return work(cell_types::Quad1());
+    case CellKind::hex1: return work(cell_types::Hex1());
   }
 }
 
@@ -337,7 +395,7 @@ void forces(const CellGroup& g, const NodalView& view, int first, int last) {
   const bool one_layer = (g.solid.law == Law::green_elastic || g.solid.law == Law::paper) && g.solid.layers == 1;
   with_cell(g, [&](auto cell) {
     for (int b = first; b < last; ++b) {
-      if (one_layer) forces_of_block<decltype(cell), true>(g, view, b);
+      if (one_layer && !decltype(cell)::one_point) forces_of_block<decltype(cell), !decltype(cell)::one_point>(g, view, b);
       else forces_of_block<decltype(cell), false>(g, view, b);
     }
   });

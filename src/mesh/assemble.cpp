@@ -70,7 +70,7 @@ void check_kinds_apart(const RawMesh& raw) {
         std::sort(key.begin(), key.end());
         if (corners_of_hexes.count(key))
           refuse(raw, "tetrahedron " + std::to_string(cell.tag) +
-                          " lies on a face of a hexahedron, which is split about its centre; mesh a body with one of the two kinds");
+                          " lies on a face of a hexahedron, which is " + (raw.one_point ? "not split" : "split about its centre") + "; mesh a body with one of the two kinds");
       }
 }
 
@@ -97,28 +97,33 @@ Split split(const RawMesh& raw, Mesh& mesh) {
   };
   as_they_are(RawKind::triangle, CellKind::triangle);
   take(RawKind::quadrilateral, [&](const RawCell& c) { quads.push_back({c.nodes[0], c.nodes[1], c.nodes[2], c.nodes[3]}); });
-  if (!quads.empty()) result.faces = split_quads(mesh, quads, CellKind::crossed);
+  if (!quads.empty()) result.faces = split_quads(mesh, quads, raw.one_point ? CellKind::quad1 : CellKind::crossed);
   as_they_are(RawKind::tetrahedron, CellKind::tetrahedron);
   take(RawKind::hexahedron, [&](const RawCell& c) {
     hexes.emplace_back();
     std::copy(c.nodes, c.nodes + 8, hexes.back().begin());
   });
-  if (!hexes.empty()) result.faces = split_hexes(mesh, hexes, CellKind::hex24);
+  if (!hexes.empty()) result.faces = split_hexes(mesh, hexes, raw.one_point ? CellKind::hex1 : CellKind::hex24);
   return result;
 }
 
 // Names the cells with a simplex that is not positive by their author's numbers.
 void check_cells(const RawMesh& raw, const Mesh& mesh, const std::vector<long long>& tags) {
-  const auto simplices = mesh.simplices();
   std::vector<std::size_t> bad;
-  std::size_t cell = 0, simplex = 0;
-  for (const Cells& block : mesh.cells)
+  std::size_t cell = 0;
+  for (const Cells& block : mesh.cells) {
+    const CellShape& shape = shape_of(block.kind);
     for (int c = 0; c < block.count(); ++c, ++cell) {
+      const int* nodes = &block.nodes[static_cast<std::size_t>(c) * shape.nodes];
       bool good = true;
-      for (int s = 0; s < shape_of(block.kind).simplices; ++s, ++simplex)
-        good = good && signed_volume(mesh.nodes, simplices[simplex], mesh.dimension) > 0;
+      for (int s = 0; s < shape.checked; ++s) {
+        std::array<int, 4> simplex{-1, -1, -1, -1};
+        for (int k = 0; k <= shape.dimension; ++k) simplex[k] = nodes[shape.check[s][k]];
+        good = good && signed_volume(mesh.nodes, simplex, mesh.dimension) > 0;
+      }
       if (!good) bad.push_back(cell);
     }
+  }
   if (bad.empty()) return;
   std::ostringstream text;
   text << bad.size() << " of " << cell << " cells are inverted, flat or not convex: ";

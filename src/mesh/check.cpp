@@ -66,9 +66,9 @@ void check_volumes(const Mesh& mesh) {
     }
     for (int cell = 0; cell < block.count(); ++cell) {
       const int* nodes = &block.nodes[static_cast<std::size_t>(cell) * shape.nodes];
-      for (int s = 0; s < shape.simplices; ++s) {
+      for (int s = 0; s < shape.checked; ++s) {
         std::array<int, 4> simplex{-1, -1, -1, -1};
-        for (int k = 0; k <= shape.dimension; ++k) simplex[k] = nodes[shape.simplex[s][k]];
+        for (int k = 0; k <= shape.dimension; ++k) simplex[k] = nodes[shape.check[s][k]];
         const double v = signed_volume(mesh.nodes, simplex, mesh.dimension);
         // A sliver that is flat to rounding error counts as flat.
         const double edge = (mesh.nodes[simplex[1]] - mesh.nodes[simplex[0]]).norm();

@@ -97,14 +97,14 @@ Mesh generate_plate(const BlankConfig& blank, CellKind kind) {
 }  // namespace
 
 Mesh generate_blank(const BlankConfig& blank) {
-  if (blank.pattern != "fine" && blank.pattern != "coarse")
-    refuse("pattern", "\"" + blank.pattern + "\"", "fine or coarse is needed");
+  const bool fine = blank.pattern == "fine", one_point = blank.pattern == "one_point";
+  if (!fine && !one_point && blank.pattern != "coarse") refuse("pattern", "\"" + blank.pattern + "\"", "fine, coarse or one_point is needed");
   if (!blank.origin.allFinite()) refuse("origin", "a number that is not finite", "finite coordinates are needed");
-  const bool fine = blank.pattern == "fine";
-  const CellKind solid = fine ? CellKind::hex24 : CellKind::hex6;
+  const CellKind flat = fine ? CellKind::crossed : one_point ? CellKind::quad1 : CellKind::quad2;
+  const CellKind solid = fine ? CellKind::hex24 : one_point ? CellKind::hex1 : CellKind::hex6;
   Mesh mesh;
   if (blank.shape == "strip") {
-    mesh = generate_strip(blank, fine ? CellKind::crossed : CellKind::quad2);
+    mesh = generate_strip(blank, flat);
   } else if (blank.shape == "plate") {
     mesh = generate_plate(blank, solid);
   } else if (blank.shape == "bar") {

@@ -69,13 +69,19 @@ RawMesh read_inline(const MeshConfig& config, const std::string& cell_type) {
 
 Mesh load_body_mesh(const MeshConfig& config, const std::string& base_directory) {
   check_config(config);
-  if (config.url.empty()) return assemble(read_inline(config, config.cell_type));
+  if (config.pattern != "fine" && config.pattern != "one_point")
+    refuse("mesh.pattern: given \"" + config.pattern + "\"; fine or one_point is needed");
+  const auto finish = [&](RawMesh raw) {
+    raw.one_point = config.pattern == "one_point";
+    return assemble(std::move(raw));
+  };
+  if (config.url.empty()) return finish(read_inline(config, config.cell_type));
   const std::string ending = ending_of(config.url);
   if (is_surface_file(ending))
     refuse("mesh file \"" + config.url + "\": " + ending +
            " holds a surface, and a body needs cells; mesh its volume with gmsh and give the .msh");
   if (ending != ".msh") refuse("mesh file \"" + config.url + "\": the ending \"" + ending + "\" is not known; a body needs a .msh");
-  return assemble(read_gmsh(resolve_url(config.url, base_directory), config.group, config.unit_scale));
+  return finish(read_gmsh(resolve_url(config.url, base_directory), config.group, config.unit_scale));
 }
 
 Mesh load_tool_surface(const MeshConfig& config, const std::string& base_directory, std::vector<std::string>& notes) {

@@ -25,6 +25,7 @@ struct RawCell {
 struct RawMesh {
   std::string source;                  ///< as messages name it
   int dimension = 3;
+  bool one_point = false;              ///< quadrilaterals and hexahedra stay whole, with one point each
   std::vector<Vec3> points;            ///< metres
   std::vector<long long> point_tags;   ///< as their author knows them
   std::vector<RawCell> cells;          ///< of the body, of the one dimension

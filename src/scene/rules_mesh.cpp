@@ -53,6 +53,7 @@ void check_cells(const MeshConfig& mesh, const std::string& path, int dimension,
 }  // namespace
 
 void check_mesh(const MeshConfig& mesh, const std::string& path, int dimension, bool of_a_tool, FaultList& faults) {
+  if (of_a_tool && mesh.pattern != "fine") faults.add(path + ".pattern", given_text(mesh.pattern), "leave it out: only the cells of a body have a pattern");
   if (mesh.url.empty() == mesh.points.empty()) {
     faults.add(path, mesh.url.empty() ? "neither url nor points" : "both url and points", "give exactly one of them: the url of a file, or an inline mesh of points, cells and cell_type");
   } else if (!mesh.url.empty()) {
@@ -64,7 +65,7 @@ void check_mesh(const MeshConfig& mesh, const std::string& path, int dimension, 
 }
 
 double simplices_of(const BlankConfig& blank) {
-  const bool fine = blank.pattern != "coarse";
+  const bool fine = blank.pattern == "fine";
   const double along = blank.cells_along, radius = blank.cells_radius;
   if (blank.shape == "strip") return along * blank.cells_through * (fine ? 4 : 2);
   if (blank.shape == "plate") return along * blank.cells_across * blank.cells_through * (fine ? 24 : 6);

@@ -151,7 +151,10 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind,
                                            Case{CellKind::hex24, "cell"}, Case{CellKind::hex24, "node"},
                                            Case{CellKind::crossed, "cell", "layers"}, Case{CellKind::hex6, "cell", "layers"},
                                            Case{CellKind::crossed, "cell", "rubber"}, Case{CellKind::hex24, "cell", "rubber"},
-                                           Case{CellKind::tetrahedron, "node", "rubber"}));
+                                           Case{CellKind::tetrahedron, "node", "rubber"}, Case{CellKind::quad1, "cell"},
+                                           Case{CellKind::hex1, "cell"}, Case{CellKind::quad1, "cell", "layers"},
+                                           Case{CellKind::hex1, "cell", "layers"}, Case{CellKind::quad1, "cell", "rubber"},
+                                           Case{CellKind::hex1, "cell", "rubber"}));
 
 // The bound holds where rubber is stretched and sheared far, where its tangent is not that at rest.
 TEST(Hyperelastic, TheStableStepIsABoundWhereItIsStretchedFar) {
@@ -189,7 +192,7 @@ TEST(Hyperelastic, TheStableStepIsABoundWhereItIsStretchedFar) {
 
 // The classical method has forces only after a motion; they balance, and threads change nothing.
 TEST(Classical, ForcesBalanceAndThreadsChangeNothing) {
-  for (CellKind kind : {CellKind::crossed, CellKind::quad2, CellKind::hex6, CellKind::tetrahedron}) {
+  for (CellKind kind : {CellKind::crossed, CellKind::quad2, CellKind::hex6, CellKind::tetrahedron, CellKind::quad1, CellKind::hex1}) {
     const int D = shape_of(kind).dimension;
     const BodyModel b = body_of(block_of(kind, D == 2 ? 24 : 6), material_of("classical", true));
     const NodeField X = positions_of(b.mesh);
@@ -216,7 +219,7 @@ TEST(Classical, ForcesBalanceAndThreadsChangeNothing) {
 }
 
 TEST(Kernels, EveryVectorWidthGivesTheSame) {
-  for (CellKind kind : {CellKind::crossed, CellKind::hex24}) {
+  for (CellKind kind : {CellKind::crossed, CellKind::hex24, CellKind::quad1, CellKind::hex1}) {
     const int D = shape_of(kind).dimension;
     const BodyModel b = body_of(block_of(kind, 3), aluminium(true));
     std::vector<NodeField> results;

@@ -43,7 +43,7 @@ void expect_sound(const Mesh& mesh, double expected_area) {
 }
 
 TEST(MeshGenerate, StripFillsItsRectangle) {
-  for (const char* pattern : {"fine", "coarse"}) {
+  for (const char* pattern : {"fine", "coarse", "one_point"}) {
     BlankConfig b = strip();
     b.pattern = pattern;
     const Mesh mesh = generate_blank(b);
@@ -62,7 +62,7 @@ TEST(MeshGenerate, StripFillsItsRectangle) {
 }
 
 TEST(MeshGenerate, PlateFillsItsBoxAndItsSetsHoldTheFaceCentres) {
-  for (const char* pattern : {"fine", "coarse"}) {
+  for (const char* pattern : {"fine", "coarse", "one_point"}) {
     BlankConfig b = plate();
     b.pattern = pattern;
     const bool fine = b.pattern == "fine";
@@ -119,7 +119,7 @@ TEST_P(Bar, IsConformingAndItsSurfaceIsTheBoundary) {
 
 INSTANTIATE_TEST_SUITE_P(MeshGenerate, Bar,
                          testing::Combine(testing::Values("full", "half", "quarter"),
-                                          testing::Values("fine", "coarse"), testing::Values(2, 3, 7, 10)));
+                                          testing::Values("fine", "coarse", "one_point"), testing::Values(2, 3, 7, 10)));
 
 TEST(MeshGenerate, VolumeOfABarConvergesWithTheSquareOfTheCellSize) {
   double error[2];

@@ -108,6 +108,13 @@ TEST(MeshImportBody, ASectionOfTrianglesAndQuadrilaterals) {
   EXPECT_NEAR(volume(mesh), .25 * 1.5, 1e-15);
   EXPECT_NEAR(enclosed(mesh), .25 * 1.5, 1e-15);
   EXPECT_EQ(mesh.sets.at("group_3").size(), 2u);
+  MeshConfig whole = file("section.msh", .5);
+  whole.pattern = "one_point";
+  const Mesh one_point = load_body_mesh(whole, dir.str());
+  EXPECT_EQ(one_point.cells[0].kind, CellKind::triangle);
+  EXPECT_EQ(one_point.cells[1].kind, CellKind::quad1);
+  EXPECT_EQ(one_point.nodes.size(), 5u);
+  EXPECT_NEAR(enclosed(one_point), .25 * 1.5, 1e-15);
   EXPECT_TRUE(has(error_of_file("s.msh", msh::section("1e-3")), "node 5 of a mesh of triangles"));
 }
 
@@ -187,6 +194,18 @@ TEST(MeshImportBody, InlineCells) {
   Mesh mesh = load_body_mesh(config, "");
   EXPECT_EQ(mesh.cells[0].kind, CellKind::hex24);
   EXPECT_NEAR(volume(mesh), 1e-3, 1e-17);
+  config.pattern = "one_point";
+  mesh = load_body_mesh(config, "");
+  EXPECT_EQ(mesh.cells[0].kind, CellKind::hex1);
+  EXPECT_EQ(mesh.nodes.size(), 8u);
+  EXPECT_EQ(mesh.surface.size(), 12u);
+  EXPECT_NEAR(enclosed(mesh), 1e-3, 1e-17);
+  config.pattern = "coarse";
+  EXPECT_TRUE(has(error_of([&] { load_body_mesh(config, ""); }), "mesh.pattern"));
+  // A quadrilateral whose corner points inwards has no place for its point.
+  config = given("quadrilateral", {{0, 0, 0}, {1, 0, 0}, {.2, .2, 0}, {0, 1, 0}}, {0, 1, 2, 3});
+  config.pattern = "one_point";
+  EXPECT_TRUE(has(error_of([&] { load_body_mesh(config, ""); }), "not convex"));
   mesh = load_body_mesh(given("quadrilateral", {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}, {0, 1, 2, 3}), "");
   EXPECT_EQ(mesh.cells[0].nodes, (std::vector<int>{0, 3, 2, 1, 4}));  // turned counter-clockwise
   EXPECT_NEAR(volume(mesh), 1, 1e-15);

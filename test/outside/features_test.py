@@ -138,6 +138,36 @@ class Features(unittest.TestCase):
         impulse = -1e6 * 1e-5 * 1e-4  # mean pressure, time, area
         self.assertAlmostEqual(plate['momentum'][2], impulse, delta=0.02 * abs(impulse))
 
+    # ---- families of elements
+
+    def test_one_point_cells_beside_simplices_and_resumed(self):
+        """A block of one-point cells falls on one of simplices, in 2D and 3D; a run that is cut in two gives the same numbers."""
+        plastic = {'hardening': {'curve': 'linear', 'yield_stress': 50e6, 'modulus': 1e9}}
+        for shape, dimension, parts, down in (('strip', 2, 2, [0, -40.0, 0]), ('plate', 3, 6, [0, 0, -40.0])):
+            low, high = body(shape, plastic), body(shape, plastic, initial_velocity=down)
+            high['name'] = 'high'
+            high['blank'].update(pattern='one_point', origin=[1.3e-3, 2.05e-3, 0] if dimension == 2 else [1.3e-3, 0.7e-3, 2.05e-3])
+            data = scene(low, high, dimension=dimension, duration=1.5e-5, time_step={'linear_viscosity': 0.06, 'mass_scaling': 1.5})
+            data['output'].update(frames=6, checkpoint_interval=5e-6)
+            whole = self.run_scene(data, 'whole')
+            with h5py.File(self.path('whole/result.h5')) as result:
+                of_high = result['topology/body'][:] == 1
+                last = result['frames'][sorted(result['frames'])[-1]]
+                strain = last['plastic_strain'][:][of_high].reshape(-1, parts)
+                final = last['positions'][:]
+            self.assertGreater(strain.max(), 1e-4)
+            self.assertTrue((strain == strain[:, :1]).all())  # one value a cell
+            momentum = sum(numpy.array(b['momentum']) for b in whole['bodies'])
+            mass = whole['bodies'][1]['mass']
+            numpy.testing.assert_allclose(momentum, mass * numpy.array(down), atol=1e-9 * mass * 40)
+            resumed = subprocess.run([OFFLINE, self.path('scene.yaml'), '--output', self.path('again'), '--quiet', '--threads', '2',
+                                      '--resume', self.path('whole/checkpoint.h5')], stderr=subprocess.PIPE, text=True)
+            self.assertEqual(resumed.returncode, 0, resumed.stderr)
+            with h5py.File(self.path('again/result.h5')) as result:
+                last = result['frames'][sorted(result['frames'])[-1]]
+                self.assertTrue((last['positions'][:] == final).all())
+            shutil.rmtree(self.path('whole')), shutil.rmtree(self.path('again'))
+
     # ---- tools
 
     def test_every_tool_format_is_the_same_tool(self):

@@ -120,6 +120,13 @@ TEST(SceneRules, Meshes) {
   expect_fault(with(points + "cell_type: triangle"), "bodies[0].mesh.cells", "corner indices");
 }
 
+TEST(SceneRules, OnePointCells) {
+  const std::string text = replaced(minimal_example(), "cells_through: 2", "cells_through: 2\n      pattern: one_point");
+  EXPECT_TRUE(faults_of(text).empty());
+  expect_fault(replaced(text, "    material:", "    pressure_average: node\n    material:"), "bodies[0].pressure_average", "pressure of its own");
+  expect_fault(replaced(text, "dimension: 2", "dimension: 2\naxisymmetric: true"), "bodies[0].blank.pattern", "cannot be turned");
+}
+
 TEST(SceneRules, HardeningDoesNotSoften) {
   expect_flange_fault("saturation_stress: 429.8e6", "saturation_stress: 100e6", "bodies[0].material.hardening.saturation_stress", "soften");
   const auto table = [](const std::string& rows) { return replaced(minimal_example(), "{curve: linear, yield_stress: 150e6, modulus: 500e6}", "{curve: table, " + rows + "}"); };

@@ -35,7 +35,7 @@ inline Mesh block_of(CellKind kind, int n = 2) {
   blank.width = blank.thickness = 0.8;
   blank.cells_along = n;
   blank.cells_across = blank.cells_through = n;
-  blank.pattern = kind == CellKind::crossed || kind == CellKind::hex24 ? "fine" : "coarse";
+  blank.pattern = is_one_point(kind) ? "one_point" : kind == CellKind::crossed || kind == CellKind::hex24 ? "fine" : "coarse";
   Mesh mesh = generate_blank(blank);
   if (kind == CellKind::triangle || kind == CellKind::tetrahedron) {  // the simplices of the coarse cells, one by one
     Cells cells{kind, {}};

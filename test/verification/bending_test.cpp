@@ -35,6 +35,22 @@ TEST(Bending, PerfectlyPlasticSheet) {
   material.hardening->curve = "perfect";
   for (const ExactBend& exact : kPerfectBends) expect_bend(2, exact, material);
 }
+
+// One-point cells, as long as they are high and several times longer, in 2D and 3D alike.
+TEST(Bending, HardeningSheetOfOnePointCells) {
+  struct Case {
+    int cells;
+    double aspect, moment, after;
+  };
+  const ExactBend& exact = kVoceBends[1];
+  for (int dimension : {2, 3})
+    for (const Case& c : {Case{2, 1, 0.02, 0.0025}, {4, 1, 0.03, 0.001}, {8, 1, 0.006, 0.0002}, {4, 4, 0.02, 0.0005}, {8, 4, 0.004, 0.0002}, {8, 8, 0.006, 0.0004}}) {
+      const Bend b = bend(dimension, exact.kt, c.cells, c.aspect, aluminium(true), "one_point");
+      std::printf("  %dD, %d cells, %g times longer: M %+.2f %%, k_after/k %+.5f\n", dimension, c.cells, c.aspect, 100 * (b.moment / exact.moment - 1), b.after - exact.after);
+      EXPECT_NEAR(b.moment, exact.moment, c.moment * exact.moment);
+      EXPECT_NEAR(b.after, exact.after, c.after);
+    }
+}
 TEST(Bending, HardeningSheetOfTetrahedra) { expect_bend(3, kVoceBends[1], aluminium(true)); }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct CellGroup {
   int kind = 0;             ///< CellKind
   int dimension = 0;
   bool ring = false;        ///< axisymmetric: the triangles are turned about the y axis
-  int cell_nodes = 0, cell_simplices = 0;
+  int cell_nodes = 0, cell_simplices = 0;  ///< simplices: elements with a memory, 1 in a one-point cell
   int cells = 0, blocks = 0;
   PressureMode pressure = PressureMode::cell;
   double element_share = 0;        ///< theta: share of the element's own volume in a cell's pressure
@@ -36,6 +36,9 @@ struct CellGroup {
 
   const int* nodes = nullptr;      ///< [block][cell node][lane] joined node index
   double* memory = nullptr;        ///< [block][simplex][items][lane]
+  const double* constants = nullptr;  ///< one-point cells: [block][OnePoint::items][lane]
+  double* hourglass = nullptr;        ///< likewise: [block][hourglass_items][lane], memory
+  int hourglass_items = 0;
   double* records = nullptr;       ///< [block][cell node][lane][kRecord]: forces, N; or volumes for nodal pressure
   double* plastic_work = nullptr;  ///< [block] dissipated so far, J
   double* viscous_work = nullptr;  ///< [block] dissipated so far by bulk viscosity, J

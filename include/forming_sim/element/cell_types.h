@@ -6,7 +6,9 @@
 namespace forming_sim {
 namespace cell_types {
 
-struct Plain { static constexpr bool ring = false; };
+struct Plain { static constexpr bool ring = false, one_point = false; };
+/// A cell whose one element is element/one_point.h's: to the kernels a single simplex.
+struct OnePointCell { static constexpr bool ring = false, one_point = true; static constexpr int simplices = 1; };
 
 struct Triangle : Plain { static constexpr int dimension = 2, nodes = 3, simplices = 1; static constexpr auto& table = kTriangle; };
 struct Quad2 : Plain { static constexpr int dimension = 2, nodes = 4, simplices = 2; static constexpr auto& table = kQuad2; };
@@ -14,6 +16,9 @@ struct Crossed : Plain { static constexpr int dimension = 2, nodes = 5, simplice
 struct Tetrahedron : Plain { static constexpr int dimension = 3, nodes = 4, simplices = 1; static constexpr auto& table = kTetrahedron; };
 struct Hex6 : Plain { static constexpr int dimension = 3, nodes = 8, simplices = 6; static constexpr auto& table = kHex6; };
 struct Hex24 : Plain { static constexpr int dimension = 3, nodes = 15, simplices = 24; static constexpr auto& table = kHex24; };
+
+struct Quad1 : OnePointCell { static constexpr int dimension = 2, nodes = 4; };
+struct Hex1 : OnePointCell { static constexpr int dimension = 3, nodes = 8; };
 
 /// A cell of triangles that are rings.
 template <class Cell> struct Turned : Cell { static constexpr bool ring = true; };

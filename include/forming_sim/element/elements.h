@@ -31,7 +31,7 @@ struct GroupPlan {
   PressureMode pressure;
   int layers = 1;            ///< of the law
   long cells = 0, elements = 0;
-  double memory_bytes = 0;   ///< state of the law, of all elements
+  double memory_bytes = 0;   ///< state of the law, of all elements; of one-point cells their constants too
   double force_bytes = 0;    ///< forces on the cells' nodes before they are summed
   double index_bytes = 0;    ///< which nodes the cells have
 };
@@ -81,6 +81,7 @@ class Elements {
   struct Group;
   struct Location { int group, cell, simplex; };
   Location locate(int element) const;
+  double volume_ratio(const NodeField& x, int element) const;
   [[noreturn]] void report_inversion(const NodeField& x) const;
   void check_axis(const NodeField& x) const;
   void nodal_pressure(const NodalView& view) const;

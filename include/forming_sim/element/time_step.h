@@ -23,6 +23,41 @@
 
 namespace forming_sim {
 
+/// max(2 (I1/3 + sqrt(I1^2/9 - I2/3)), s1 + s2) and I1 = tr S.
+template <class T, int D> T shape_bound(const Symmetric<T, D>& S, T& I1) {
+  T I2, shear;
+  if constexpr (D == 2) {
+    I1 = S[0] + S[1];
+    I2 = S[0] * S[1] - S[3] * S[3];
+    shear = I1;
+  } else {
+    const Symmetric<T, 3> cof = cofactor(S);
+    I1 = trace(S);
+    I2 = trace(cof);
+    const T I3 = determinant(S, cof);
+    T s3(0.0);
+    for (int i = 0; i < 3; ++i) s3 = T(4.0) * I3 / ((I1 - s3) * (I1 - s3));
+    shear = I1 - s3;
+  }
+  const T root = sqrt(larger(I1 * I1 * T(1.0 / 9) - I2 * T(1.0 / 3), T(0.0)));
+  return larger(T(2.0) * (I1 * T(1.0 / 3) + root), shear);
+}
+
+/// 2/omega, less what bulk viscosity takes. sum: sum_a |dV/dx_a|^2 / m_a; rate: |dV/dt|/V.
+template <class T, int D> T damped_step(const CellGroup& g, const T& omega2, const T& sum, const T& V, const T& extent, const T& rate) {
+  const T omega = sqrt(omega2);
+  T dt = T(2.0) / omega;
+  if (g.linear_viscosity > 0 || g.quadratic_viscosity > 0) {
+    const T l = lanewise([](double v) { return D == 2 ? __builtin_sqrt(v) : __builtin_cbrt(v); }, extent);
+    const double c = __builtin_sqrt((g.solid.K + 4.0 / 3 * g.solid.mu) / g.density);
+    const double b2 = g.quadratic_viscosity;
+    const T eta = T(g.density) * l * (T(g.linear_viscosity * c) + T(b2 * b2) * l * rate);
+    const T xi = eta / V * sum / (T(2.0) * omega);
+    dt = dt * (sqrt(T(1.0) + xi * xi) - xi);
+  }
+  return dt;
+}
+
 template <class T, int D, int Nodes, bool Ring> class StepBound {
  public:
   /// inertia: of a ring's cell nodes, radial and axial: equal share of the mass over the
@@ -88,21 +123,10 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
     const bool per_cell = g_.pressure == PressureMode::cell;
     const double theta = per_cell ? g_.element_share : 0;
     const T omega2 = per_cell ? deviatoric_ + T(1 - theta) * cell_volumetric + T(theta) * own_ : element_;
-    const T omega = sqrt(omega2);
-    T dt = T(2.0) / omega;
-    if (g_.linear_viscosity > 0 || g_.quadratic_viscosity > 0) {
-      const T l = lanewise([](double V) { return D == 2 ? __builtin_sqrt(V) : __builtin_cbrt(V); }, extent_);
-      const double c = __builtin_sqrt((g_.solid.K + 4.0 / 3 * g_.solid.mu) / g_.density);
-      const double b2 = g_.quadratic_viscosity;
-      const T eta = T(g_.density) * l * (T(g_.linear_viscosity * c) + T(b2 * b2) * l * rate);
-      const T xi = eta / V_ * sum / (T(2.0) * omega);
-      dt = dt * (sqrt(T(1.0) + xi * xi) - xi);
-    }
-    return dt;
+    return damped_step<T, D>(g_, omega2, sum, V_, extent_, rate);
   }
 
  private:
-  /// max(2 (I1/3 + sqrt(I1^2/9 - I2/3)), s1 + s2) and tr S of the shape gradients g.
   static T deviatoric_bound(const Vector<T, D>* g, T& I1) {
     Symmetric<T, D> S;
     for (int i = 0; i < Symmetric<T, D>::size; ++i) S[i] = T(0.0);
@@ -114,22 +138,7 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
         S[5] += g[a][2] * g[a][0];
       }
     }
-    T I2, shear;
-    if constexpr (D == 2) {
-      I1 = S[0] + S[1];
-      I2 = S[0] * S[1] - S[3] * S[3];
-      shear = I1;
-    } else {
-      const Symmetric<T, 3> cof = cofactor(S);
-      I1 = trace(S);
-      I2 = trace(cof);
-      const T I3 = determinant(S, cof);
-      T s3(0.0);
-      for (int i = 0; i < 3; ++i) s3 = T(4.0) * I3 / ((I1 - s3) * (I1 - s3));
-      shear = I1 - s3;
-    }
-    const T root = sqrt(larger(I1 * I1 * T(1.0 / 9) - I2 * T(1.0 / 3), T(0.0)));
-    return larger(T(2.0) * (I1 * T(1.0 / 3) + root), shear);
+    return shape_bound(S, I1);
   }
   const CellGroup& g_;
   const Vector<T, D>* inertia_;

@@ -89,6 +89,7 @@ template <class T, int D, bool Ring>
       p += u * k;
       for (int i = 0; i < size; ++i) r.S[i] *= T(1) - u;  // (2.15)
       r.dissipation = J * (T(1) - u) * q * u * k;         // q_S dp
+      r.kept = T(1) - u;
     }
   }
   if (keep == Keep::yes) {

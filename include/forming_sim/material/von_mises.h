@@ -23,6 +23,7 @@ namespace forming_sim {
 template <class T, int D> struct PointResponse {
   Symmetric<T, D> S;  ///< Cauchy stress beside the pressure, Pa
   T dissipation;      ///< plastic work of the step per initial volume, J/m3
+  T kept = T(1);      ///< of a single layer: S over that of the trial, 1: elastic
 };
 
 /// Numbers of memory of one layer: G^X and p.
@@ -115,7 +116,7 @@ PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, 
     for (int i = 0; i < size; ++i) store(memory, i, r.a * G[i] + (T(1) - r.a) * Gx[i]);  // (3.54)
     store(memory, size, p);
   }
-  return {r.S, r.dissipation};
+  return {r.S, r.dissipation, r.a};
 }
 
 /// One step of all layers.

@@ -38,9 +38,20 @@ inline constexpr int kHex24[24][4] = {
     {14, 2, 3, 12}, {14, 3, 7, 12}, {14, 7, 6, 12}, {14, 6, 2, 12},
     {14, 3, 0, 13}, {14, 0, 4, 13}, {14, 4, 7, 13}, {14, 7, 3, 13}};
 
+/// The corners of a cell, each with its neighbours.
+inline constexpr int kQuadCorners[4][4] = {{0, 1, 3, -1}, {1, 2, 0, -1}, {2, 3, 1, -1}, {3, 0, 2, -1}};
+inline constexpr int kHexCorners[8][4] = {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7},
+                                          {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}};
+
 /// The shapes, indexed by CellKind.
 inline constexpr CellShape kShapes[kCellKinds] = {
-    {"triangle", 2, 3, 1, kTriangle},       {"quad2", 2, 4, 2, kQuad2}, {"crossed", 2, 5, 4, kCrossed},
-    {"tetrahedron", 3, 4, 1, kTetrahedron}, {"hex6", 3, 8, 6, kHex6},   {"hex24", 3, 15, 24, kHex24}};
+    {"triangle", 2, 3, 1, kTriangle, 1, 1, kTriangle},
+    {"quad2", 2, 4, 2, kQuad2, 2, 2, kQuad2},
+    {"crossed", 2, 5, 4, kCrossed, 4, 4, kCrossed},
+    {"tetrahedron", 3, 4, 1, kTetrahedron, 1, 1, kTetrahedron},
+    {"hex6", 3, 8, 6, kHex6, 6, 6, kHex6},
+    {"hex24", 3, 15, 24, kHex24, 24, 24, kHex24},
+    {"quad1", 2, 4, 2, kQuad2, 1, 4, kQuadCorners},
+    {"hex1", 3, 8, 6, kHex6, 1, 8, kHexCorners}};
 
 }  // namespace forming_sim

@@ -20,7 +20,7 @@ struct BlankConfig {
   double radius = 0;            ///< bar
   std::string portion = "full"; ///< bar: full | half (x >= 0) | quarter (x, y >= 0)
   int cells_along = 0, cells_across = 0, cells_through = 0, cells_radius = 0;
-  std::string pattern = "fine"; ///< fine: 4 crossed triangles | 24 tetrahedra; coarse: 2 triangles | 6 tetrahedra
+  std::string pattern = "fine"; ///< fine: 4 crossed triangles | 24 tetrahedra; coarse: 2 triangles | 6 tetrahedra; one_point
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(shape), Field().required().choices({"strip", "plate", "bar"})
@@ -35,7 +35,7 @@ struct BlankConfig {
     visit(FORMING_SIM_FIELD(cells_across), Field().at_least(1).at_most(1e6).required().when("shape", {"plate"}).doc("cells along the width"));
     visit(FORMING_SIM_FIELD(cells_through), Field().at_least(1).at_most(1e6).required().when("shape", {"strip", "plate"}).doc("cells through the thickness"));
     visit(FORMING_SIM_FIELD(cells_radius), Field().at_least(2).at_most(1e4).required().when("shape", {"bar"}).doc("cells along a radius"));
-    visit(FORMING_SIM_FIELD(pattern), Field().choices({"fine", "coarse"}).doc("how a cell is split: fine: 4 crossed triangles or 24 tetrahedra; coarse: 2 triangles or 6 tetrahedra; the pressure is one per cell"));
+    visit(FORMING_SIM_FIELD(pattern), Field().choices({"fine", "coarse", "one_point"}).doc("how a cell is split: fine: 4 crossed triangles or 24 tetrahedra; coarse: 2 triangles or 6 tetrahedra; the pressure is one per cell; one_point: not at all, one quadrilateral or hexahedron with one point, the cheapest for sheets, also of cells several times longer than thick"));
   }
 };
 
@@ -47,6 +47,7 @@ struct MeshConfig {
   std::vector<Vec3> points;     ///< inline
   std::vector<int> cells;       ///< inline: corner indices, cell after cell
   std::string cell_type;        ///< inline: triangle | quadrilateral | tetrahedron | hexahedron
+  std::string pattern = "fine"; ///< of a body's quadrilaterals and hexahedra: fine | one_point
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(url), Field().doc("file path (relative to the scene file), file:// or package:// URL: .msh for a body; .stl .obj .ply .dae for a tool. Give url or points, not both"));
@@ -55,6 +56,7 @@ struct MeshConfig {
     visit(FORMING_SIM_FIELD(points), Field().doc("inline mesh: nodes"));
     visit(FORMING_SIM_FIELD(cells), Field().at_least(0).doc("inline mesh: corner indices from 0, cell after cell"));
     visit(FORMING_SIM_FIELD(cell_type), Field().choices({"", "triangle", "quadrilateral", "tetrahedron", "hexahedron"}).doc("inline mesh: kind of its cells; a tool takes triangles"));
+    visit(FORMING_SIM_FIELD(pattern), Field().choices({"fine", "one_point"}).doc("what becomes of a body's quadrilaterals and hexahedra: fine: 4 crossed triangles or 24 tetrahedra each; one_point: one element with one point each, the cheapest for sheets. Triangles and tetrahedra stay as they are"));
   }
 };
 

@@ -5,7 +5,7 @@
 
 namespace forming_sim {
 
-/// The mesh of a strip (crossed or quad2), plate or bar (hex24 or hex6), with
+/// The mesh of a strip (crossed, quad2 or quad1), plate or bar (hex24, hex6 or hex1), with
 /// its surface and these sets:
 ///   strip  left (least x) right bottom (least y) top
 ///   plate  left (least x) right front (least y) back bottom (least z) top

@@ -16,17 +16,24 @@ namespace forming_sim {
 ///  crossed        4 corners, centre; triangles 0 1 4, 1 2 4, 2 3 4, 3 0 4
 ///  tetrahedron    4 corners
 ///  hex6           8 corners (0-3 bottom, 4-7 above them); 6 tetrahedra about the diagonal 0-6
+///  quad1          4 corners; one element (element/one_point.h)
+///  hex1           8 corners, likewise
 ///  hex24          8 corners, 6 face centres (bottom, top, front 0 1 5 4, right 1 2 6 5, back 2 3 7 6, left 3 0 4 7), cell centre
-enum class CellKind { triangle, quad2, crossed, tetrahedron, hex6, hex24 };
-constexpr int kCellKinds = 6;
+enum class CellKind { triangle, quad2, crossed, tetrahedron, hex6, hex24, quad1, hex1 };
+constexpr int kCellKinds = 8;
 
 struct CellShape {
   const char* name;
   int dimension, nodes, simplices;
   const int (*simplex)[4];  ///< node of the cell per corner of each simplex (3 used in 2D)
+  int points;               ///< at which the law is asked: one a simplex; or 1, whose values all simplices share
+  int checked;              ///< simplices that need a positive volume: those of the cell; of one point, those at its corners
+  const int (*check)[4];
 };
-/// The table of the shapes above.
+/// The table of the shapes above. The simplices of a one-point cell (the triangles of quad2, the
+/// tetrahedra of hex6) are for its surface, for pictures and files.
 const CellShape& shape_of(CellKind kind);
+inline bool is_one_point(CellKind kind) { return kind == CellKind::quad1 || kind == CellKind::hex1; }
 
 /// Cells of one kind, `nodes` holding shape_of(kind).nodes indices per cell.
 struct Cells {
@@ -55,7 +62,8 @@ struct Mesh {
   std::vector<std::array<int, 4>> simplices() const;
 };
 
-/// Fills `surface` with the facets that belong to one simplex only.
+/// Fills `surface` with the facets that belong to one simplex only; a face of hex1 becomes two
+/// triangles, also where that of its neighbour is divided the other way.
 /// Throws Error(mesh_error) naming a facet shared by more than two.
 void find_surface(Mesh& mesh);
 

@@ -25,7 +25,7 @@ class Centres {
   std::map<std::array<int, 8>, int> nodes_;  // corners in rising order, after -1 for the unused
 };
 
-/// Appends cells of the kind (crossed or quad2; hex24 or hex6) to the mesh and
+/// Appends cells of the kind (crossed, quad2 or quad1; hex24, hex6 or hex1) to the mesh and
 /// its nodes. Centres lie at the mean of the corners; hexahedra share those of
 /// their common faces.
 Centres split_quads(Mesh& mesh, const std::vector<Quad>& quads, CellKind kind);

@@ -1,0 +1,155 @@
+#include "forming_sim/element/one_point.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "forming_sim/element/hourglass.h"
+
+namespace forming_sim {
+namespace {
+
+/// Corner a's shape function prod (1 + xi_a xi)/2 at a point, and its gradient there.
+template <int D> double shape_function(int a, const double* xi, double* gradient) {
+  double value = 1;
+  for (int i = 0; i < D; ++i) {
+    value *= 0.5 * (1 + kCornerSides[a][i] * xi[i]);
+    gradient[i] = 0.5 * kCornerSides[a][i];
+    for (int j = 0; j < D; ++j)
+      if (j != i) gradient[i] *= 0.5 * (1 + kCornerSides[a][j] * xi[j]);
+  }
+  return value;
+}
+
+template <int D> class Start {
+  using Cell = OnePoint<D>;
+  static constexpr int N = Cell::nodes, M = Cell::modes;
+  using Square = Eigen::Matrix<double, D, D>;
+  using Corners = Eigen::Matrix<double, D, N>;
+  using Modes = Eigen::Matrix<double, M, N>;
+
+ public:
+  OnePointStart result;
+
+  Start(const Vec3* corners, const SolidConstants& solid) {
+    for (int a = 0; a < N; ++a) X_.col(a) = corners[a].head<D>();
+    if (!integrate()) return;
+    find_frame();
+    for (int a = 0; a < N; ++a) put(Cell::weights + a * D, Eigen::Matrix<double, D, 1>(w_.col(a)));
+    Eigen::Matrix<double, M, D> start = h_ * X_.transpose() * E_ / c_;
+    for (int k = 0; k < M; ++k) put(Cell::start + k * D, Eigen::Matrix<double, D, 1>(start.row(k)));
+    put_pairs(Cell::slopes, slopes_);
+    Eigen::Matrix<double, N, 1> share;
+    for (int a = 0; a < N; ++a) share[a] = result.share[a];
+    const Square inertia = w_ * share.cwiseInverse().asDiagonal() * w_.transpose();
+    put_pairs(Cell::inertia, inertia);
+    bound_step(h_ - start * w_, share, inertia, solid);
+  }
+
+ private:
+  /// V0, b_a and the masses, by 2^D Gauss points: all of these are exact.
+  bool integrate() {
+    b_.setZero();
+    result.constants.assign(Cell::items, 0.0);
+    for (int p = 0; p < N; ++p) {
+      double xi[D], slope[D];
+      for (int i = 0; i < D; ++i) xi[i] = kCornerSides[p][i] / std::sqrt(3.0);
+      Corners dN;  // d N_a / d xi_i
+      double value[N];
+      for (int a = 0; a < N; ++a) {
+        value[a] = shape_function<D>(a, xi, slope);
+        for (int i = 0; i < D; ++i) dN(i, a) = slope[i];
+      }
+      const Square J = X_ * dN.transpose();
+      const double det = J.determinant();
+      if (!(det > 0)) {
+        result.volume = std::min(det, 0.0);
+        return false;
+      }
+      result.volume += det;
+      b_ += det * J.inverse().transpose() * dN;
+      for (int a = 0; a < N; ++a) result.share[a] += det * value[a];
+    }
+    b_ /= result.volume;
+    for (double& s : result.share) s /= result.volume;
+    return true;
+  }
+
+  /// The frame nearest to the edges, from the polar decomposition of the Jacobian at the centre.
+  void find_frame() {
+    Corners dN;
+    const double centre[3] = {0, 0, 0};
+    double slope[D];
+    for (int a = 0; a < N; ++a) {
+      shape_function<D>(a, centre, slope);
+      for (int i = 0; i < D; ++i) dN(i, a) = slope[i];
+      for (int k = 0; k < M; ++k) h_(k, a) = kHourglass<D>[k][a];
+    }
+    const Square J = X_ * dN.transpose();
+    const Eigen::JacobiSVD<Square> svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    E_ = svd.matrixU() * svd.matrixV().transpose();
+    c_ = D == 2 ? std::sqrt(2 * result.volume) : std::cbrt(6 * result.volume);
+    w_ = c_ * E_.transpose() * b_;
+    const Square U = E_.transpose() * J;
+    slopes_ = (c_ / N) * (0.5 * (U + U.transpose())).inverse();
+    result.edges.template topLeftCorner<D, D>() = c_ * E_;
+  }
+
+  /// The modes in terms of the mass: gamma = L Q with rows of Q of unit length in 1/share.
+  /// Their stiffness per volume is (L^T x 1) k (L x 1) between components m, and not larger than
+  /// diag(stiffness_m) by Gershgorin's circles after scaling.
+  void bound_step(const Modes& gamma, const Eigen::Matrix<double, N, 1>& share, const Square& inertia, const SolidConstants& solid) {
+    const auto inverse = share.cwiseInverse().asDiagonal();
+    const Eigen::Matrix<double, M, M> P = gamma * inverse * gamma.transpose();
+    const Eigen::Matrix<double, M, M> L = P.llt().matrixL();
+    Eigen::Matrix<double, M * D, M * D> k;
+    for (int column = 0; column < M * D; ++column) {
+      double z[M][D] = {}, g[M][D];
+      for (int a = 0; a < M; ++a) z[a][column % D] = L(a, column / D);
+      hourglass_stiffness<D>(solid, result.constants.data() + Cell::slopes, z, g);
+      for (int row = 0; row < M * D; ++row) {
+        k(row, column) = 0;
+        for (int a = 0; a < M; ++a) k(row, column) += L(a, row / D) * g[a][row % D];
+      }
+    }
+    double scale[D] = {}, circle = 0;
+    for (int i = 0; i < M * D; ++i) scale[i % D] = std::max(scale[i % D], k(i, i));
+    for (int i = 0; i < M * D; ++i) {
+      double sum = 0;
+      for (int j = 0; j < M * D; ++j) sum += std::abs(k(i, j)) / std::sqrt(scale[i % D] * scale[j % D]);
+      circle = std::max(circle, sum);
+    }
+    double* constants = result.constants.data();
+    for (int m = 0; m < D; ++m) constants[Cell::stiffness + m] = circle * scale[m];
+    constants[Cell::looseness] = 1 / Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, M, M>>(P, Eigen::EigenvaluesOnly).eigenvalues()[0];
+    const Square root = inertia.llt().matrixL();
+    const Eigen::Matrix<double, D, M> cosines =
+        root.inverse() * (w_ * inverse * gamma.transpose()) * L.inverse().transpose();
+    constants[Cell::slant] = cosines.norm();
+  }
+
+  template <class Vector> void put(int at, const Vector& values) {
+    for (int i = 0; i < D; ++i) result.constants[at + i] = values[i];
+  }
+  void put_pairs(int at, const Square& A) {
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j <= i; ++j) result.constants[at + kPair<D>[i][j]] = A(i, j);
+  }
+
+  Corners X_, b_, w_;
+  Modes h_;
+  Square E_, slopes_;
+  double c_ = 0;
+};
+
+}  // namespace
+
+OnePointStart start_one_point(const Vec3* corners, int dimension, const SolidConstants& solid) {
+  if (dimension == 2) return Start<2>(corners, solid).result;
+  return Start<3>(corners, solid).result;
+}
+
+}  // namespace forming_sim

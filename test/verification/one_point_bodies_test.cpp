@@ -1,0 +1,165 @@
+// Bodies of one-point cells against known solutions.
+#include <gtest/gtest.h>
+
+#include "support/runs.h"
+
+namespace forming_sim {
+namespace {
+
+/// Elements moved by hand: explicit steps with forces and held directions of one's own.
+struct Stepped {
+  BodyModel body;
+  NodeField X, x, v, f;
+  Elements elements;
+  double dt = 0;
+  explicit Stepped(const Mesh& mesh, const MaterialConfig& material)
+      : body(body_of(mesh, material)), X(positions_of(mesh)), x(X), v(X.size(), Node::Zero()), f(v), elements({body}, mesh.dimension, X, {}, 1) {
+    int element = 0;
+    elements.stable_step(x, v, dt, element);
+    dt *= 0.9;
+  }
+};
+
+// VERIFICATION 16: the unit cube swings in x = X + U0 cos(wt)(A s1 c2 c3, B c1 s2 c3, C c1 c2 s3); its
+// error of the period falls with the square of the cell.
+TEST(OnePointBodies, ASwingingCubeConvergesWithTheSquareOfTheCell) {
+  MaterialConfig m;
+  m.density = 1100;
+  m.youngs_modulus = 17e6;
+  struct Mode { double nu; Vec3 A; double period; };
+  for (const Mode& mode : {Mode{0.3, {1, 1, -2}, 29.954e-3}, {0.3, {1, 1, 1}, 16.011e-3}, {0.45, {1, 1, -2}, 31.635e-3}, {0.45, {1, 1, 1}, 9.538e-3}}) {
+    m.poissons_ratio = mode.nu;
+    double error[2];
+    for (int level = 0; level < 2; ++level) {
+      const int n = level == 0 ? 4 : 8;
+      BlankConfig blank;
+      blank.shape = "plate";
+      blank.length = blank.width = blank.thickness = 1;
+      blank.cells_along = blank.cells_across = blank.cells_through = n;
+      blank.pattern = "one_point";
+      Stepped cube(generate_blank(blank), m);
+      const auto shape = [&](const Node& X) {
+        const double h = M_PI / 2;
+        Vec3 s, c;
+        for (int i = 0; i < 3; ++i) s[i] = std::sin(h * X[i]), c[i] = std::cos(h * X[i]);
+        return Vec3(mode.A[0] * s[0] * c[1] * c[2], mode.A[1] * c[0] * s[1] * c[2], mode.A[2] * c[0] * c[1] * s[2]);
+      };
+      for (std::size_t i = 0; i < cube.X.size(); ++i) cube.x[i] = cube.X[i] + 1e-6 * node(shape(cube.X[i]));
+      double amplitude = 0, time = 0, crossing = 0, norm = 0;
+      for (const Node& X : cube.X) norm += shape(X).squaredNorm();
+      for (double before = 1; crossing == 0; time += cube.dt) {  // to the first zero, a quarter of the period
+        amplitude = 0;
+        for (std::size_t i = 0; i < cube.X.size(); ++i) amplitude += vec3(cube.x[i] - cube.X[i]).dot(shape(cube.X[i])) / (1e-6 * norm);
+        if (amplitude < 0) crossing = time - cube.dt * amplitude / (amplitude - before);
+        before = amplitude;
+        cube.elements.forces(cube.x, cube.v, cube.dt, cube.dt, cube.f);
+        for (std::size_t i = 0; i < cube.X.size(); ++i) {
+          cube.v[i] += (time == 0 ? 0.5 : 1) * cube.dt / cube.elements.nodal_mass()[i] * cube.f[i];
+          for (int a = 0; a < 3; ++a) {
+            const bool normal = cube.X[i][a] < 1e-9, tangent = cube.X[i][(a + 1) % 3] > 1 - 1e-9 || cube.X[i][(a + 2) % 3] > 1 - 1e-9;
+            if (normal || tangent) cube.v[i][a] = 0;
+          }
+          cube.x[i] += cube.dt * cube.v[i];
+        }
+      }
+      error[level] = 4 * crossing / mode.period - 1;
+    }
+    std::printf("  nu %.2f, period %.3f ms: error %+.4f at 4 cells, %+.4f at 8\n", mode.nu, mode.period * 1e3, error[0], error[1]);
+    EXPECT_LT(std::fabs(error[1]), 0.01);
+    EXPECT_LT(std::fabs(error[1]), 0.35 * std::fabs(error[0]));
+  }
+}
+
+// VERIFICATION 17: Cook's membrane, elastic-plastic, plane strain; its top corner rises by 6.95 +- .1 mm.
+TEST(OnePointBodies, CooksMembrane) {
+  const int n = 16;
+  BlankConfig blank = strip_of(1, 1, n, n);
+  blank.pattern = "one_point";
+  Mesh mesh = generate_blank(blank);
+  for (Vec3& X : mesh.nodes) {
+    const double s = X.x(), low = 44 * s, high = 44 + 16 * s;
+    X = Vec3(48 * s, low + (high - low) * X.y(), 0) * 1e-3;
+  }
+  // .45 + .12924 p + .265 (1 - exp(-16.93 p)) GPa
+  MaterialConfig m;
+  m.density = 7800;
+  m.youngs_modulus = 206.9e9;
+  m.poissons_ratio = 0.29;
+  HardeningConfig h;
+  h.curve = "voce";
+  h.yield_stress = 0.45e9;
+  h.saturation_stress = 0.715e9;
+  h.rate = 16.93;
+  h.modulus = 0.12924e9;
+  m.hardening = h;
+  Stepped cook(mesh, m);
+  const double traction = 0.3125e9, height = 16e-3;
+  const int steps = 60000;
+  const double damping = 2 * M_PI / (0.15 * steps * cook.dt);  // near critical for the slowest swing
+  int top = 0;
+  for (std::size_t i = 0; i < cook.X.size(); ++i)
+    if (cook.X[i][0] + cook.X[i][1] > cook.X[top][0] + cook.X[top][1]) top = static_cast<int>(i);
+  for (int step = 0; step < steps; ++step) {
+    const double ramp = std::min(1.0, step / (0.6 * steps));
+    cook.elements.forces(cook.x, cook.v, cook.dt, cook.dt, cook.f);
+    for (std::size_t i = 0; i < cook.X.size(); ++i) {
+      if (cook.X[i][0] > 48e-3 * (1 - 1e-9)) {
+        const bool end = cook.X[i][1] < 44e-3 * (1 + 1e-9) || cook.X[i][1] > 60e-3 * (1 - 1e-9);
+        cook.f[i][1] += ramp * traction * height / n * (end ? 0.5 : 1);
+      }
+      cook.v[i] = (1 - damping * cook.dt) * cook.v[i] + cook.dt / cook.elements.nodal_mass()[i] * cook.f[i];
+      if (cook.X[i][0] < 1e-9) cook.v[i].setZero();
+      cook.x[i] += cook.dt * cook.v[i];
+    }
+  }
+  const double rise = (cook.x[top][1] - cook.X[top][1]) * 1e3;
+  std::printf("  top corner rises by %.3f mm\n", rise);
+  EXPECT_NEAR(rise, 6.95, 0.1);
+}
+
+// VERIFICATION 18, a face that stays on its wall; a quarter of the bar at 6 cells a radius.
+TEST(OnePointBodies, TaylorBar) {
+  BlankConfig bar;
+  bar.shape = "bar";
+  bar.portion = "quarter";
+  bar.pattern = "one_point";
+  bar.length = 32.4e-3;
+  bar.radius = 3.2e-3;
+  bar.cells_radius = 6;
+  bar.cells_along = 60;
+  MaterialConfig copper;
+  copper.density = 8930;
+  copper.youngs_modulus = 117e9;
+  copper.poissons_ratio = 0.35;
+  HardeningConfig h;
+  h.curve = "linear";
+  h.yield_stress = 400e6;
+  h.modulus = 100e6;
+  copper.hardening = h;
+  OneBody run(body_of(generate_blank(bar), copper), 80e-6);
+  run.plan.bodies[0].initial_velocity = Vec3(0, 0, -227);
+  for (const auto& [set, axis] : {std::pair("symmetry_x", 0), std::pair("symmetry_y", 1), std::pair("bottom", 2)}) {
+    BoundaryConfig b;
+    b.set = set;
+    b.kind = "symmetric";
+    b.normal = Vec3::Unit(axis);
+    run.plan.bodies[0].boundaries.push_back(b);
+  }
+  auto sim = run.start(2);
+  const std::atomic<bool> cancel{false};
+  const Outcome outcome = sim->run(cancel);
+  EXPECT_EQ(outcome.code, Code::success) << outcome.message;
+  EXPECT_LT(sim->balance_error(), 0.01);
+  double low = 1, high = -1, radius = 0;
+  for (const Node& n : sim->positions()) {
+    low = std::min(low, n[2]);
+    high = std::max(high, n[2]);
+    radius = std::max(radius, n.head<2>().norm());
+  }
+  std::printf("  length %.3f mm, radius %.3f mm, balance %.1e, %.1f s\n", (high - low) * 1e3, radius * 1e3, sim->balance_error(), sim->wall_time());
+  EXPECT_NEAR(high - low, 21.42e-3, 0.005 * 21.42e-3);
+  EXPECT_NEAR(radius, 7.22e-3, 0.02 * 7.22e-3);
+}
+
+}  // namespace
+}  // namespace forming_sim
