@@ -3,6 +3,7 @@
 // of the same length of sheet it would take as many as there are cells through it,
 // a quarter of them where the cells are four times as long as high.
 #include "speed_error/families.h"
+#include "speed_error/peers.h"
 #include "speed_error/report.h"
 #include "support/column.h"
 
@@ -15,11 +16,15 @@ struct Sheet {
   const char* curve;
 };
 
-Finished bent(const Sheet& sheet, const Family& family, int cells, double aspect, int steps_per_cell) {
+MaterialConfig material_of(const Sheet& sheet) {
   MaterialConfig material = aluminium(true);
   material.hardening->curve = sheet.curve;
+  return material;
+}
+
+Finished bent(const Sheet& sheet, const Family& family, int cells, double aspect, int steps_per_cell) {
   const Clock clock;
-  const Bend b = bend(family.dimension, sheet.exact.kt, cells, aspect, material, family.pattern, family.average, steps_per_cell);
+  const Bend b = bend(family.dimension, sheet.exact.kt, cells, aspect, material_of(sheet), family.pattern, family.average, steps_per_cell);
   return {family.name, std::to_string(cells) + " through", size_of(b.mesh, b.steps, clock.seconds()), {b.moment, 1 - b.after}};
 }
 
@@ -48,6 +53,7 @@ void bending_problem(Report& report) {
       run.choice += ", 4 times as fast";
       report.add(run);
     }
+    bending_by_calculix(report, sheet.exact, material_of(sheet));
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "speed_error/cook.h"
 #include "speed_error/families.h"
+#include "speed_error/peers.h"
 #include "speed_error/report.h"
 #include "stepped_body.h"
 #include "support/sections.h"
@@ -82,6 +83,7 @@ void cook_problem(Report& report) {
     run.mesh += ", speed x " + std::to_string(times).substr(0, 3);
     report.add(run);
   }
+  cook_by_calculix(report);
 }
 
 }  // namespace forming_sim::bench

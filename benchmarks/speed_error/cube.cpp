@@ -71,8 +71,11 @@ void cube_problem(Report& report) {
     report.begin(swing.name, "Swinging cube, linear elastic", {{"period, ms", swing.period, 0.01}});
     for (const Family& family : kFamilies)
       if (family.dimension == 3)
-        for (int cells : {2, 4, 8, 16}) swung(report, swing, family, cells, 0.9);
-    for (int cells : {2, 4, 8, 16}) swung(report, swing, kFamilies[4], cells, 0.3, ", step safety 0.3");
+        for (int cells : {2, 4, 8, 16}) {
+          if (cells > 8 && family.pattern == std::string("fine")) continue;  // a second and more
+          swung(report, swing, family, cells, 0.9);
+        }
+    for (int cells : {2, 4, 8}) swung(report, swing, kFamilies[4], cells, 0.3, ", step safety 0.3");
   }
 }
 

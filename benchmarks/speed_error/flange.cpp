@@ -88,12 +88,11 @@ void add_flange(Report& report, const std::string& choice, const std::string& me
 }
 
 void flange_problem(Report& report) {
-  const Flanged finest = flange(flange_scene(10));
-  report.begin("flange", "scenes/flange.yaml against its mesh of 10 cells through", flange_sought(finest));
+  const Flanged finest = flange(flange_scene(8));
+  report.begin("flange", "scenes/flange.yaml against its mesh of 8 cells through", flange_sought(finest));
   for (const Family& family : kFamilies) {
     if (family.dimension != 2) continue;
-    for (int through : {2, 3, 5, 7}) {
-      if (through == 7 && family.pattern != std::string("fine")) continue;
+    for (int through : {2, 3, 5}) {
       Scene scene = flange_scene(through);
       scene.bodies[0].blank->pattern = family.pattern;
       scene.bodies[0].pressure_average = family.average;

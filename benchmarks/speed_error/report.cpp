@@ -14,7 +14,7 @@ double error_of(double found, double expected) { return expected == 0 ? found : 
 
 /// "1.23 M" of element-steps a second; "" where a program does not say its steps.
 std::string rate(const Finished& run) {
-  if (run.size.steps == 0 || run.size.wall_time <= 0) return "";
+  if (run.size.steps == 0 || run.size.elements == 0 || run.size.wall_time <= 0) return "";
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", 1e-6 * static_cast<double>(run.size.elements) * static_cast<double>(run.size.steps) / run.size.wall_time);
   return text;
@@ -56,7 +56,7 @@ void Report::add(const Finished& run) {
   rows_.back().note = run.note;
   for (const auto& [quantity, value] : {std::pair<const char*, long>{"cells", run.size.cells}, {"unknowns", run.size.unknowns}, {"steps", run.size.steps}})
     rows_.push_back(just(name, quantity, static_cast<double>(value), run.size.wall_time));
-  rows_.push_back(just(name, "element-steps/s", cost / run.size.wall_time, run.size.wall_time));
+  if (cost > 0) rows_.push_back(just(name, "element-steps/s", cost / run.size.wall_time, run.size.wall_time));
   if (largest > 0 && run.size.wall_time > 0) figures_.back().add(run.choice, run.size.wall_time, largest);
 }
 

@@ -1,6 +1,7 @@
 // The Taylor bar: a copper rod flattens on a wall at 227 m/s, plastic strains of some 3
 // at the rim. Length and face radius as published, 3D (a quarter) and axisymmetric.
 #include "speed_error/families.h"
+#include "speed_error/peers.h"
 #include "speed_error/report.h"
 #include "support/taylor.h"
 
@@ -29,6 +30,7 @@ void taylor_problem(Report& report) {
       flattened(report, family, cells, 0.9);
     }
   for (double safety : {0.6, 0.3}) flattened(report, kFamilies[0], 8, safety, ", step safety " + std::to_string(safety).substr(0, 3));
+  taylor_by_calculix(report);
 }
 
 }  // namespace forming_sim::bench
