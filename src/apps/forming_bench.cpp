@@ -20,7 +20,8 @@ struct Command {
 void printed_as_it_ran(const std::vector<Row>&) {}
 
 const std::map<std::string, Command> kCommands{{"calibrate", {calibrate, 3}}, {"contact", {contact, 1}}, {"costs", {costs, 0}},
-                                               {"material", {material, 2}},   {"paper", {paper, 1}},     {"speed-error", {speed_error, 16, printed_as_it_ran}}};
+                                               {"material", {material, 2}},   {"paper", {paper, 1}},     {"speed-error", {speed_error, 16, printed_as_it_ran}},
+                                               {"stability", {stability, 16}}};
 
 int usage(std::FILE* to) {
   std::fprintf(to,
@@ -38,9 +39,11 @@ int usage(std::FILE* to) {
                "           section-3.1, section-3.3, or all of these (some minutes: 19 and 20 are forming\n"
                "           runs); and long-runs, a million steps by each method\n"
                "  speed-error [PROBLEM ...]  error against wall time of elements, meshes, time steps, mass scaling and\n"
-               "           layers on problems whose answer is known:\n"
+               "           layers on problems whose answer is known, and of CalculiX (ccx) where it is installed:\n"
                "           bending, cook, taylor, cube, sphere, impact, flange, flange-time, layers, or all of these\n"
                "           (some minutes); writes DIR/speed-error.csv and a plot of each problem too\n"
+               "  stability [CASE ...]  hard cases and what must hold in them: incompressible, large-strain, shapes,\n"
+               "           steps, spin, impact, sudden, or all of these; and ten-million-steps\n"
                "Prints a table; with --output also DIR/COMMAND.json, and the figures of a command as CSV and PNG.\n");
   return to == stdout ? 0 : 2;
 }
