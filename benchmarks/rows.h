@@ -63,8 +63,8 @@ struct Request {
 };
 
 std::vector<Row> costs(const Request&);    ///< ns per element and step of each stage
-std::vector<Row> bending(const Request&);  ///< moment, thickness and springback of a bent sheet
-std::vector<Row> impact(const Request&);   ///< a bar against a plane and against a bar
+std::vector<Row> speed_error(const Request&);  ///< error against wall time, of every choice; prints its own tables
+std::vector<Row> stability(const Request&);    ///< hard cases: bounded energy, no false inversion, the right error
 std::vector<Row> material(const Request&);   ///< a law at a point: a measured loop, or any history
 std::vector<Row> calibrate(const Request&);  ///< layers from a measured curve
 std::vector<Row> contact(const Request&);  ///< blocks that meet, at all speeds, layers and meshes: what crosses

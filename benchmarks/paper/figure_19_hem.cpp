@@ -1,5 +1,6 @@
 // Figure 19: 180 degree flanging (hem) of 6111-T4 sheet, .93 mm thick, inner radius .5 mm,
 // and the same sheet closed flat onto itself.
+#include "paper/figures.h"
 #include "shipped_scene.h"
 
 namespace forming_sim::bench {

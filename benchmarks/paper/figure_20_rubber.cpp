@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "forming_sim/simulation/simulation.h"
+#include "paper/figures.h"
 #include "shipped_scene.h"
 
 namespace forming_sim::bench {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "figure.h"
-#include "paper/stepped_body.h"
+#include "stepped_body.h"
 #include "rows.h"
 
 namespace forming_sim::bench {

@@ -2,6 +2,7 @@
 // A bar in uniaxial strain meets a rigid plane, or another bar: p = rho c_p v for 2 L / c_p.
 #include <cmath>
 
+#include "support/run_size.h"
 #include "support/runs.h"
 
 namespace forming_sim {
@@ -11,6 +12,7 @@ constexpr double kBarPressure = 83.85e6, kBarDuration = 1.336e-3;  // Pa, s
 struct Impact {
   double pressure, duration, restitution, balance;
   long crossings;
+  RunSize run;
 };
 
 inline Impact hit_wall(int cells, double safety, const ContactConfig& contact = {}) {
@@ -45,13 +47,14 @@ inline Impact hit_wall(int cells, double safety, const ContactConfig& contact = 
   }
   const double momentum = 2 * rho * L * height * v;  // for restitution 1
   return {(late - early) / (t_late - t_early) / height, last - first, sim->tools()[0].impulse.norm() / momentum * 2 - 1,
-          sim->balance_error(), sim->contact_status().crossings};
+          sim->balance_error(), sim->contact_status().crossings, size_of(*sim)};
 }
 
 // Two bars, whose meshes need not match, do to each other what the plane does.
 struct Meeting {
   double pressure, duration, restitution, balance, momentum;
   long crossings;
+  RunSize run;
 };
 
 inline Meeting hit_each_other(int cells, int other_cells) {
@@ -98,7 +101,7 @@ inline Meeting hit_each_other(int cells, int other_cells) {
     if (t < 1.0e-3) late = impulse, t_late = t;
   }
   return {(late - early) / (t_late - t_early) / height, last - first, momentum(1) / whole, sim.balance_error(), drift,
-          sim.contact_status().crossings};
+          sim.contact_status().crossings, size_of(sim)};
 }
 
 }  // namespace forming_sim

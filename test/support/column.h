@@ -28,7 +28,8 @@ class Column {
     blank.width = kSheetThickness / cells;
     blank.cells_along = blank.cells_across = 1;
     const std::vector<BodyModel> bodies{body_of(generate_blank(blank), material, average)};
-    x_ = positions_of(bodies[0].mesh);
+    mesh_ = bodies[0].mesh;
+    x_ = positions_of(mesh_);
     for (Node& n : x_) n[t_] -= 0.5 * kSheetThickness;
     elements_ = std::make_unique<Elements>(bodies, dimension, x_, ElementOptions(), 1);
     v_.assign(x_.size(), Node::Zero());
@@ -66,6 +67,8 @@ class Column {
     return angle_ + (angle - angle_) * moment_ / (moment_ - moment);
   }
   double length() const { return length_; }
+  long steps() const { return steps_; }
+  const Mesh& mesh() const { return mesh_; }
   double thickness_now() const {
     double low = 1, high = -1;
     for (std::size_t i = 0; i < x_.size(); ++i)
@@ -77,6 +80,7 @@ class Column {
   enum End { left, inside, right };
 
   void step(double angle) {
+    ++steps_;
     angle_ = angle;
     const Vec3 n = Vec3::UnitX() * std::cos(angle) + Vec3::Unit(t_) * std::sin(angle);    // normal of the far section
     const Vec3 e = -Vec3::UnitX() * std::sin(angle) + Vec3::Unit(t_) * std::cos(angle);   // along it
@@ -117,6 +121,8 @@ class Column {
   }
 
   int t_;
+  long steps_ = 0;
+  Mesh mesh_;
   double length_ = 0, dt_ = 0, damping_ = 0, d_ = 0, d_speed_ = 0, angle_ = 0, moment_ = 0, end_mass_ = 0;
   std::unique_ptr<Elements> elements_;
   NodeField x_, v_, f_;
@@ -126,17 +132,22 @@ class Column {
 
 struct Bend {
   double moment, thickness, after;  ///< N, m, k_after / k
+  long steps;
+  Mesh mesh;
 };
+/// The slow motion takes 5 steps_per_cell steps for each cell to bend, and fewer to let go.
 inline Bend bend(int dimension, double kt, int cells, double aspect, const MaterialConfig& material,
-          const std::string& pattern = "fine", const std::string& average = "cell") {
+          const std::string& pattern = "fine", const std::string& average = "cell", int steps_per_cell = 4000) {
   Column column(dimension, cells, aspect, material, pattern, average);
   const double angle = kt / kSheetThickness * column.length();
-  const int steps = 4000 * cells;
+  const int steps = steps_per_cell * cells;
   Bend b;
   column.turn(angle, 4 * steps);
   b.moment = column.turn(angle, steps);
   b.thickness = column.thickness_now();
   b.after = column.release(10 * steps) / angle;
+  b.steps = column.steps();
+  b.mesh = column.mesh();
   return b;
 }
 

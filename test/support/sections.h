@@ -1,5 +1,5 @@
 #pragma once
-// Axisymmetric bodies of curved shape for tests: a strip of cells is bent into place.
+// Bodies of curved section for tests, plane and axisymmetric: a strip of cells is bent into place.
 #include <functional>
 
 #include "forming_sim/mesh/axis.h"
@@ -9,8 +9,8 @@
 namespace forming_sim {
 
 /// The unit square of cells, its corners moved to `place`, the middle of a crossed cell to
-/// the mean of its corners; closed at the axis.
-inline Mesh bent_section(int along, int through, const std::function<Vec3(double, double)>& place, const std::string& pattern = "fine") {
+/// the mean of its corners.
+inline Mesh mapped_section(int along, int through, const std::function<Vec3(double, double)>& place, const std::string& pattern = "fine") {
   BlankConfig blank = strip_of(1, 1, along, through);
   blank.pattern = pattern;
   Mesh mesh = generate_blank(blank);
@@ -21,6 +21,12 @@ inline Mesh bent_section(int along, int through, const std::function<Vec3(double
       mesh.nodes[n[4]] = (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;
     }
   check_volumes(mesh);
+  return mesh;
+}
+
+/// Such a section that is turned about the axis: closed there.
+inline Mesh bent_section(int along, int through, const std::function<Vec3(double, double)>& place, const std::string& pattern = "fine") {
+  Mesh mesh = mapped_section(along, through, place, pattern);
   close_at_axis(mesh);
   return mesh;
 }

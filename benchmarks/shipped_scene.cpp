@@ -6,29 +6,20 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "figure.h"
 #include "forming_sim/results/run_scene.h"
 #include "forming_sim/scene/validate.h"
+#include "scratch.h"
 #include "table.h"
 
 namespace forming_sim::bench {
-/// Removed when it is left behind.
-struct ShippedRun::TemporaryDirectory {
-  std::filesystem::path path;
-  TemporaryDirectory() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "forming_bench_XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary directory " + pattern);
-    path = pattern;
-  }
-  ~TemporaryDirectory() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-};
+Scene read_shipped(const std::string& name) { return read_valid_scene(share_file("scenes/" + name + ".yaml")); }
 
-ShippedRun::ShippedRun(const std::string& scene_name, const Request& request, Observer* watcher)
-    : name_(scene_name), pictures_(request.directory), scratch_(std::make_unique<TemporaryDirectory>()) {
-  const Scene scene = read_valid_scene(share_file("scenes/" + name_ + ".yaml"));
-  directory_ = pictures_.empty() ? scratch_->path.string() : pictures_ + "/" + name_;
+ShippedRun::ShippedRun(const std::string& name, const Request& request, Observer* watcher) : ShippedRun(read_shipped(name), name, request, watcher) {}
+
+ShippedRun::ShippedRun(const Scene& scene, const std::string& name, const Request& request, Observer* watcher)
+    : name_(name), pictures_(request.directory), scratch_(std::make_unique<Scratch>()) {
+  directory_ = pictures_.empty() ? scratch_->path() : pictures_ + "/" + name_;
   std::vector<Observer*> watchers;
   if (watcher) watchers.push_back(watcher);
   const std::atomic<bool> cancel{false};
