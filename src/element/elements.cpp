@@ -1,4 +1,4 @@
-#include "forming_sim/element/elements.h"
+#include "element/group.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -10,19 +10,6 @@
 #include "forming_sim/material/law.h"
 
 namespace forming_sim {
-
-struct Elements::Group : CellGroup {
-  std::vector<int> node_storage;
-  std::vector<double> plastic, viscous, lowest;
-  enum Rest : char { changed, kept, passed_over };  ///< a block's memory by the last evaluation, or none was needed
-  std::vector<Rest> rest;  ///< per block; empty where all are evaluated
-  CurveTables curves;
-  std::vector<Lane> memory_storage, constants_storage, hourglass_storage;
-  int parts = 0;  ///< simplices of a cell, all of them its one point's in a one-point cell
-  int first_element = 0;
-  long first_record = 0;
-  std::string body;
-};
 
 namespace {
 
@@ -237,24 +224,6 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   }
 }
 
-std::vector<GroupPlan> Elements::plan() const {
-  std::vector<GroupPlan> groups;
-  for (const Group& g : groups_) {
-    GroupPlan plan;
-    plan.body = g.body;
-    plan.kind = static_cast<CellKind>(g.kind);
-    plan.pressure = g.pressure;
-    plan.layers = g.solid.layers;
-    plan.cells = g.cells;
-    plan.elements = static_cast<long>(g.cells) * g.cell_simplices;
-    plan.memory_bytes = static_cast<double>((g.memory_storage.size() + g.constants_storage.size() + g.hourglass_storage.size()) * sizeof(Lane));
-    plan.force_bytes = static_cast<double>(g.node_storage.size()) * record_size_ * sizeof(double);
-    plan.index_bytes = static_cast<double>(g.node_storage.size()) * 2 * sizeof(int);  // of the cell's nodes, of the node's forces
-    groups.push_back(plan);
-  }
-  return groups;
-}
-
 /// A thread gets 512 packs or more: below that, waiting for each other costs more.
 long Elements::blocks_of_a_thread(const Group& g) { return 512 / g.cell_simplices; }
 
@@ -345,78 +314,6 @@ void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, i
   }
 }
 
-long Elements::blocks() const {
-  long sum = 0;
-  for (const Group& g : groups_) sum += g.blocks;
-  return sum;
-}
-
-long Elements::blocks_at_rest() const {
-  long sum = 0;
-  for (const Group& g : groups_) sum += std::count(g.rest.begin(), g.rest.end(), Group::passed_over);
-  return sum;
-}
-
-double Elements::plastic_work() const {
-  double sum = 0;
-  for (const Group& g : groups_)
-    for (double w : g.plastic) sum += w;
-  return sum;
-}
-
-double Elements::viscous_work() const {
-  double sum = 0;
-  for (const Group& g : groups_)
-    for (double w : g.viscous) sum += w;
-  return sum;
-}
-
-std::vector<double> Elements::plastic_strain() const {
-  std::vector<double> p(simplices_.size());
-  for (const Group& g : groups_)
-    for (int cell = 0; cell < g.cells; ++cell)
-      for (int s = 0; s < g.parts; ++s) {
-        const Lane* memory = g.memory_storage.data() + (static_cast<std::size_t>(cell / kLanes) * g.cell_simplices + s % g.cell_simplices) * g.items;
-        const auto at = [&](int item) { return memory[item][cell % kLanes]; };
-        p[g.first_element + cell * g.parts + s] = dimension_ == 2 ? plastic_strain_of<2>(g.solid, at) : plastic_strain_of<3>(g.solid, at);
-      }
-  return p;
-}
-
-ElementFields Elements::observe(const NodeField& x) const {
-  const NodalView view{x.data()->data(), nullptr, nullptr, pressure_.data(), 0, 0};
-  if (any_nodal_) nodal_pressure(view);
-  ElementFields fields;
-  fields.stress.resize(simplices_.size());
-  fields.volume_ratio.resize(simplices_.size());
-  for (const Group& g : groups_) {
-    std::vector<Lane> stress(static_cast<std::size_t>(g.blocks) * g.cell_simplices * 6);
-    std::vector<Lane> ratio(static_cast<std::size_t>(g.blocks) * g.cell_simplices);
-    std::vector<double> energy(g.blocks);
-    team_->share(g.blocks, blocks_of_a_thread(g), [&](long first, long last) {
-      kernels_.observe(g, view, static_cast<int>(first), static_cast<int>(last), stress.data()->value, ratio.data()->value, energy.data());
-    });
-    for (double e : energy) fields.stored_energy += e;
-    for (int cell = 0; cell < g.cells; ++cell)
-      for (int s = 0; s < g.parts; ++s) {
-        const std::size_t at = static_cast<std::size_t>(cell / kLanes) * g.cell_simplices + s % g.cell_simplices;
-        const int l = cell % kLanes, element = g.first_element + cell * g.parts + s;
-        Sym& sigma = fields.stress[element];
-        for (int i = 0; i < 6; ++i) sigma[i] = stress[at * 6 + i][l];
-        fields.volume_ratio[element] = ratio[at][l];
-      }
-  }
-  if (any_nodal_)  // the volumetric energy of nodal pressures belongs to the nodes
-    for (const Group& g : groups_) {
-      if (g.pressure != PressureMode::node) continue;
-      std::vector<char> mine(mass_.size(), 0);
-      for (int node : g.node_storage) mine[node] = 1;
-      for (std::size_t n = 0; n < mine.size(); ++n)
-        if (mine[n]) fields.stored_energy += 0.5 * nodal_volume0_[n] * pressure_[n] * pressure_[n] / nodal_bulk_[n];
-    }
-  return fields;
-}
-
 Elements::Location Elements::locate(int element) const {
   for (int k = static_cast<int>(groups_.size()) - 1; k >= 0; --k) {
     const Group& g = groups_[k];
@@ -466,32 +363,6 @@ void Elements::check_axis(const NodeField& x) const {
                                 : ", which it has crossed; a finer mesh there or slower tools avoid it");
     throw Error(Code::mesh_error, what.str());
   }
-}
-
-void Elements::append_state(std::vector<double>& to) const {
-  for (const Group& g : groups_) {
-    for (const std::vector<Lane>* storage : {&g.memory_storage, &g.hourglass_storage}) {
-      const double* memory = reinterpret_cast<const double*>(storage->data());
-      to.insert(to.end(), memory, memory + storage->size() * kLanes);
-    }
-    to.insert(to.end(), g.plastic.begin(), g.plastic.end());
-    to.insert(to.end(), g.viscous.begin(), g.viscous.end());
-  }
-}
-
-const double* Elements::read_state(const double* from) {
-  stillness_.forget();
-  const auto take = [&](double* to, std::size_t count) {
-    std::copy(from, from + count, to);
-    from += count;
-  };
-  for (Group& g : groups_) {
-    for (std::vector<Lane>* storage : {&g.memory_storage, &g.hourglass_storage})
-      take(reinterpret_cast<double*>(storage->data()), storage->size() * kLanes);
-    take(g.plastic.data(), g.plastic.size());
-    take(g.viscous.data(), g.viscous.size());
-  }
-  return from;
 }
 
 const char* Elements::kernel_name() const { return kernels_.name; }
