@@ -147,7 +147,7 @@ class Features(unittest.TestCase):
             low, high = body(shape, plastic), body(shape, plastic, initial_velocity=down)
             high['name'] = 'high'
             high['blank'].update(pattern='one_point', origin=[1.3e-3, 2.05e-3, 0] if dimension == 2 else [1.3e-3, 0.7e-3, 2.05e-3])
-            data = scene(low, high, dimension=dimension, duration=1.5e-5, time_step={'linear_viscosity': 0.06, 'mass_scaling': 1.5})
+            data = scene(low, high, dimension=dimension, duration=1.5e-5, time_step={'linear_viscosity': 0.06, 'mass_scaling': 1.5, 'safety': 0.4})  # small steps for the blow
             data['output'].update(frames=6, checkpoint_interval=5e-6)
             whole = self.run_scene(data, 'whole')
             with h5py.File(self.path('whole/result.h5')) as result:
