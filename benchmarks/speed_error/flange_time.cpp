@@ -39,7 +39,7 @@ void flange_time_problem(Report& report) {
       if (stage.kind != "settle") stage.duration /= factor;
     add("tool speed", factor, scene);
   }
-  for (double safety : {0.6, 0.3}) {
+  for (double safety : {0.5}) {
     Scene scene = shipped;
     scene.time_step.safety = safety;
     add("step safety", safety, scene);

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""forming_bench speed-error on its shortest problem: rows, files, and what physics says of the errors.
+"""forming_bench speed-error on a short problem, and stability: rows, files, and what physics says of the errors.
 
 usage: bench_speed_error_test.py FORMING_BENCH
 """
@@ -67,6 +67,24 @@ class SpeedError(unittest.TestCase):
         run = subprocess.run([BENCH, 'speed-error', 'cubes'], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.assertNotEqual(run.returncode, 0)
         self.assertIn('problem cubes is not one of bending, cook', run.stderr)
+
+
+class Stability(unittest.TestCase):
+    def test_fast_impacts_hold(self):
+        """Nothing crosses, no energy is gained, and every run comes to its end."""
+        directory = tempfile.mkdtemp(prefix='forming_sim_')
+        self.addCleanup(shutil.rmtree, directory)
+        run = subprocess.run([BENCH, 'stability', 'impact', '--output', directory], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with open(os.path.join(directory, 'stability.json')) as file:
+            rows = json.load(file)
+        self.assertGreater(len(rows), 20)
+        for row in rows:
+            self.assertTrue(row['holds'], row)
+            if row['quantity'] == 'crossings':
+                self.assertEqual(row['found'], 0)
+            if row['quantity'].startswith('kinetic + elastic'):
+                self.assertLess(row['found'], 1)
 
 
 if __name__ == '__main__':
