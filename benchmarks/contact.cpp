@@ -18,7 +18,7 @@
 namespace forming_sim::bench {
 namespace {
 
-constexpr long kMostSteps = 4000, kMostHalvings = 5000;  // a run that needs more is stopped, and does not hold
+constexpr long kMostSteps = 4000, kMostHalvings = 20000;  // a run that needs more is stopped, and does not hold
 
 struct Scene {
   const char* name;

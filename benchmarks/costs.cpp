@@ -54,6 +54,22 @@ void element_costs(const Family& family, int elements, const char* size, std::ve
   }
 }
 
+/// Forces of a body that waits, over those of one that moves.
+void rest_costs(std::vector<Row>& rows) {
+  const Clock clock;
+  const BodyModel body = block({CellKind::hex24, "cell", 0}, 100000);
+  NodeField x = positions_of(body.mesh);
+  Elements engine({body}, 3, x, ElementOptions(), 1);
+  const NodeField v(x.size(), Node::Zero());
+  NodeField f(x.size());
+  const double waits = least_time([&] { engine.forces(x, v, 1e-8, 1e-8, f); });
+  const double moves = least_time([&] {
+    for (Node& n : x) n[0] *= 1 + 1e-12;
+    engine.forces(x, v, 1e-8, 1e-8, f);
+  });
+  rows.push_back(just("a body at rest, hex24", "forces, of those of one that moves", waits / moves, clock.seconds()));
+}
+
 /// Bytes a second of a sum over an array that no cache holds.
 double bandwidth() {
   std::vector<double> a(32 << 20, 1.0);
@@ -81,6 +97,7 @@ std::vector<Row> costs(const Request&) {
     element_costs(family, 4000, "4k elements", rows);
     element_costs(family, 400000, "400k elements", rows);
   }
+  rest_costs(rows);
   layer_costs(rows);
   contact_costs(rows);
   return rows;

@@ -14,7 +14,7 @@ void PairConstants::set(ContactPair& pair, std::vector<Rub>& rubs) const {
   for (int k = 0; k < pair.nodes; ++k) {
     const int n = pair.node[k];
     if (n < work.body_entries) {
-      area += features.area[work.vertex[n]];
+      area += work.area[n];
       ++deformable;
     }
     const double b2m = pair.weight[k] * pair.weight[k] * work.inverse_mass[n];

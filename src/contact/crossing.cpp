@@ -8,8 +8,20 @@
 namespace forming_sim {
 namespace {
 
-double volume(const Node& a, const Node& b, const Node& c, const Node& d) { return dot3(cross3(b - a, c - a), d - a); }
-double area(const Node& a, const Node& b, const Node& c) { return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]); }
+// Of features that lie in one plane rounding would decide: below it they count as
+// in the plane, and what only touches has not passed.
+constexpr double kRounding = 1e-14;
+
+double volume(const Node& a, const Node& b, const Node& c, const Node& d) {
+  const Node u = b - a, v = c - a, w = d - a;
+  const double six_volumes = dot3(cross3(u, v), w);
+  return six_volumes * six_volumes > kRounding * kRounding * dot3(u, u) * dot3(v, v) * dot3(w, w) ? six_volumes : 0;
+}
+double area(const Node& a, const Node& b, const Node& c) {
+  const Node u = b - a, v = c - a;
+  const double two_areas = u[0] * v[1] - u[1] * v[0];
+  return two_areas * two_areas > kRounding * kRounding * dot3(u, u) * dot3(v, v) ? two_areas : 0;
+}
 
 class Finder {
  public:

@@ -137,6 +137,8 @@ class Builder {
     }
     work.x.assign(used.size(), Node::Zero());
     work.v = work.before = work.x;
+    work.area.resize(work.body_entries);
+    for (int i = 0; i < work.body_entries; ++i) work.area[i] = f_.area[used[i]];
     work.inverse_mass.assign(used.size(), 0.0);
     work.projector.assign(used.size(), nullptr);
   }

@@ -186,15 +186,16 @@ class Phase {
     if (all_ || pair.base == layer_ || pair.gap < pair.base) to.push_back(pair);
   }
 
-  // Does `away` from the edge ab point out of the slab of every facet at the edge?
+  // Does `away` from the edge ab, across it, point out of the slab of every facet at the edge?
+  // `inward`, across the edge too, has the length |r x u| / |u|.
   bool outside(const Node& a, const Node& b, const int* opposite, const Node& away) const {
-    const Node u = b - a;
     for (int k = 0; k < 2; ++k) {
       if (opposite[k] < 0) continue;
       const Node r = work_.x[opposite[k]] - a;
-      const Node inward = r - dot3(r, u) / dot3(u, u) * u;
-      const double within = dot3(away, inward);
-      if (within > 0 && within * within > kWedge * kWedge * dot3(inward, inward)) return false;
+      const double within = dot3(away, r);
+      if (!(within > 0)) continue;
+      const Node u = b - a, n = cross3(r, u);
+      if (within * within * dot3(u, u) > kWedge * kWedge * dot3(n, n)) return false;
     }
     return true;
   }

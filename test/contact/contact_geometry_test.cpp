@@ -181,6 +181,25 @@ TEST(ContactContinuous, SmallGapsAgainstSampling) {
   EXPECT_LT(cried, free / 100) << "of " << free;
 }
 
+// Neighbours in one plane that rounding has moved a little out of it have not passed through each other.
+TEST(ContactCrossing, FeaturesInOnePlaneDoNotPierce) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> noise(-2e-16, 2e-16);
+  const Node p(-.208, 1, .8, 0), q(-.39, 1, .6, 0), a(-.208, 1, 1, 0), b(-.39, 1, .8, 0), c(-.39, 1, 1, 0);
+  const Node over(-.208, 1, .95, 0), beyond(-.5, 1, .9, 0);  // a segment in the same plane that runs across the facet
+  for (int i = 0; i < 20000; ++i) {
+    Node at[5] = {p, q, a, b, c}, across[2] = {over, beyond};
+    for (Node& n : at) n[1] += noise(random);
+    for (Node& n : across) n[1] += noise(random);
+    ASSERT_FALSE(pierces(at[0], at[1], at[2], at[3], at[4], true)) << i;
+    ASSERT_FALSE(pierces(across[0], across[1], at[2], at[3], at[4], true)) << i;
+    ASSERT_FALSE(segments_cross(Node(0, at[0][1], 0, 0), Node(.3, at[1][1], 0, 0), Node(.4, at[2][1], 0, 0), Node(.7, at[3][1], 0, 0), true)) << i;
+  }
+  // A billionth of their size is more than rounding.
+  const Node up(0, 1e-9, 0, 0), centre = (a + b + c) / 3;
+  EXPECT_TRUE(pierces(centre + up, centre - up, a, b, c, false));
+}
+
 // Every vertex-facet and edge-edge pair within the radius is listed, no other.
 TEST(ContactSearch, ListAgainstAllPairs) {
   for (int dimension : {2, 3}) {

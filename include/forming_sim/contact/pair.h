@@ -72,6 +72,7 @@ struct Workspace {
   int body_entries = 0;        ///< the first so many are nodes of bodies
   NodeField x, v, before;      ///< at the start of the step; running; before the kick
   std::vector<double> inverse_mass;
+  std::vector<double> area;            ///< of nodes of bodies: Features::area
   std::vector<const Mat3*> projector;  ///< of held nodes, else null
 };
 
