@@ -1,7 +1,7 @@
 // Cases in the plane that break simpler contact algorithms.
 #include <gtest/gtest.h>
 
-#include "contact/point_bodies.h"
+#include "contact/hard_scenes.h"
 
 using contact_test::polyline;
 using contact_test::World;
@@ -75,12 +75,7 @@ TEST(Contact2D, SlidingOverCollinearFacetsIsSmooth) {
 TEST(Contact2D, GrooveHoldsAFastNode) {
   for (double half_angle : {15., 30., 60.})
     for (double layer : {1e-2, 1e-3, 1e-5}) {
-      World world;
-      world.add_strip(Vec3(0, .75, 0), 2, 2, .1, .1, 2700, 3e9, M_PI / 4 + .03);
-      world.config.layer = layer;
-      for (auto& v : world.v) v = Node(13, -500, 0, 0);
-      const double slope = 1 / std::tan(half_angle * M_PI / 180);
-      world.add_tool("groove", polyline({Vec3(-1.5, 1.5 * slope, 0), Vec3(0, 0, 0), Vec3(1.5, 1.5 * slope, 0)}), 0, [](double) { return Vec3::Zero(); });
+      World world = contact_test::groove(half_angle, layer);
       Contact contact = world.make();
       for (int i = 0; i < 400; ++i) world.step(contact, 5e-6);
       EXPECT_EQ(world.crossings, 0) << half_angle << " " << layer;

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/point_bodies.h"
-#include "contact/wedges.h"
+#include "contact/hard_scenes.h"
 
 using contact_test::add_wedge;
 using contact_test::ridge;
@@ -21,12 +21,7 @@ Vec3 still(double) { return Vec3::Zero(); }
 TEST(Contact3D, CrossedRidgesAreHeldByTheirEdges) {
   for (double speed : {5., 100., 500.})
     for (double layer : {2e-3, 2e-5}) {
-      World world;
-      world.dimension = 3;
-      add_wedge(world, .5, 0, 1e9);
-      world.config.layer = layer;
-      for (auto& v : world.v) v = Node(.1 * speed, 0, -speed, 0);
-      world.add_tool("ridge", ridge(2, .5, .5, M_PI / 2), 0, [](double) { return Vec3(.13, .04, -.05); });
+      World world = contact_test::ridges(speed, layer);
       Contact contact = world.make();
       const double dt = 2e-5 * std::min(1., 100 / speed);
       long active = 0;
@@ -45,12 +40,7 @@ TEST(Contact3D, CrossedRidgesAreHeldByTheirEdges) {
 TEST(Contact3D, NearlyParallelEdges) {
   for (double angle : {0., 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1})
     for (double off : {0., 1e-4, 1e-2}) {
-      World world;
-      world.dimension = 3;
-      add_wedge(world, .5, 0, 1e9);
-      world.config.layer = 2e-5;
-      for (auto& v : world.v) v = Node(0, 0, -300, 0);
-      world.add_tool("ridge", ridge(2, .1, .5, angle), 0, [off](double) { return Vec3(.03, off, -.02); });
+      World world = contact_test::knives(angle, off);
       Contact contact = world.make();
       for (int i = 0; i < 300; ++i) world.step(contact, 1e-6);
       EXPECT_EQ(world.crossings, 0) << angle << " " << off;

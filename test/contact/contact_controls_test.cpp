@@ -2,12 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "contact/reduced.h"
-#include "contact/wedges.h"
+#include "contact/hard_scenes.h"
 
-using contact_test::add_wedge;
+using contact_test::groove;
+using contact_test::knives;
 using contact_test::polyline;
 using contact_test::Reduced;
-using contact_test::ridge;
+using contact_test::ridges;
 using contact_test::World;
 using namespace forming_sim;
 
@@ -21,36 +22,6 @@ Count run(World world, const Reduced::Reduce& reduce, double dt, int steps) {
   Reduced contact(world, reduce);
   for (int i = 0; i < steps; ++i) contact.step(world, dt);
   return {contact.crossings, contact.active};
-}
-
-World ridges(double speed, double layer) {
-  World world;
-  world.dimension = 3;
-  add_wedge(world, .5, 0, 1e9);
-  world.config.layer = layer;
-  for (auto& v : world.v) v = Node(.1 * speed, 0, -speed, 0);
-  world.add_tool("ridge", ridge(2, .5, .5, M_PI / 2), 0, [](double) { return Vec3(.13, .04, -.05); });
-  return world;
-}
-
-World knives(double angle, double off) {
-  World world;
-  world.dimension = 3;
-  add_wedge(world, .5, 0, 1e9);
-  world.config.layer = 2e-5;
-  for (auto& v : world.v) v = Node(0, 0, -300, 0);
-  world.add_tool("ridge", ridge(2, .1, .5, angle), 0, [off](double) { return Vec3(.03, off, -.02); });
-  return world;
-}
-
-World groove(double half_angle, double layer) {
-  World world;
-  world.add_strip(Vec3(0, .75, 0), 2, 2, .1, .1, 2700, 3e9, M_PI / 4 + .03);
-  world.config.layer = layer;
-  for (auto& v : world.v) v = Node(13, -500, 0, 0);
-  const double slope = 1 / std::tan(half_angle * M_PI / 180);
-  world.add_tool("groove", polyline({Vec3(-1.5, 1.5 * slope, 0), Vec3(0, 0, 0), Vec3(1.5, 1.5 * slope, 0)}), 0, [](double) { return Vec3::Zero(); });
-  return world;
 }
 
 }  // namespace

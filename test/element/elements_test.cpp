@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "support/bodies.h"
+#include "support/kernels.h"
 
 namespace forming_sim {
 namespace {
@@ -222,23 +223,14 @@ TEST(Kernels, EveryVectorWidthGivesTheSame) {
   for (CellKind kind : {CellKind::crossed, CellKind::hex24, CellKind::quad1, CellKind::hex1}) {
     const int D = shape_of(kind).dimension;
     const BodyModel b = body_of(block_of(kind, 3), aluminium(true));
-    std::vector<NodeField> results;
-    for (const char* name : {"sse2", "avx2", "avx512"}) {
+    expect_widths_agree([&](const char* name) {
       NodeField x = positions_of(b.mesh);
-      try {
-        Elements elements({b}, D, x, {}, 1, name);
-        shake(x, D, 0.01, 7);
-        NodeField f(x.size()), v(x.size(), Node::Zero());
-        elements.forces(x, v, 0, 0, f);
-        results.push_back(f);
-      } catch (const Error& error) {
-        std::cout << "  " << error.what() << "\n";
-      }
-    }
-    double scale = 0;
-    for (const Node& n : results[0]) scale = std::max(scale, n.norm());
-    for (const NodeField& f : results)
-      for (std::size_t n = 0; n < f.size(); ++n) EXPECT_LT((f[n] - results[0][n]).norm(), 1e-10 * scale);
+      Elements elements({b}, D, x, {}, 1, name);
+      shake(x, D, 0.01, 7);
+      NodeField f(x.size()), v(x.size(), Node::Zero());
+      elements.forces(x, v, 0, 0, f);
+      return f;
+    });
   }
 }
 

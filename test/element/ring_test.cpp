@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "forming_sim/material/material_point.h"
+#include "support/kernels.h"
 #include "support/rings.h"
 
 namespace forming_sim {
@@ -188,21 +189,12 @@ TEST(Rings, FarFromTheAxisTheyAreAPlaneStrainSection) {
 
 TEST(Rings, EveryVectorWidthGivesTheSame) {
   const BodyModel b = body_of(ring_block(CellKind::crossed, 0, 5), aluminium(true));
-  std::vector<NodeField> results;
-  for (const char* name : {"sse2", "avx2", "avx512"}) {
+  expect_widths_agree([&](const char* name) {
     NodeField x = positions_of(b.mesh);
-    try {
-      Elements elements({b}, 2, x, rings(), 1, name);
-      shake_rings(x, 0.01, 7);
-      results.push_back(ring_forces(elements, x));
-    } catch (const Error& error) {
-      std::cout << "  " << error.what() << "\n";
-    }
-  }
-  double scale = 0;
-  for (const Node& n : results[0]) scale = std::max(scale, n.norm());
-  for (const NodeField& f : results)
-    for (std::size_t n = 0; n < f.size(); ++n) EXPECT_LT((f[n] - results[0][n]).norm(), 1e-10 * scale);
+    Elements elements({b}, 2, x, rings(), 1, name);
+    shake_rings(x, 0.01, 7);
+    return ring_forces(elements, x);
+  });
 }
 
 // The classical rate law knows the hoop by its rate: v_r / r.
