@@ -1,5 +1,5 @@
 // Cook's membrane by CalculiX: static, one layer of bricks held in plane strain.
-#include "speed_error/cook.h"
+#include "support/cook.h"
 #include "speed_error/peers.h"
 
 namespace forming_sim::bench {

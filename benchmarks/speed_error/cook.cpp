@@ -3,39 +3,13 @@
 // 6.95 +- .1 mm (published). Elements that lock in plastic flow or in bending rise less.
 #include <cmath>
 
-#include "speed_error/cook.h"
 #include "speed_error/families.h"
 #include "speed_error/peers.h"
 #include "speed_error/report.h"
 #include "stepped_body.h"
-#include "support/sections.h"
+#include "support/cook.h"
 
 namespace forming_sim::bench {
-
-MaterialConfig cook_material() {
-  MaterialConfig m;
-  m.density = 7800;
-  m.youngs_modulus = 206.9e9;
-  m.poissons_ratio = 0.29;
-  m.hardening.emplace();
-  m.hardening->curve = "voce";
-  m.hardening->yield_stress = 450e6;
-  m.hardening->saturation_stress = 715e6;
-  m.hardening->rate = 16.93;
-  m.hardening->modulus = 129.24e6;
-  return m;
-}
-
-Mesh membrane(int cells, const std::string& pattern) {
-  return mapped_section(cells, cells, [](double s, double t) { return Vec3(48e-3 * s, 44e-3 * s + t * (44e-3 - 28e-3 * s), 0); }, pattern);
-}
-
-int upper_right(const Mesh& mesh) {
-  int best = 0;
-  for (int n = 0; n < static_cast<int>(mesh.nodes.size()); ++n)
-    if (mesh.nodes[n].sum() > mesh.nodes[best].sum()) best = n;
-  return best;
-}
 
 namespace {
 

@@ -182,11 +182,7 @@ class Builder {
 // Of a box that is turned with its frame, one that holds it.
 Box moved(const Box& box, const ToolMotion& motion) {
   Box all;
-  for (int corner = 0; corner < 8; ++corner) {
-    Vec3 p;
-    for (int k = 0; k < 3; ++k) p[k] = corner >> k & 1 ? box.high[k] : box.low[k];
-    all.add(node(pose0(motion, p)));
-  }
+  for (int i = 0; i < 8; ++i) all.add(node(pose0(motion, box.corner(i))));
   return all;
 }
 

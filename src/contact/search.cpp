@@ -27,9 +27,8 @@ double Contact::Impl::farthest(const std::vector<ToolMotion>& motion, const Node
       box = bodies;  // in the world: brought into the tool's frame below
     }
     if (box.empty()) continue;
-    for (int corner = 0; corner < 8; ++corner) {
-      Vec3 p;
-      for (int k = 0; k < 3; ++k) p[k] = corner >> k & 1 ? box.high[k] : box.low[k];
+    for (int i = 0; i < 8; ++i) {
+      Vec3 p = box.corner(i);
       if (tools.is_plane[t]) p = motion[t].rotation0.transpose() * (p - motion[t].position0);
       most = std::max(most, (to(t, p) - from(t, p)).norm());
     }

@@ -1,7 +1,8 @@
 // Bodies of one-point cells against known solutions.
 #include <gtest/gtest.h>
 
-#include "support/runs.h"
+#include "support/cook.h"
+#include "support/taylor.h"
 
 namespace forming_sim {
 namespace {
@@ -73,39 +74,19 @@ TEST(OnePointBodies, ASwingingCubeConvergesWithTheSquareOfTheCell) {
 // VERIFICATION 17: Cook's membrane, elastic-plastic, plane strain; its top corner rises by 6.95 +- .1 mm.
 TEST(OnePointBodies, CooksMembrane) {
   const int n = 16;
-  BlankConfig blank = strip_of(1, 1, n, n);
-  blank.pattern = "one_point";
-  Mesh mesh = generate_blank(blank);
-  for (Vec3& X : mesh.nodes) {
-    const double s = X.x(), low = 44 * s, high = 44 + 16 * s;
-    X = Vec3(48 * s, low + (high - low) * X.y(), 0) * 1e-3;
-  }
-  // .45 + .12924 p + .265 (1 - exp(-16.93 p)) GPa
-  MaterialConfig m;
-  m.density = 7800;
-  m.youngs_modulus = 206.9e9;
-  m.poissons_ratio = 0.29;
-  HardeningConfig h;
-  h.curve = "voce";
-  h.yield_stress = 0.45e9;
-  h.saturation_stress = 0.715e9;
-  h.rate = 16.93;
-  h.modulus = 0.12924e9;
-  m.hardening = h;
-  Stepped cook(mesh, m);
-  const double traction = 0.3125e9, height = 16e-3;
+  const Mesh mesh = membrane(n, "one_point");
+  Stepped cook(mesh, cook_material());
+  const double height = 16e-3;
   const int steps = 60000;
   const double damping = 2 * M_PI / (0.15 * steps * cook.dt);  // near critical for the slowest swing
-  int top = 0;
-  for (std::size_t i = 0; i < cook.X.size(); ++i)
-    if (cook.X[i][0] + cook.X[i][1] > cook.X[top][0] + cook.X[top][1]) top = static_cast<int>(i);
+  const int top = upper_right(mesh);
   for (int step = 0; step < steps; ++step) {
     const double ramp = std::min(1.0, step / (0.6 * steps));
     cook.elements.forces(cook.x, cook.v, cook.dt, cook.dt, cook.f);
     for (std::size_t i = 0; i < cook.X.size(); ++i) {
       if (cook.X[i][0] > 48e-3 * (1 - 1e-9)) {
         const bool end = cook.X[i][1] < 44e-3 * (1 + 1e-9) || cook.X[i][1] > 60e-3 * (1 - 1e-9);
-        cook.f[i][1] += ramp * traction * height / n * (end ? 0.5 : 1);
+        cook.f[i][1] += ramp * kCookTraction * height / n * (end ? 0.5 : 1);
       }
       cook.v[i] = (1 - damping * cook.dt) * cook.v[i] + cook.dt / cook.elements.nodal_mass()[i] * cook.f[i];
       if (cook.X[i][0] < 1e-9) cook.v[i].setZero();
@@ -114,51 +95,21 @@ TEST(OnePointBodies, CooksMembrane) {
   }
   const double rise = (cook.x[top][1] - cook.X[top][1]) * 1e3;
   std::printf("  top corner rises by %.3f mm\n", rise);
-  EXPECT_NEAR(rise, 6.95, 0.1);
+  EXPECT_NEAR(rise, kCookRise, 0.1);
 }
 
 // VERIFICATION 18, a face that stays on its wall; a quarter of the bar at 6 cells a radius.
 TEST(OnePointBodies, TaylorBar) {
-  BlankConfig bar;
-  bar.shape = "bar";
-  bar.portion = "quarter";
-  bar.pattern = "one_point";
-  bar.length = 32.4e-3;
-  bar.radius = 3.2e-3;
-  bar.cells_radius = 6;
-  bar.cells_along = 60;
-  MaterialConfig copper;
-  copper.density = 8930;
-  copper.youngs_modulus = 117e9;
-  copper.poissons_ratio = 0.35;
-  HardeningConfig h;
-  h.curve = "linear";
-  h.yield_stress = 400e6;
-  h.modulus = 100e6;
-  copper.hardening = h;
-  OneBody run(body_of(generate_blank(bar), copper), 80e-6);
-  run.plan.bodies[0].initial_velocity = Vec3(0, 0, -227);
-  for (const auto& [set, axis] : {std::pair("symmetry_x", 0), std::pair("symmetry_y", 1), std::pair("bottom", 2)}) {
-    BoundaryConfig b;
-    b.set = set;
-    b.kind = "symmetric";
-    b.normal = Vec3::Unit(axis);
-    run.plan.bodies[0].boundaries.push_back(b);
-  }
+  const OneBody run = taylor_bar(3, 6, "one_point", "cell");
   auto sim = run.start(2);
   const std::atomic<bool> cancel{false};
   const Outcome outcome = sim->run(cancel);
   EXPECT_EQ(outcome.code, Code::success) << outcome.message;
   EXPECT_LT(sim->balance_error(), 0.01);
-  double low = 1, high = -1, radius = 0;
-  for (const Node& n : sim->positions()) {
-    low = std::min(low, n[2]);
-    high = std::max(high, n[2]);
-    radius = std::max(radius, n.head<2>().norm());
-  }
-  std::printf("  length %.3f mm, radius %.3f mm, balance %.1e, %.1f s\n", (high - low) * 1e3, radius * 1e3, sim->balance_error(), sim->wall_time());
-  EXPECT_NEAR(high - low, 21.42e-3, 0.005 * 21.42e-3);
-  EXPECT_NEAR(radius, 7.22e-3, 0.02 * 7.22e-3);
+  const TaylorShape shape = taylor_shape(sim->positions(), 3);
+  std::printf("  length %.3f mm, radius %.3f mm, balance %.1e, %.1f s\n", shape.length * 1e3, shape.radius * 1e3, sim->balance_error(), sim->wall_time());
+  EXPECT_NEAR(shape.length, 21.42e-3, 0.005 * 21.42e-3);
+  EXPECT_NEAR(shape.radius, 7.22e-3, 0.02 * 7.22e-3);
 }
 
 }  // namespace

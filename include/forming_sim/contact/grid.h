@@ -22,6 +22,8 @@ struct Box {
     high.array() += r;
   }
   bool empty() const { return low[0] > high[0]; }
+  /// i: 0 ... 7.
+  Vec3 corner(int i) const { return Vec3(i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2]); }
   bool overlaps(const Box& b) const {
     for (int k = 0; k < 3; ++k)
       if (low[k] > b.high[k] || high[k] < b.low[k]) return false;

@@ -1,0 +1,39 @@
+#pragma once
+// Cook's membrane: a tapered panel clamped at the left, sheared at the right, plane strain,
+// elastic-plastic (VERIFICATION: its upper right corner rises by 6.95 +- .1 mm).
+#include "support/sections.h"
+
+namespace forming_sim {
+
+constexpr double kCookTraction = 0.3125e9;  ///< Pa, upwards on the right edge, a dead load
+constexpr double kCookRise = 6.95;          ///< mm, of the upper right corner, +- .1
+
+/// sigma = 450 + 129.24 p + 265 (1 - exp(-16.93 p)) MPa.
+inline MaterialConfig cook_material() {
+  MaterialConfig m;
+  m.density = 7800;
+  m.youngs_modulus = 206.9e9;
+  m.poissons_ratio = 0.29;
+  m.hardening.emplace();
+  m.hardening->curve = "voce";
+  m.hardening->yield_stress = 450e6;
+  m.hardening->saturation_stress = 715e6;
+  m.hardening->rate = 16.93;
+  m.hardening->modulus = 129.24e6;
+  return m;
+}
+
+/// Corners (0,0) (48,44) (48,60) (0,44) mm, cells x cells.
+inline Mesh membrane(int cells, const std::string& pattern) {
+  return mapped_section(cells, cells, [](double s, double t) { return Vec3(48e-3 * s, 44e-3 * s + t * (44e-3 - 28e-3 * s), 0); }, pattern);
+}
+
+/// Its node at (48,60) mm.
+inline int upper_right(const Mesh& mesh) {
+  int best = 0;
+  for (int n = 0; n < static_cast<int>(mesh.nodes.size()); ++n)
+    if (mesh.nodes[n].sum() > mesh.nodes[best].sum()) best = n;
+  return best;
+}
+
+}  // namespace forming_sim
