@@ -8,7 +8,7 @@
 
 namespace forming_sim {
 
-Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vector<ToolMotion>& at_start) : impl_(new Impl) {
+Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vector<ToolMotion>& at_start) : impl_(new Impl(setup.team)) {
   Impl& m = *impl_;
   m.config = setup.config;
   if (m.config.method == "explicit") m.method = Impl::Method::explicit_mild;
@@ -115,55 +115,71 @@ const std::vector<Vec3>& Contact::body_shifts() const { return impl_->body_shift
 const std::vector<std::string>& Contact::warnings() const { return impl_->warnings; }
 
 namespace {
-constexpr std::uint64_t kMagic = 0x35746361746e6f43u;  // "Contact5"
+constexpr std::uint64_t kMagic = 0x36746361746e6f43u;  // "Contact6"
 struct SavedHeader {
-  std::uint64_t magic, vertices, facets, records, tools, slip;
+  std::uint64_t magic, vertices, facets, records, kept, tools, slip;
   double potential, previous_dt;
+
+  std::size_t size() const;
 };
-static_assert(std::is_trivially_copyable<LayerRecord>::value, "saved byte by byte");
-}  // namespace
+static_assert(std::is_trivially_copyable<LayerRecord>::value && std::is_trivially_copyable<Sweeps::Kept>::value, "saved byte by byte");
 
 /// Position and rotation of a tool as twelve numbers.
 constexpr std::size_t kPose = 12;
 
+std::size_t SavedHeader::size() const {
+  return sizeof *this + records * sizeof(LayerRecord) + kept * sizeof(Sweeps::Kept) + (tools * kPose + slip) * sizeof(double);
+}
+
+template <class Item> void append(const std::vector<Item>& items, std::vector<char>& data) {
+  const char* first = reinterpret_cast<const char*>(items.data());
+  data.insert(data.end(), first, first + items.size() * sizeof(Item));
+}
+template <class Item> std::vector<Item> take(std::size_t count, const char*& from) {
+  std::vector<Item> items(count);
+  if (count > 0) std::memcpy(static_cast<void*>(items.data()), from, count * sizeof(Item));
+  from += count * sizeof(Item);
+  return items;
+}
+}  // namespace
+
 std::vector<char> Contact::save() const {
   const Impl& m = *impl_;
-  const SavedHeader header{kMagic, static_cast<std::uint64_t>(m.features.vertex_count), m.features.facets.size(), m.records.size(), m.previous_motion.size(), m.slip.size(),
-                           m.potential, m.previous_dt};
-  std::vector<double> numbers;
+  const std::vector<Sweeps::Kept>& kept = m.sweeps.kept();
+  const SavedHeader header{kMagic, static_cast<std::uint64_t>(m.features.vertex_count), m.features.facets.size(), m.records.size(), kept.size(), m.previous_motion.size(),
+                           m.slip.size(), m.potential, m.previous_dt};
+  std::vector<double> poses;
   for (const ToolMotion& tool : m.previous_motion) {
-    numbers.insert(numbers.end(), tool.position0.data(), tool.position0.data() + 3);
-    numbers.insert(numbers.end(), tool.rotation0.data(), tool.rotation0.data() + 9);
+    poses.insert(poses.end(), tool.position0.data(), tool.position0.data() + 3);
+    poses.insert(poses.end(), tool.rotation0.data(), tool.rotation0.data() + 9);
   }
-  numbers.insert(numbers.end(), m.slip.begin(), m.slip.end());
-  std::vector<char> data(sizeof header + m.records.size() * sizeof(LayerRecord) + numbers.size() * sizeof(double));
-  char* to = data.data();
-  std::memcpy(to, &header, sizeof header);
-  to += sizeof header;
-  if (!m.records.empty()) std::memcpy(to, m.records.data(), m.records.size() * sizeof(LayerRecord));
-  to += m.records.size() * sizeof(LayerRecord);
-  if (!numbers.empty()) std::memcpy(to, numbers.data(), numbers.size() * sizeof(double));
+  std::vector<char> data;
+  data.reserve(header.size());
+  append(std::vector<SavedHeader>{header}, data);
+  append(m.records, data);
+  append(kept, data);
+  append(poses, data);
+  append(m.slip, data);
   return data;
 }
 
 void Contact::restore(const std::vector<char>& data) {
   Impl& m = *impl_;
   SavedHeader header;
-  const bool whole = data.size() >= sizeof header && (std::memcpy(&header, data.data(), sizeof header), header.magic == kMagic) &&
-                     data.size() == sizeof header + header.records * sizeof(LayerRecord) + (header.tools * kPose + header.slip) * sizeof(double);
+  const bool whole = data.size() >= sizeof header && (std::memcpy(&header, data.data(), sizeof header), header.magic == kMagic) && data.size() == header.size();
   if (!whole) throw Error(Code::resume_error, "the saved contact is damaged or of another version");
   if (header.vertices != static_cast<std::uint64_t>(m.features.vertex_count) || header.facets != m.features.facets.size() || header.slip != m.slip.size())
     throw Error(Code::resume_error, "the saved contact has other surfaces than this scene: resume with the scene that was saved");
-  m.records.resize(header.records);
-  if (!m.records.empty()) std::memcpy(m.records.data(), data.data() + sizeof header, m.records.size() * sizeof(LayerRecord));
-  std::vector<double> numbers(header.tools * kPose + header.slip);
-  if (!numbers.empty()) std::memcpy(numbers.data(), data.data() + data.size() - numbers.size() * sizeof(double), numbers.size() * sizeof(double));
+  const char* from = data.data() + sizeof header;
+  m.records = take<LayerRecord>(header.records, from);
+  m.sweeps.start_from(take<Sweeps::Kept>(header.kept, from));
+  const std::vector<double> poses = take<double>(header.tools * kPose, from);
   m.previous_motion.assign(header.tools, ToolMotion());
   for (std::size_t t = 0; t < header.tools; ++t) {
-    m.previous_motion[t].position0 = Eigen::Map<const Vec3>(&numbers[t * kPose]);
-    m.previous_motion[t].rotation0 = Eigen::Map<const Mat3>(&numbers[t * kPose + 3]);
+    m.previous_motion[t].position0 = Eigen::Map<const Vec3>(&poses[t * kPose]);
+    m.previous_motion[t].rotation0 = Eigen::Map<const Mat3>(&poses[t * kPose + 3]);
   }
-  std::copy(numbers.end() - header.slip, numbers.end(), m.slip.begin());
+  m.slip = take<double>(header.slip, from);
   m.potential = header.potential;
   m.previous_dt = header.previous_dt;
   m.listed = false;

@@ -11,12 +11,15 @@
 #include "forming_sim/contact/layers.h"
 #include "forming_sim/contact/list.h"
 #include "forming_sim/contact/narrow.h"
+#include "forming_sim/contact/sweeps.h"
 #include "forming_sim/contact/ties.h"
 #include "forming_sim/contact/tools.h"
 
 namespace forming_sim {
 
 struct Contact::Impl {
+  explicit Impl(Team* team) : sweeps(team) {}
+
   enum class Method { implicit, explicit_mild, geometric };
   // ---- what does not change
   ContactConfig config;
@@ -57,6 +60,7 @@ struct Contact::Impl {
   // ---- scratch
   NodeField v_star;
   Narrow near;
+  Sweeps sweeps;
   std::vector<double> moved;
   std::vector<LayerRecord> next_records;
   std::vector<double> sum, weighted, total;  ///< per entry of the workspace

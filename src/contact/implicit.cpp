@@ -6,7 +6,6 @@
 #include "contact/impl.h"
 #include "forming_sim/contact/continuous.h"
 #include "forming_sim/contact/law.h"
-#include "forming_sim/contact/sweeps.h"
 
 namespace forming_sim {
 
@@ -137,13 +136,17 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
       near.close.clear();
       way = bound / 2;
       laps.done(&ContactTimes::list);
-      if (list.size() == 0) break;
+      if (list.size() == 0) {
+        sweeps.start_from({});
+        break;
+      }
       gather(x, v, dt, motion, planes);
       narrow_phase(constants(), planes, all, reach, travel, list, near);
       assign_layers(records, work, dt, layer, ceiling, near.pairs);
       laps.done(&ContactTimes::narrow);
       swept = SweepResult();
-      if (!near.pairs.empty() || !tie_pairs.empty()) swept = solve_pairs(dt, 1e-3 * layer, config.max_sweeps, work, tie_pairs, near.pairs, near.rubs);
+      if (near.pairs.empty() && tie_pairs.empty()) sweeps.start_from({});
+      else swept = sweeps.solve(dt, 1e-3 * layer, config.max_sweeps, work, tie_pairs, near.pairs, near.rubs);
       laps.done(&ContactTimes::sweeps);
       double most = 0;
       for (int i = 0; i < work.body_entries; ++i) most = std::max(most, dot3(work.v[i], work.v[i]));

@@ -93,11 +93,15 @@ struct ElementStart {
 
 }  // namespace
 
+const Kernels& kernels_of(Isa isa) {
+  return isa == Isa::avx512 ? avx512::kernels() : isa == Isa::avx2 ? avx2::kernels() : sse2::kernels();
+}
+
 Elements::~Elements() = default;
 
 Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x,
                    const ElementOptions& options, int threads, const char* kernels)
-    : kernels_(choose_kernels(kernels)), dimension_(dimension), axisymmetric_(options.axisymmetric), team_(std::make_unique<Team>(threads)) {
+    : kernels_(kernels_of(choose_isa(kernels))), dimension_(dimension), axisymmetric_(options.axisymmetric), team_(std::make_unique<Team>(threads)) {
   const int nodes = static_cast<int>(x.size()), D = dimension_;
   if (axisymmetric_) check_axis(x);
   mass_.assign(nodes, 0.0);

@@ -101,6 +101,7 @@ void Simulation::Impl::set_up_contact() {
   setup.dimension = model.dimension;
   setup.axisymmetric = model.axisymmetric;
   setup.config = plan.contact;
+  setup.team = &elements.team();
   setup.softest_modulus = setup.thinnest = setup.wave_speed = std::numeric_limits<double>::infinity();
   std::size_t first_facet = 0;
   for (const BodyModel& body : model.bodies) {

@@ -40,7 +40,7 @@ TEST(ContactLaw, EndGapSolvesTheImplicitStepAndIsPositive) {
     ASSERT_NEAR(h, static_cast<double>(high), 1e-7 * static_cast<double>(high)) << g << " " << h0;
   }
   double h;
-  EXPECT_EQ(end_impulse(2, 1, 5, 1, 1, h), 0);
+  EXPECT_EQ(end_impulse(2.0, 1.0, 5.0, 1.0, 1, h), 0);
 }
 
 // A body of one row of nodes thrown on a plane: phi = m_A v^2 / (2 E h0) per

@@ -49,7 +49,7 @@ class Reduced {
     narrow_phase({features_, work_, world.modulus, layer_}, planes, true, reach, 0, list, near_);
     if (reduce_) reduce_(work_, near_.pairs);
     assign_layers(records_, work_, dt, layer_, layer_, near_.pairs);
-    solve_pairs(dt, 1e-3 * layer_, 50, work_, ties_, near_.pairs, near_.rubs);
+    sweeps_.solve(dt, 1e-3 * layer_, 50, work_, ties_, near_.pairs, near_.rubs);
     RelaxedPotential potential;
     records_.clear();
     for (ContactPair& pair : near_.pairs) relax_layer(.1 * dt, pair, potential, records_);
@@ -76,6 +76,7 @@ class Reduced {
   Features features_;
   Workspace work_;
   Narrow near_;
+  Sweeps sweeps_;
   std::vector<TiePair> ties_;
   std::vector<LayerRecord> records_;
 };

@@ -8,6 +8,8 @@
 // c = E A h0, so that the pressure is E (h0/h - 1).
 #include <cmath>
 
+#include "forming_sim/tensor/pack.h"
+
 namespace forming_sim {
 
 /// Force of a pair, N.
@@ -23,22 +25,18 @@ inline double mild_potential(double h, double h0, double c) {
 /// The gap h > 0 at the end of a step with h = g + dt w p, p = dt f(h): the
 /// positive root of h^2 - (g - a/h0) h - a = 0, a = c w dt^2. g is the gap
 /// without the pair's own impulse, of any sign; w the inverse mass that the
-/// pair feels. Call only where g < h0.
-inline double end_gap(double g, double h0, double c, double w, double dt) {
-  const double a = c * w * dt * dt, b = g - a / h0;
-  const double root = std::sqrt(b * b + 4 * a);
-  return b >= 0 ? (b + root) / 2 : 2 * a / (root - b);
+/// pair feels. Only for g < h0 and w > 0. T: double, or a Pack of pairs.
+template <class T> T end_gap(const T& g, const T& h0, const T& c, const T& w, double dt) {
+  const T a = c * w * T(dt * dt), b = g - a / h0;
+  const T root = sqrt(b * b + T(4.0) * a);
+  return select(b >= T(0.0), T(0.5) * (b + root), T(2.0) * a / (root - b));
 }
 
 /// The impulse that goes with the end gap, N s; 0 where g >= h0. Written as
 /// dt f(h), which stays exact where h is close to g.
-inline double end_impulse(double g, double h0, double c, double w, double dt, double& h) {
-  if (g >= h0) {
-    h = g;
-    return 0;
-  }
-  h = end_gap(g, h0, c, w, dt);
-  return h < h0 ? c * dt * (h0 - h) / (h * h0) : 0;
+template <class T> T end_impulse(const T& g, const T& h0, const T& c, const T& w, double dt, T& h) {
+  h = select(g >= h0, g, end_gap(g, h0, c, w, dt));
+  return select(h < h0, c * T(dt) * (h0 - h) / (h * h0), T(0.0));
 }
 
 }  // namespace forming_sim

@@ -4,6 +4,7 @@
 // [block][item][lane]. The last block is filled up with copies of its last cell;
 // the copies are computed and never read.
 #include "forming_sim/material/constants.h"
+#include "forming_sim/tensor/isa.h"
 #include "forming_sim/tensor/tensor.h"
 
 namespace forming_sim {
@@ -76,9 +77,8 @@ struct Kernels {
                   double* energy);
 };
 
-/// The widest kernels that this processor runs; `name` ("sse2", "avx2", "avx512")
-/// asks for one set. Throws Error(internal_error) where the processor lacks it.
-const Kernels& choose_kernels(const char* name = nullptr);
+/// The kernels of an instruction set that this processor has.
+const Kernels& kernels_of(Isa isa);
 
 namespace sse2 { const Kernels& kernels(); }
 namespace avx2 { const Kernels& kernels(); }

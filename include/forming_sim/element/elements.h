@@ -45,7 +45,7 @@ struct ElementOptions {
 class Elements {
  public:
   /// x: initial positions in the joined numbering; the memory starts there, free of stress.
-  /// kernels: see choose_kernels. Throws Error(mesh_error) for a volume that is not positive,
+  /// kernels: see choose_isa. Throws Error(mesh_error) for a volume that is not positive,
   /// and for a node of an axisymmetric body with x < 0.
   Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x, const ElementOptions& options, int threads,
            const char* kernels = nullptr);

@@ -39,6 +39,7 @@ typedef std::int64_t Bits __attribute__((vector_size(64)));
 
 struct Mask {
   Bits v;  ///< all ones where true
+  friend Mask operator&(Mask a, Mask b) { return {a.v & b.v}; }
 };
 
 struct Pack {
@@ -85,8 +86,8 @@ inline double sum(Pack a) {
 /// Four doubles anywhere in memory: a nodal record.
 typedef double Quad __attribute__((vector_size(32), aligned(8)));
 
-/// Loads kLanes nodal records and hands back their first three components.
-inline void gather_records(const double* const from[kLanes], Pack& x, Pack& y, Pack& z) {
+/// Loads kLanes nodal records and hands back their components.
+inline void gather_records(const double* const from[kLanes], Pack& x, Pack& y, Pack& z, Pack& fourth) {
   Quad q[kLanes];
   for (int l = 0; l < kLanes; ++l) q[l] = *reinterpret_cast<const Quad*>(from[l]);
   Lanes a[4];
@@ -98,6 +99,12 @@ inline void gather_records(const double* const from[kLanes], Pack& x, Pack& y, P
   x.v = __builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13);
   y.v = __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13);
   z.v = __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15);
+  fourth.v = __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+/// The first three alone.
+inline void gather_records(const double* const from[kLanes], Pack& x, Pack& y, Pack& z) {
+  Pack unused;
+  gather_records(from, x, y, z, unused);
 }
 
 /// Stores kLanes records of two doubles, one after the other.

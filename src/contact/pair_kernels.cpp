@@ -1,0 +1,133 @@
+// One visit of pairs in lanes, compiled once per vector width (see CMakeLists.txt);
+// only raw arrays and types of this width's namespace are used here.
+#include "forming_sim/contact/pair_pack.h"
+
+#include "forming_sim/contact/law.h"
+
+namespace forming_sim {
+namespace FORMING_SIM_ISA {
+namespace {
+
+struct Triple {
+  Pack x, y, z;
+};
+inline Triple load3(const double (*from)[kLanes]) { return {Pack::load(from[0]), Pack::load(from[1]), Pack::load(from[2])}; }
+inline Triple operator*(Pack s, const Triple& a) { return {s * a.x, s * a.y, s * a.z}; }
+inline Triple operator+(const Triple& a, const Triple& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Triple operator-(const Triple& a, const Triple& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Pack dot(const Triple& a, const Triple& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+/// u = sum_k b_k v_k; factor: b_k / m_k.
+inline Triple relative(const Movers& movers, const PairPack& p, Pack (&factor)[4]) {
+  Triple u{Pack(0.0), Pack(0.0), Pack(0.0)};
+  for (int k = 0; k < p.nodes; ++k) {
+    const double* from[kLanes];
+    for (int l = 0; l < kLanes; ++l) from[l] = movers.v + 4 * static_cast<long>(p.node[k][l]);
+    Triple v;
+    Pack inverse_mass;
+    gather_records(from, v.x, v.y, v.z, inverse_mass);
+    const Pack b = Pack::load(p.weight[k]);
+    u = u + b * v;
+    factor[k] = b * inverse_mass;
+  }
+  return u;
+}
+
+/// v_k += b_k / m_k P_k j.
+inline void push(const Movers& movers, const PairPack& p, const Pack (&factor)[4], const Triple& j) {
+  alignas(64) double impulse[4 * kLanes], share[kLanes];
+  store_quads(j.x, j.y, j.z, impulse);
+  for (int k = 0; k < p.nodes; ++k) {
+    factor[k].store(share);
+    for (int l = 0; l < kLanes; ++l) {
+      if (share[l] == 0) continue;
+      const int n = p.node[k][l];
+      Quad along = *reinterpret_cast<const Quad*>(impulse + 4 * l);
+      if (p.held)
+        if (const double* P = movers.projector[n])
+          along = Quad{P[0] * along[0] + P[1] * along[1] + P[2] * along[2], P[3] * along[0] + P[4] * along[1] + P[5] * along[2],
+                       P[6] * along[0] + P[7] * along[1] + P[8] * along[2], 0};
+      *reinterpret_cast<Quad*>(movers.v + 4 * static_cast<long>(n)) += share[l] * along;
+    }
+  }
+}
+
+/// The impulse j of the pair is replaced by the one that goes with its end-of-step
+/// gap, all others held; its friction by the nearest within the Coulomb cone.
+inline Pack visit(double dt, const Movers& movers, PairPack& p, RubPack* rub) {
+  Pack factor[4];
+  const Triple u = relative(movers, p, factor), normal = load3(p.normal);
+  const Pack before = Pack::load(p.impulse), layer = Pack::load(p.layer), w = Pack::load(p.w), zero(0.0);
+  const Pack vn = dot(normal, u);
+  const Pack now = Pack::load(p.gap) + Pack(dt) * vn;  // the end gap as things stand
+  const Pack g = now - Pack(dt) * w * before;          // without this pair
+  const Mask movable = w > zero;
+  if (!any(movable & (select(g < layer, layer, before) > zero))) return zero;
+  Pack h;
+  const Pack j = select(movable, end_impulse(g, layer, Pack::load(p.stiffness), w, dt, h), zero);
+  Pack change = select(movable, absolute(h - now), zero);
+  j.store(p.impulse);
+  Triple impulse = (j - before) * normal;
+  if (rub) {
+    const Triple had = load3(rub->slip), slip = u - vn * normal;
+    const Pack rub_w = Pack::load(rub->w), most = Pack::load(rub->friction) * j;
+    Triple q = had - Pack(1.0) / rub_w * slip;
+    const Pack size = sqrt(dot(q, q));
+    q = select(size > most, most / size, Pack(1.0)) * q;
+    q = {select(movable, q.x, zero), select(movable, q.y, zero), select(movable, q.z, zero)};
+    q.x.store(rub->slip[0]);
+    q.y.store(rub->slip[1]);
+    q.z.store(rub->slip[2]);
+    const Triple more = q - had;
+    impulse = impulse + more;
+    change = larger(change, sqrt(dot(more, more)) * rub_w * Pack(dt));
+  }
+  push(movers, p, factor, impulse);
+  return change;
+}
+
+void start(const Movers& movers, const PairPack* packs, const RubPack* rubs, long count) {
+  for (long i = 0; i < count; ++i) {
+    const PairPack& p = packs[i];
+    Pack factor[4];
+    relative(movers, p, factor);
+    Triple impulse = Pack::load(p.impulse) * load3(p.normal);
+    if (rubs) impulse = impulse + load3(rubs[i].slip);
+    push(movers, p, factor, impulse);
+  }
+}
+
+double sweep(double dt, const Movers& movers, PairPack* packs, RubPack* rubs, long count) {
+  Pack change(0.0);
+  if (rubs)
+    for (long i = 0; i < count; ++i) change = larger(change, visit(dt, movers, packs[i], rubs + i));
+  else
+    for (long i = 0; i < count; ++i) change = larger(change, visit(dt, movers, packs[i], nullptr));
+  double most = 0;
+  for (int l = 0; l < kLanes; ++l)
+    if (!(change[l] <= most)) most = change[l];
+  return most;
+}
+
+bool end_gaps(double dt, const Movers& movers, PairPack* packs, long count) {
+  const Pack zero(0.0);
+  Pack open(1.0);
+  for (long i = 0; i < count; ++i) {
+    PairPack& p = packs[i];
+    Pack factor[4];
+    const Pack h = Pack::load(p.gap) + Pack(dt) * dot(load3(p.normal), relative(movers, p, factor));
+    h.store(p.end_gap);
+    open = select(h > zero, open, select(Pack::load(p.w) > zero, zero, open));
+  }
+  return !any(open < Pack(1.0));
+}
+
+}  // namespace
+
+const PairKernels& pair_kernels() {
+  static const PairKernels k{start, sweep, end_gaps};
+  return k;
+}
+
+}  // namespace FORMING_SIM_ISA
+}  // namespace forming_sim
