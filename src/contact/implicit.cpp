@@ -10,6 +10,8 @@
 namespace forming_sim {
 
 namespace {
+constexpr double kTolerance = 1e-5;  ///< of h0: a pressure of 1e-5 E; the jitter that bodies at rest keep is of that size too
+
 /// Adds to a part of the times what has passed since the part before was done.
 class Laps {
  public:
@@ -146,7 +148,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
       laps.done(&ContactTimes::narrow);
       swept = SweepResult();
       if (near.pairs.empty() && tie_pairs.empty()) sweeps.start_from({});
-      else swept = sweeps.solve(dt, 1e-3 * layer, config.max_sweeps, work, tie_pairs, near.pairs, near.rubs);
+      else swept = sweeps.solve(dt, kTolerance * layer, config.max_sweeps, work, tie_pairs, near.pairs, near.rubs);
       laps.done(&ContactTimes::sweeps);
       double most = 0;
       for (int i = 0; i < work.body_entries; ++i) most = std::max(most, dot3(work.v[i], work.v[i]));

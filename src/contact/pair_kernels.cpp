@@ -52,9 +52,9 @@ inline void push(const Movers& movers, const PairPack& p, const Pack (&factor)[4
   }
 }
 
-/// The impulse j of the pair is replaced by the one that goes with its end-of-step
-/// gap, all others held; its friction by the nearest within the Coulomb cone.
-inline Pack visit(double dt, const Movers& movers, PairPack& p, RubPack* rub) {
+/// The impulse j of the pair moves by `omega` times the way to the one that goes with its end-of-step
+/// gap, all others held; its friction likewise, then to the nearest within the Coulomb cone.
+inline Pack visit(double dt, double omega, const Movers& movers, PairPack& p, RubPack* rub) {
   Pack factor[4];
   const Triple u = relative(movers, p, factor), normal = load3(p.normal);
   const Pack before = Pack::load(p.impulse), layer = Pack::load(p.layer), w = Pack::load(p.w), zero(0.0);
@@ -64,14 +64,15 @@ inline Pack visit(double dt, const Movers& movers, PairPack& p, RubPack* rub) {
   const Mask movable = w > zero;
   if (!any(movable & (select(g < layer, layer, before) > zero))) return zero;
   Pack h;
-  const Pack j = select(movable, end_impulse(g, layer, Pack::load(p.stiffness), w, dt, h), zero);
+  const Pack aim = end_impulse(g, layer, Pack::load(p.stiffness), w, dt, h);
+  const Pack j = select(movable, larger(before + Pack(omega) * (aim - before), zero), zero);
   Pack change = select(movable, absolute(h - now), zero);
   j.store(p.impulse);
   Triple impulse = (j - before) * normal;
   if (rub) {
     const Triple had = load3(rub->slip), slip = u - vn * normal;
     const Pack rub_w = Pack::load(rub->w), most = Pack::load(rub->friction) * j;
-    Triple q = had - Pack(1.0) / rub_w * slip;
+    Triple q = had - Pack(omega) / rub_w * slip;
     const Pack size = sqrt(dot(q, q));
     q = select(size > most, most / size, Pack(1.0)) * q;
     q = {select(movable, q.x, zero), select(movable, q.y, zero), select(movable, q.z, zero)};
@@ -97,12 +98,12 @@ void start(const Movers& movers, const PairPack* packs, const RubPack* rubs, lon
   }
 }
 
-double sweep(double dt, const Movers& movers, PairPack* packs, RubPack* rubs, long count) {
+double sweep(double dt, double omega, const Movers& movers, PairPack* packs, RubPack* rubs, long count) {
   Pack change(0.0);
   if (rubs)
-    for (long i = 0; i < count; ++i) change = larger(change, visit(dt, movers, packs[i], rubs + i));
+    for (long i = 0; i < count; ++i) change = larger(change, visit(dt, omega, movers, packs[i], rubs + i));
   else
-    for (long i = 0; i < count; ++i) change = larger(change, visit(dt, movers, packs[i], nullptr));
+    for (long i = 0; i < count; ++i) change = larger(change, visit(dt, omega, movers, packs[i], nullptr));
   double most = 0;
   for (int l = 0; l < kLanes; ++l)
     if (!(change[l] <= most)) most = change[l];

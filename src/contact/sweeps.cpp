@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <mutex>
 
 namespace forming_sim {
@@ -14,6 +15,12 @@ constexpr int kColours = 64;
 /// Colours of pairs without, then with friction; the last of each: pairs left over.
 constexpr int kBuckets = 2 * (kColours + 1);
 constexpr long kPacksOfAThread = 128;  ///< fewer are not worth another thread
+
+constexpr int kPlainSweeps = 3;        ///< before over-relaxation; pairs that share no node are done after two
+constexpr double kMostOmega = 1.9;
+
+/// The factor that is best where sweeps without it shrink the error by `rate` each (Young).
+double over_relaxation(double rate) { return std::min(kMostOmega, 2 / (1 + std::sqrt(1 - rate))); }
 
 int bucket_of(int colour, bool rubs) { return colour + (rubs ? kColours + 1 : 0); }
 bool left_over(int bucket) { return bucket % (kColours + 1) == kColours; }
@@ -111,12 +118,12 @@ template <class Work> void Sweeps::share(const Colour& colour, Work&& work) cons
 
 RubPack* Sweeps::rubs_of(const Colour& colour, long pack) { return colour.rub ? rub_packs_.data() + (pack - first_rub_) : nullptr; }
 
-double Sweeps::sweep(double dt, const Movers& movers) {
+double Sweeps::sweep(double dt, double omega, const Movers& movers) {
   std::mutex one;
   double most = 0;
   for (const Colour& c : colours_)
     share(c, [&](long first, long last) {
-      const double change = kernels_.sweep(dt, movers, packs_.data() + first, rubs_of(c, first), last - first);
+      const double change = kernels_.sweep(dt, omega, movers, packs_.data() + first, rubs_of(c, first), last - first);
       const std::lock_guard<std::mutex> lock(one);
       most = std::max(most, change);
     });
@@ -178,11 +185,15 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
   const Movers movers{work.v.front().data(), projector.data()};
   start(dt, movers, pairs);
   SweepResult result;
+  double omega = 1, before = 0;
   for (;;) {
     double change = 0;
     for (TiePair& tie : ties) change = std::max(change, sweep_tie(dt, work, tie));
-    change = std::max(change, sweep(dt, movers));
+    change = std::max(change, sweep(dt, omega, movers));
     ++result.sweeps;
+    if (result.sweeps == kPlainSweeps && change < before) omega = over_relaxation(change / before);
+    if (result.sweeps == most / 2) omega = 1;
+    before = change;
     if (change >= tolerance && result.sweeps < most) continue;
     result.open = end_gaps(dt, movers);
     if (result.open || result.sweeps >= most) break;

@@ -33,7 +33,7 @@ struct ContactConfig {
   double push_speed = 0;                ///< v_push
   double friction = 0;                  ///< of bodies against each other and themselves
   std::vector<PairConfig> pairs;
-  int max_sweeps = 50;
+  int max_sweeps = 100;
   int max_halvings = 30;
 
   template <class Visitor> static void declare(Visitor&& visit) {
@@ -46,7 +46,7 @@ struct ContactConfig {
     visit(FORMING_SIM_FIELD(push_speed), Field().unit("m/s").at_least(0).when("method", {"implicit"}).computed("the smaller of 0.1 m/s and 1e-3 of the wave speed").doc("speed at which the soft start lets the layer of a pair that is born close grow"));
     visit(FORMING_SIM_FIELD(friction), Field().at_least(0).at_most(10).doc("Coulomb friction of bodies against each other and against themselves; that of tools is theirs"));
     visit(FORMING_SIM_FIELD(pairs), Field().doc("pairs of surfaces that meet in another way than the rest"));
-    visit(FORMING_SIM_FIELD(max_sweeps), Field().at_least(1).at_most(1000).when("method", {"implicit"}).doc("most Gauss-Seidel sweeps in a step"));
+    visit(FORMING_SIM_FIELD(max_sweeps), Field().at_least(1).at_most(1000).when("method", {"implicit"}).doc("most Gauss-Seidel sweeps in a step; most steps need fewer"));
     visit(FORMING_SIM_FIELD(max_halvings), Field().at_least(1).at_most(60).when("method", {"implicit"}).doc("most halvings of one step before the run ends with a named error"));
   }
 };

@@ -3,6 +3,10 @@
 // the one that goes with its end-of-step gap, all others held, and its friction
 // impulse by the nearest one within the Coulomb cone.
 //
+// Where the first sweeps show that they will be slow, the later ones are over-relaxed, by
+// the factor that is best for the rate at which they shrank; in the second half of the
+// allowed number they are plain again, which cannot fail to approach.
+//
 // The pairs are visited colour by colour. Pairs of a colour share no node that can
 // move, so that within a colour the order does not matter: they are visited eight at
 // a time (pair_pack.h) and by all threads, and the result is that of one thread.
@@ -51,7 +55,7 @@ class Sweeps {
   void fill(const Workspace& work, const std::vector<ContactPair>& pairs, const std::vector<Rub>& rubs);
   template <class Work> void share(const Colour& colour, Work&& work) const;
   RubPack* rubs_of(const Colour& colour, long pack);
-  double sweep(double dt, const Movers& movers);
+  double sweep(double dt, double omega, const Movers& movers);
   bool end_gaps(double dt, const Movers& movers);
   void start(double dt, const Movers& movers, const std::vector<ContactPair>& pairs);
   void give_back(double dt, std::vector<ContactPair>& pairs, std::vector<Rub>& rubs);
