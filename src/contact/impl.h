@@ -18,7 +18,7 @@
 namespace forming_sim {
 
 struct Contact::Impl {
-  explicit Impl(Team* team) : sweeps(team) {}
+  explicit Impl(Team* team) : sweeps(team) { near.team = team; }
 
   enum class Method { implicit, explicit_mild, geometric };
   // ---- what does not change

@@ -20,7 +20,7 @@ bool rising(const ContactPair& a, const ContactPair& b) { return a.key < b.key; 
 class Phase {
  public:
   Phase(const PairConstants& constants, bool all, Narrow& result)
-      : constants_(constants), f_(constants.features), work_(constants.work), layer_(constants.layer), all_(all), out_(result) {}
+      : constants_(constants), f_(constants.features), work_(constants.work), layer_(constants.layer), all_(all), out_(result), finished_(result.pairs.size()) {}
 
   /// Looks at the facets of the group that are awake; sets when they need be looked at again.
   void group(NearList& list, int index, double reach, double travel, double awake) {
@@ -57,11 +57,12 @@ class Phase {
     finish();
   }
   /// After all vertices, before the edges: pairs of two vertices, found from either side.
-  void finish_corners() {
-    put_in_order(corners_);
-    out_.pairs.insert(out_.pairs.end(), corners_.begin(), corners_.end());
+  void finish_corners(std::vector<ContactPair>& corners) {
+    put_in_order(corners);
+    out_.pairs.insert(out_.pairs.end(), corners.begin(), corners.end());
     finish();
   }
+  std::vector<ContactPair>& corners() { return corners_; }
   void finish() {
     for (; finished_ < out_.pairs.size(); ++finished_) constants_.set(out_.pairs[finished_], out_.rubs);
   }
@@ -209,7 +210,7 @@ class Phase {
   std::vector<Hit> hits_;
   std::vector<ContactPair> corners_;  ///< pairs of two vertices
   int vertex_ = -1;                   ///< whose pairs are being found
-  size_t finished_ = 0;               ///< so many pairs are in order and complete
+  size_t finished_;                   ///< so many pairs are in order and complete
 };
 
 }  // namespace
@@ -241,22 +242,66 @@ void add_plane_pairs(const Features& features, const Workspace& work, const std:
   }
 }
 
+namespace {
+
+constexpr long kGroupsOfAThread = 500, kEdgesOfAThread = 1000;  ///< fewer are not worth another thread
+
+/// Appends what another thread has found.
+void join(const Narrow& share, Narrow& result) {
+  const int rubs = static_cast<int>(result.rubs.size());
+  for (const ContactPair& pair : share.pairs) {
+    result.pairs.push_back(pair);
+    if (pair.rub >= 0) result.pairs.back().rub += rubs;
+  }
+  result.rubs.insert(result.rubs.end(), share.rubs.begin(), share.rubs.end());
+  result.close.insert(result.close.end(), share.close.begin(), share.close.end());
+}
+
+/// Calls work(share, into, first, last) for every thread's share of `count` things, then joins what
+/// they found in the order of the things. together(i): i belongs to the share of i - 1.
+template <class Together, class Work> void share_out(long count, long least, Together&& together, Narrow& result, Work&& work) {
+  const long shares = result.team ? std::max(1L, std::min<long>(result.team->size(), count / least)) : 1;
+  if (shares == 1) return work(0, result, 0, count);
+  result.shares.resize(shares - 1);
+  std::vector<long> start(shares + 1, count);
+  for (long s = 0; s < shares; ++s)
+    for (start[s] = s * count / shares; start[s] > 0 && start[s] < count && together(start[s]);) ++start[s];
+  result.team->share(shares, 1, [&](long first, long last) {
+    for (long s = first; s < last; ++s) {
+      if (s > 0) result.shares[s - 1].pairs.clear(), result.shares[s - 1].rubs.clear(), result.shares[s - 1].close.clear();
+      work(static_cast<int>(s), s == 0 ? result : result.shares[s - 1], start[s], start[s + 1]);
+    }
+  });
+  for (const Narrow& share : result.shares) join(share, result);
+}
+
+}  // namespace
+
 void narrow_phase(const PairConstants& constants, const std::vector<PlanePose>& planes, bool all, double reach, double travel, NearList& list,
                   Narrow& result) {
   result.pairs.clear();
   result.rubs.clear();
   result.close.clear();
-  Phase phase(constants, all, result);
   add_plane_pairs(constants.features, constants.work, planes, constants.layer, reach, list, result.pairs);
-  phase.finish();
+  for (ContactPair& pair : result.pairs) constants.set(pair, result.rubs);
   // Distances are computed to rounding; the factor keeps the bound on its safe side.
   const double awake = (travel + reach) * (1 + 1e-12);
-  for (size_t i = 0; i < list.groups.size(); ++i)
-    if (list.groups[i].wake <= awake) phase.group(list, static_cast<int>(i), reach, travel, awake);
-  phase.finish_vertex();
-  phase.finish_corners();
-  for (size_t i = 0; i < list.edges.size(); ++i)
-    if (list.edges[i].wake <= awake) list.edges[i].wake = travel + phase.edges(list, static_cast<int>(i), reach);
+  std::vector<std::vector<ContactPair>> corners(result.team ? result.team->size() : 1);
+  const auto same_vertex = [&](long i) { return list.groups[i].vertex == list.groups[i - 1].vertex; };
+  share_out(static_cast<long>(list.groups.size()), kGroupsOfAThread, same_vertex, result, [&](int share, Narrow& into, long first, long last) {
+    Phase phase(constants, all, into);
+    for (long i = first; i < last; ++i)
+      if (list.groups[i].wake <= awake) phase.group(list, static_cast<int>(i), reach, travel, awake);
+    phase.finish_vertex();
+    corners[share].swap(phase.corners());
+  });
+  for (std::size_t s = 1; s < corners.size(); ++s) corners[0].insert(corners[0].end(), corners[s].begin(), corners[s].end());
+  Phase(constants, all, result).finish_corners(corners[0]);
+  share_out(static_cast<long>(list.edges.size()), kEdgesOfAThread, [](long) { return false; }, result, [&](int, Narrow& into, long first, long last) {
+    Phase phase(constants, all, into);
+    for (long i = first; i < last; ++i)
+      if (list.edges[i].wake <= awake) list.edges[i].wake = travel + phase.edges(list, static_cast<int>(i), reach);
+  });
 }
 
 }  // namespace forming_sim

@@ -36,6 +36,7 @@ struct World {
   std::vector<HeldNode> held;
   NodeField held_velocity;
   ContactConfig config;
+  Team* team = nullptr;
   double modulus = 70e9, thinnest = 1, wave_speed = 5000;
   double time = 0, before = 0;  ///< dt of the step before
   ContactStep last;
@@ -63,6 +64,7 @@ struct World {
     setup.softest_modulus = modulus;
     setup.thinnest = thinnest;
     setup.wave_speed = wave_speed;
+    setup.team = team;
     Contact contact(setup, x, motion(time, time));
     std::vector<double> inverse;
     for (double m : mass) inverse.push_back(1 / m);

@@ -11,6 +11,7 @@
 
 #include "forming_sim/contact/constants.h"
 #include "forming_sim/contact/list.h"
+#include "forming_sim/parallel/team.h"
 
 namespace forming_sim {
 
@@ -25,6 +26,9 @@ struct Narrow {
   std::vector<ContactPair> pairs;  ///< in the order of their keys, each once
   std::vector<Rub> rubs;           ///< of those that rub
   std::vector<ClosePair> close;    ///< for the continuous check
+
+  Team* team = nullptr;            ///< the threads; null: one. They change no result
+  std::vector<Narrow> shares;      ///< what the other threads find, before it is joined to the above
 };
 
 /// All pairs nearer than `reach`. Entries that were farther than reach + the
