@@ -32,7 +32,7 @@ Mesh flat_tool(int n) {
 /// whose mesh does not match.
 class PlateOverTool {
  public:
-  explicit PlateOverTool(int n) : x_(positions_of(plate(n))) {
+  PlateOverTool(int n, int threads) : x_(positions_of(plate(n))), team_(threads) {
     const Mesh body_mesh = plate(n);
     const Mesh tool = flat_tool(n);
     ContactSetup setup;
@@ -49,6 +49,7 @@ class PlateOverTool {
     setup.bodies = {body};
     setup.tools = {die};
     setup.tool_meshes = {&tool};
+    setup.team = &team_;
     for (Node& node : x_) node[2] += 1e-3;  // clear of the tool at the start
     contact_ = std::make_unique<Contact>(setup, x_, std::vector<ToolMotion>(1));
     contact_->set_masses(std::vector<double>(x_.size(), 1.0), {});
@@ -76,20 +77,21 @@ class PlateOverTool {
     return generate_blank(blank);
   }
   NodeField x_;
+  Team team_;
   std::unique_ptr<Contact> contact_;
 };
 
 /// Least times of the parts over some steps at the same gap; 223 x 223 squares make 100k triangles.
-void pair_costs(double gap, const std::string& name, std::vector<Row>& rows) {
+void pair_costs(double gap, int threads, const std::string& name, std::vector<Row>& rows) {
   const Clock clock;
-  PlateOverTool scene(223);
+  PlateOverTool scene(223, threads);
   ContactStep step = scene.step(gap);  // builds the list
-  ContactTimes least{1, 1, 1, 1, 1};
+  ContactTimes least{1, 1, 1, 1, 1, 1};
   for (int turn = 0; turn < 20; ++turn) {
     const ContactTimes before = scene.contact().times();
     step = scene.step(gap);
     const ContactTimes& after = scene.contact().times();
-    for (auto part : {&ContactTimes::list, &ContactTimes::narrow, &ContactTimes::sweeps, &ContactTimes::check, &ContactTimes::books})
+    for (auto part : {&ContactTimes::list, &ContactTimes::narrow, &ContactTimes::lanes, &ContactTimes::sweeps, &ContactTimes::check, &ContactTimes::books})
       least.*part = std::min(least.*part, after.*part - before.*part);
   }
   const double listed = static_cast<double>(scene.contact().listed_pairs()), active = static_cast<double>(step.active);
@@ -97,7 +99,7 @@ void pair_costs(double gap, const std::string& name, std::vector<Row>& rows) {
   rows.push_back(just(name, "listed pairs", listed, clock.seconds()));
   const double search = least.list + least.narrow + least.check;
   if (step.active == 0) {
-    rows.push_back(at_most(name, "ns a listed pair", per(search + least.sweeps + least.books, listed), 20, clock.seconds()));
+    rows.push_back(at_most(name, "ns a listed pair", per(search + least.lanes + least.sweeps + least.books, listed), 20, clock.seconds()));
     return;
   }
   rows.push_back(just(name, "active pairs", active, clock.seconds()));
@@ -105,6 +107,7 @@ void pair_costs(double gap, const std::string& name, std::vector<Row>& rows) {
   rows.push_back(at_most(name, "search, ns a listed pair", per(search, listed), 20, clock.seconds()));
   rows.push_back(just(name, "  of this closest points, layers", per(least.narrow, listed), clock.seconds()));
   rows.push_back(just(name, "  of this the continuous check", per(least.check, listed), clock.seconds()));
+  rows.push_back(just(name, "into colours and lanes and back, ns an active pair", per(least.lanes, active), clock.seconds()));
   rows.push_back(at_most(name, "sweeps, ns an active pair and sweep", per(least.sweeps, active * step.sweeps), 45, clock.seconds()));
   rows.push_back(just(name, "energies and forces, ns an active pair", per(least.books, active), clock.seconds()));
 }
@@ -151,8 +154,9 @@ void far_costs(std::vector<Row>& rows) {
 }  // namespace
 
 void contact_costs(std::vector<Row>& rows) {
-  pair_costs(3, "contact, 100k nodes on 100k facets, apart", rows);
-  pair_costs(0.9, "contact, 100k nodes on 100k facets, pressed", rows);
+  pair_costs(3, 1, "contact, 100k nodes on 100k facets, apart", rows);
+  pair_costs(0.9, 1, "contact, 100k nodes on 100k facets, pressed", rows);
+  pair_costs(0.9, 2, "the same by two threads", rows);
   far_costs(rows);
 }
 

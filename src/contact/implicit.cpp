@@ -149,7 +149,9 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
       swept = SweepResult();
       if (near.pairs.empty() && tie_pairs.empty()) sweeps.start_from({});
       else swept = sweeps.solve(dt, kTolerance * layer, config.max_sweeps, work, tie_pairs, near.pairs, near.rubs);
-      laps.done(&ContactTimes::sweeps);
+      laps.done(&ContactTimes::lanes);
+      times.lanes -= swept.seconds;
+      times.sweeps += swept.seconds;
       double most = 0;
       for (int i = 0; i < work.body_entries; ++i) most = std::max(most, dot3(work.v[i], work.v[i]));
       way = std::max(bound / 2, both * std::sqrt(most) * dt + tool_way);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <mutex>
 
@@ -185,6 +186,7 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
   const Movers movers{work.v.front().data(), projector.data()};
   start(dt, movers, pairs);
   SweepResult result;
+  const auto begin = std::chrono::steady_clock::now();
   double omega = 1, before = 0;
   for (;;) {
     double change = 0;
@@ -198,6 +200,7 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
     result.open = end_gaps(dt, movers);
     if (result.open || result.sweeps >= most) break;
   }
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   for (Node& v : work.v) v[3] = 0;
   give_back(dt, pairs, rubs);
   return result;

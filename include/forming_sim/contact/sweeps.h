@@ -22,6 +22,7 @@ namespace forming_sim {
 struct SweepResult {
   int sweeps = 0;
   bool open = true;       ///< every pair that can be moved ends with a gap > 0
+  double seconds = 0;     ///< that the sweeps took, without what comes before and after them
 };
 
 /// Keeps its memory from step to step.
