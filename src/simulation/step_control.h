@@ -8,17 +8,17 @@
 namespace forming_sim {
 
 struct StepControl {
-  double element_dt = 0;   ///< stable step of the limiting element, no safety, s
-  int element = -1;
+  double stable_dt = 0;    ///< no safety, s
+  int element = -1, node = -1;  ///< what limits it; neither: the whole mesh
+  bool longer = false;     ///< than time_step.limit node allows
   int interval = 1, until_next = 0;
 
   bool due() const { return until_next <= 0; }
-  void update(double dt, int limiting) {
-    const double ratio = element_dt > 0 ? dt / element_dt : 1;
+  void update(double dt) {
+    const double ratio = stable_dt > 0 ? dt / stable_dt : 1;
     if (ratio < 0.99) interval = std::max(1, interval / 4);
     else if (ratio > 0.998) interval = std::min(64, interval * 2);
-    element_dt = dt;
-    element = limiting;
+    stable_dt = dt;
     until_next = interval;
   }
 };
