@@ -23,7 +23,7 @@ SCENE = {
     'name': 'sliver', 'dimension': 2,
     'bodies': [{
         'name': 'sheet',
-        'mesh': {'unit_scale': 1.0, 'points': [[1e-3 * x, 1e-3 * y, 0.0] for y in range(3) for x in WIDE], 'cell_type': 'quadrilateral',
+        'mesh': {'unit_scale': 1.0, 'points': [[1e-3 * x, 1e-3 * y, 0.0] for y in range(3) for x in WIDE], 'cell_type': 'quadrilateral', 'pattern': 'one_point',
                  'cells': [n for row in range(2) for c in range(10) for n in (11 * row + c, 11 * row + c + 1, 11 * row + c + 12, 11 * row + c + 11)]},
         'material': {'density': 2710.0, 'youngs_modulus': 70.5e9, 'poissons_ratio': 0.34,
                      'hardening': {'curve': 'linear', 'yield_stress': 200e6, 'modulus': 500e6}},
@@ -71,8 +71,8 @@ class TimeStep(unittest.TestCase):
             self.assertIsNone(summary['options']['raised_step'])
             steps.append(summary['steps'])
             plastic.append(summary['energy_J']['plastic'])
-        self.assertGreater(steps[0], 1.05 * steps[1])
-        self.assertGreater(steps[1], 1.05 * steps[2])
+        self.assertGreater(steps[0], 2 * steps[1])
+        self.assertGreater(steps[1], steps[2])
         self.assertEqual(summary['time_step_s']['limited_by'], 'the whole mesh')
         cost = summary['options']['time_step']
         self.assertGreaterEqual(cost['estimates'], 1)
@@ -82,10 +82,10 @@ class TimeStep(unittest.TestCase):
 
     def test_mass_for_the_few_is_told(self):
         plain = self.run_scene({}, 'plain')
-        want = 5 * plain['time_step_s']['first']
+        want = 3.5 * plain['time_step_s']['first']
         summary = self.run_scene({'raise_to': want}, 'raised')
         self.assertGreaterEqual(summary['time_step_s']['first'], want * (1 - 1e-9))
-        self.assertLess(summary['steps'], 0.25 * plain['steps'])
+        self.assertLess(summary['steps'], 0.3 * plain['steps'])
         raised = summary['options']['raised_step']
         more = summary['bodies'][0]['mass'] - plain['bodies'][0]['mass']
         self.assertGreater(more, 0)
@@ -109,6 +109,16 @@ class TimeStep(unittest.TestCase):
         right = float(fault['remedy'].split('give at most ')[1].split(',')[0])
         self.run_scene({'raise_to': 0.99 * right}, 'right')
 
+    def test_the_whole_mesh_bears_more_than_the_cells_around_a_node(self):
+        """A crossed cell has a node of its own, to which no neighbour lends mass."""
+        bodies = copy.deepcopy(SCENE['bodies'])
+        bodies[0]['mesh']['pattern'] = 'fine'
+        steps = {}
+        for limit in ('node', 'global'):
+            self.assertEqual(self.call({'limit': limit}, limit, bodies=bodies).returncode, 0)
+            steps[limit] = self.summary(limit)['steps']
+        self.assertGreater(steps['node'], 1.8 * steps['global'])
+
     def test_what_does_not_fit_is_a_fault(self):
         run = self.call({'raise_to': 2e-7, 'maximum': 1e-7})
         self.assertNotEqual(run.returncode, 0)
@@ -124,7 +134,7 @@ class TimeStep(unittest.TestCase):
         self.assertIn('time_step.limit', run.stderr)
 
     def test_a_resumed_run_is_that_of_one_piece(self):
-        step = {'limit': 'global', 'raise_to': 1e-7}
+        step = {'limit': 'global', 'raise_to': 5e-8}
         whole = self.run_scene(step, 'whole')
         output = dict(SCENE['output'], checkpoint_interval=3e-5)
         self.assertEqual(self.call(step, 'parts', output=output).returncode, 0)
