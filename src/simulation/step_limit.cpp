@@ -38,7 +38,7 @@ void Simulation::Impl::find_stable_step() {
   control.node = -1;
   control.longer = false;
   const TimeStepConfig& config = plan.time_step;
-  if (config.limit == "element" && config.raise_to == 0) return control.update(cell.dt);
+  if (config.limit == "element" && config.raise_to == 0) return control.update(cell.dt, false);
 
   const NodalRates nodal = elements.sum_rates(rates);
   const NodeLimit node = slowest_node(nodal, elements.nodal_mass());
@@ -60,7 +60,7 @@ void Simulation::Impl::find_stable_step() {
       control.longer = true;
     }
   }
-  control.update(stable);
+  control.update(stable, control.longer);
 }
 
 void Simulation::Impl::raise_step() {
