@@ -30,14 +30,14 @@ Mesh mesh_with_slivers(const std::string& pattern, double thin) {
 }
 
 OneBody pulled(const std::string& pattern, double thin) {
-  OneBody run(body_of(mesh_with_slivers(pattern, thin), aluminium(true)), 4e-4);
+  OneBody run(body_of(mesh_with_slivers(pattern, thin), aluminium(true)), 2e-4);
   BoundaryConfig left, right;
   left.set = "left";
   left.kind = "fixed";
   right.set = "right";
   right.kind = "velocity";
   right.axes = {"x"};
-  right.times = {0, 1e-4, 3e-4, 4e-4};
+  right.times = {0, 5e-5, 1.5e-4, 2e-4};
   right.velocities = {Vec3::Zero(), Vec3(10, 0, 0), Vec3(10, 0, 0), Vec3::Zero()};
   run.plan.bodies[0].boundaries = {left, right};
   return run;
