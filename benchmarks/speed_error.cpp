@@ -14,7 +14,7 @@ std::vector<Row> speed_error(const Request& request) {
   };
   constexpr Problem problems[] = {{"bending", bending_problem}, {"cook", cook_problem},     {"taylor", taylor_problem},
                                   {"cube", cube_problem},       {"sphere", sphere_problem}, {"impact", impact_problem},
-                                  {"flange", flange_problem},   {"flange-time", flange_time_problem}, {"layers", layers_problem}};
+                                  {"flange", flange_problem},   {"flange-time", flange_time_problem}, {"slivers", slivers_problem}, {"layers", layers_problem}};
   std::string known;
   for (const Problem& problem : problems) known += (known.empty() ? "" : ", ") + std::string(problem.name);
   const auto asked = [&](const std::string& name) {

@@ -59,7 +59,7 @@ Flanged flange(const Scene& scene) {
     found.size = {static_cast<long>(blank.cells_along) * blank.cells_through, s["elements"], 2 * s["nodes"].get<long>(), s["steps"], s["wall_time_s"]};
     found.strain = s["surface_strain"]["at_end_of_forming"]["max"];
     found.springback = s["springback"]["change_deg"];
-    found.kinetic_over_internal = s["energy_J"]["kinetic_over_internal_formed"];
+    found.kinetic_over_internal = s["energy_J"]["kinetic_over_internal_forming"];
     found.ledger = s["energy_J"]["balance_error"];
     found.crossings = s["contact"]["crossings"];
   } catch (const std::runtime_error& error) {

@@ -14,7 +14,7 @@ struct Flanged {
   std::vector<double> force;   ///< on the punch, N/m, means over equal parts of its way
   double strain = 0;           ///< largest log strain of the surface, formed
   double springback = 0;       ///< degrees
-  double kinetic_over_internal = 0;  ///< energies, formed
+  double kinetic_over_internal = 0;  ///< energies, the largest while it is formed
   double ledger = 0;           ///< error of the energy balance over the work
   long crossings = 0;
   std::string failure;         ///< "": none

@@ -62,6 +62,7 @@ void sphere_problem(Report&);    ///< a thick sphere yields from inside
 void impact_problem(Report&);    ///< a bar in uniaxial strain hits a plane, and another bar
 void flange_problem(Report&);    ///< scenes/flange.yaml against its own finest mesh
 void flange_time_problem(Report&);  ///< the same: mass scaling, tool speed, time step
+void slivers_problem(Report&);   ///< a few thin cells in a pulled sheet: the limits of the step, mass for the few
 void layers_problem(Report&);    ///< one to ten layers of plasticity in a bent sheet
 
 }  // namespace forming_sim::bench

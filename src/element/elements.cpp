@@ -226,6 +226,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
     g.viscous_work = g.viscous.data();
     g.lowest_ratio = g.lowest.data();
   }
+  if (options.shares) keep_shares(x);
 }
 
 /// A thread gets 512 packs or more: below that, waiting for each other costs more.
@@ -287,6 +288,10 @@ void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, do
   for (const Group& g : groups_)
     for (double ratio : g.lowest)
       if (!(ratio > 0)) report_inversion(x);
+  sum_records(f);
+}
+
+void Elements::sum_records(NodeField& f) const {
   const bool flat = dimension_ == 2;
   team_->share(static_cast<long>(mass_.size()), kNodesOfAThread, [&](long first, long last) {
     for (long n = first; n < last; ++n) {
@@ -299,23 +304,6 @@ void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, do
       f[n] = sum;
     }
   });
-}
-
-void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const {
-  const NodalView view{x.data()->data(), v.data()->data(), inertia_.data(), nullptr, 0, 0};
-  dt = 1e300;
-  element = -1;
-  for (const Group& g : groups_) {
-    std::vector<BlockStep> steps(g.blocks);
-    team_->share(g.blocks, blocks_of_a_thread(g), [&](long first, long last) {
-      kernels_.time_step(g, view, static_cast<int>(first), static_cast<int>(last), steps.data());
-    });
-    for (int b = 0; b < g.blocks; ++b)
-      if (!(steps[b].dt >= dt)) {
-        dt = steps[b].dt;
-        element = g.first_element + std::min(b * kLanes + steps[b].lane, g.cells - 1) * g.parts;
-      }
-  }
 }
 
 Elements::Location Elements::locate(int element) const {

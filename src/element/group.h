@@ -14,6 +14,7 @@ struct Elements::Group : CellGroup {
   std::vector<Rest> rest;  ///< per block; empty where all are evaluated
   CurveTables curves;
   std::vector<Lane> memory_storage, constants_storage, hourglass_storage;
+  std::vector<double> share;  ///< [cell][node] kg, with ElementOptions::shares
   int parts = 0;  ///< simplices of a cell, all of them its one point's in a one-point cell
   int first_element = 0;
   long first_record = 0;

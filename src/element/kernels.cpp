@@ -291,7 +291,7 @@ template <class Cell>
 using CellBound = std::conditional_t<Cell::one_point, OnePointBound<Pack, kD<Cell>>, StepBound<Pack, kD<Cell>, Cell::nodes, Cell::ring>>;
 
 template <class Cell>
-[[gnu::flatten]] BlockStep step_of_block(const CellGroup& g, const NodalView& view, long block) {
+[[gnu::flatten]] void rates_of_block(const CellGroup& g, const NodalView& view, long block, BlockRates& out) {
   constexpr int D = kD<Cell>;
   const double* constants = constants_of<Cell>(g, block);
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
@@ -320,11 +320,9 @@ template <class Cell>
     volume_and_rate<Cell>(constants, x, v, V, rate, size);
     rate = absolute(rate / V);
   }
-  const Pack dt = bound.step(rate);
-  BlockStep r{dt[0], 0};
-  for (int l = 1; l < kLanes; ++l)
-    if (!(dt[l] >= r.dt)) r = {dt[l], l};  // a NaN wins
-  return r;
+  const StepRates<Pack> rates = bound.rates(rate);
+  rates.omega2.store(out.omega2.value);
+  rates.damping.store(out.damping.value);
 }
 
 template <class Cell>
@@ -405,9 +403,9 @@ void volumes(const CellGroup& g, const NodalView& view, int first, int last) {
     for (int b = first; b < last; ++b) volumes_of_block<decltype(cell)>(g, view, b);
   });
 }
-void time_step(const CellGroup& g, const NodalView& view, int first, int last, BlockStep* out) {
+void rates(const CellGroup& g, const NodalView& view, int first, int last, BlockRates* out) {
   with_cell(g, [&](auto cell) {
-    for (int b = first; b < last; ++b) out[b] = step_of_block<decltype(cell)>(g, view, b);
+    for (int b = first; b < last; ++b) rates_of_block<decltype(cell)>(g, view, b, out[b]);
   });
 }
 void observe(const CellGroup& g, const NodalView& view, int first, int last, double* stress, double* ratio,
@@ -423,7 +421,7 @@ void observe(const CellGroup& g, const NodalView& view, int first, int last, dou
 }  // namespace
 
 const Kernels& kernels() {
-  static const Kernels k{FORMING_SIM_NAME(FORMING_SIM_ISA), forces, volumes, time_step, observe};
+  static const Kernels k{FORMING_SIM_NAME(FORMING_SIM_ISA), forces, volumes, rates, observe};
   return k;
 }
 

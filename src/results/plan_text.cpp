@@ -92,6 +92,10 @@ std::string plan_text(const Simulation& simulation) {
   if_any(step.linear_viscosity > 0 || step.quadratic_viscosity > 0, "bulk viscosity", "bulk viscosity");
   if_any(step.mass_scaling != 1, "masses times " + number_text(step.mass_scaling), "mass scaling");
 
+  lines.start("step");
+  lines.add("by " + std::string(step.limit == "element" && step.raise_to > 0 ? "node" : step.limit));
+  if_any(step.raise_to > 0, "mass added for " + number_text(step.raise_to) + " s: " + number_text(100 * simulation.added_mass().fraction) + " %", "mass added for the step");
+
   lines.start("contact");
   const std::vector<SurfacePair> surface_pairs = simulation.surface_pairs();
   bool rubs = false;

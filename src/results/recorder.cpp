@@ -18,8 +18,10 @@ void Recorder::on_stage_end(const Simulation& simulation, int index) {
   look(simulation);
   const StageConfig& stage = simulation.plan().stages[index];
   const Energies& energies = simulation.energies();
-  const StageRecord ended{stage.name.empty() ? stage.kind : stage.name, stage.kind, simulation.time(),
-                          energies.kinetic, energies.elastic, energies.plastic};
+  StageRecord ended{stage.name.empty() ? stage.kind : stage.name, stage.kind, simulation.time(),
+                    energies.kinetic, energies.elastic, energies.plastic};
+  ended.kinetic_over_internal_peak = record_.kinetic_peak.at_end(energies.elastic + energies.plastic);
+  record_.kinetic_peak.levels.clear();
   record_.stages.push_back(ended);
   if (stage.kind != "form") return;
   const Measures& measures = gauge_.at(simulation);
@@ -27,6 +29,8 @@ void Recorder::on_stage_end(const Simulation& simulation, int index) {
   record_.kinetic_over_internal_formed.reset();
   if (std::isfinite(ended.kinetic_over_internal()))
     record_.kinetic_over_internal_formed = ended.kinetic_over_internal();
+  if (std::isfinite(ended.kinetic_over_internal_peak))
+    record_.kinetic_over_internal_forming = std::max(record_.kinetic_over_internal_forming.value_or(0), ended.kinetic_over_internal_peak);
   if (!output_.springback) return;
   const double angle =
       springback_angle_deg(*output_.springback, simulation.model().dimension, gauge_.probes(), measures.probes);
@@ -39,6 +43,8 @@ void Recorder::on_end(const Simulation& simulation, Code code, const std::string
 }
 
 void Recorder::look(const Simulation& simulation) {
+  const Energies& energies = simulation.energies();
+  record_.kinetic_peak.look(energies.kinetic, energies.elastic + energies.plastic);
   const Measures& now = gauge_.at(simulation);
   if (now.thickness) {
     if (!record_.thickness_initial) record_.thickness_initial = now.thickness;

@@ -1,5 +1,7 @@
 #include "forming_sim/results/run_record.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -20,10 +22,13 @@ Peak peak(const json& j) { return {j.at("value"), j.at("element"), vector(j.at("
 
 json of(const StageRecord& stage) {
   return {{"name", stage.name},       {"kind", stage.kind},       {"end_time", stage.end_time},
-          {"kinetic", stage.kinetic}, {"elastic", stage.elastic}, {"plastic", stage.plastic}};
+          {"kinetic", stage.kinetic}, {"elastic", stage.elastic}, {"plastic", stage.plastic},
+          {"kinetic_over_internal_peak", std::isfinite(stage.kinetic_over_internal_peak) ? json(stage.kinetic_over_internal_peak) : json(nullptr)}};
 }
 StageRecord stage(const json& j) {
-  return {j.at("name"), j.at("kind"), j.at("end_time"), j.at("kinetic"), j.at("elastic"), j.at("plastic")};
+  StageRecord stage{j.at("name"), j.at("kind"), j.at("end_time"), j.at("kinetic"), j.at("elastic"), j.at("plastic")};
+  if (!j.at("kinetic_over_internal_peak").is_null()) stage.kinetic_over_internal_peak = j.at("kinetic_over_internal_peak");
+  return stage;
 }
 
 json of(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
@@ -32,6 +37,23 @@ std::optional<double> number(const json& j) {
 }
 
 }  // namespace
+
+namespace {
+int level_of(double internal) { return static_cast<int>(std::floor(std::log(internal) / std::log(1.01))); }
+}  // namespace
+
+void KineticPeak::look(double kinetic, double internal) {
+  if (!(internal > 0) || !std::isfinite(kinetic / internal)) return;
+  double& most = levels[level_of(internal)];
+  most = std::max(most, kinetic / internal);
+}
+
+double KineticPeak::at_end(double internal) const {
+  double most = std::numeric_limits<double>::quiet_NaN();
+  if (!(internal > 0)) return most;
+  for (auto level = levels.lower_bound(level_of(kMeaningful * internal)); level != levels.end(); ++level) most = std::fmax(most, level->second);
+  return most;
+}
 
 double StageRecord::kinetic_over_internal() const {
   const double internal = elastic + plastic;
@@ -45,10 +67,13 @@ std::string RunRecord::to_json() const {
             {"surface_strain_formed", surface_strain_formed ? of(*surface_strain_formed) : json(nullptr)},
             {"angle_formed_deg", of(angle_formed_deg)},
             {"kinetic_over_internal_formed", of(kinetic_over_internal_formed)},
+            {"kinetic_over_internal_forming", of(kinetic_over_internal_forming)},
+            {"kinetic_peak", json::array()},
             {"stages", json::array()},
             {"notes", notes},
             {"history_time", history_time},
             {"history_impulses", json::array()}};
+  for (const auto& [level, most] : kinetic_peak.levels) j["kinetic_peak"].push_back({level, most});
   for (const StageRecord& s : stages) j["stages"].push_back(of(s));
   for (const Vec3& impulse : history_impulses) j["history_impulses"].push_back(of(impulse));
   return j.dump();
@@ -64,6 +89,8 @@ RunRecord RunRecord::from_json(const std::string& text) {
     if (!j.at("surface_strain_formed").is_null()) record.surface_strain_formed = peak(j.at("surface_strain_formed"));
     record.angle_formed_deg = number(j.at("angle_formed_deg"));
     record.kinetic_over_internal_formed = number(j.at("kinetic_over_internal_formed"));
+    record.kinetic_over_internal_forming = number(j.at("kinetic_over_internal_forming"));
+    for (const json& level : j.at("kinetic_peak")) record.kinetic_peak.levels[level.at(0)] = level.at(1);
     for (const json& s : j.at("stages")) record.stages.push_back(stage(s));
     record.notes = j.at("notes").get<std::vector<std::string>>();
     record.history_time = j.at("history_time");

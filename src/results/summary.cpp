@@ -53,19 +53,33 @@ Json energies(const Simulation& simulation, const RunRecord& record) {
           {"initial", number(e.initial)},
           {"balance_error", number(simulation.balance_error())},
           {"kinetic_over_internal", number(ratio(e.kinetic, e.elastic + e.plastic))},
-          {"kinetic_over_internal_formed", number(record.kinetic_over_internal_formed)}};
+          {"kinetic_over_internal_formed", number(record.kinetic_over_internal_formed)},
+          {"kinetic_over_internal_forming", number(record.kinetic_over_internal_forming)}};
 }
 
 /// The numerical options of the scene and what each took from the run or added to it.
 Json options(const Simulation& simulation, const Scene& scene) {
   const Energies& e = simulation.energies();
   const TimeStepConfig& c = scene.time_step;
-  double mass = 0;
+  const AddedMass& added = simulation.added_mass();
+  const GlobalLimitCost cost = simulation.global_limit_cost();
+  double mass = -added.total;
   for (double m : simulation.nodal_mass()) mass += m;
+  Json raised = nullptr;
+  if (c.raise_to > 0) {
+    const Model& model = simulation.model();
+    raised = {{"to_s", number(c.raise_to)}, {"added_mass_kg", number(added.total)}, {"fraction", number(added.fraction)}, {"bodies", Json::array()}, {"most", nullptr}};
+    for (std::size_t b = 0; b < model.bodies.size(); ++b)
+      raised["bodies"].push_back({{"name", model.bodies[b].name}, {"added_mass_kg", number(added.bodies[b])}});
+    if (added.node >= 0)
+      raised["most"] = {{"node", added.node}, {"added_mass_kg", number(added.most)}, {"position", vector(vec3(simulation.initial_positions()[added.node]))}};
+  }
   return {{"bulk_viscosity", {{"linear", number(c.linear_viscosity)}, {"quadratic", number(c.quadratic_viscosity)}, {"dissipated_J", number(e.viscosity)}}},
           {"damping", {{"rate_1_s", number(c.damping)}, {"dissipated_J", number(e.damping - e.viscosity - e.settling)}}},
           {"settling", {{"dissipated_J", number(e.settling)}}},
-          {"mass_scaling", {{"factor", number(c.mass_scaling)}, {"added_mass_kg", number(mass * (1 - 1 / c.mass_scaling))}}}};
+          {"mass_scaling", {{"factor", number(c.mass_scaling)}, {"added_mass_kg", number(mass * (1 - 1 / c.mass_scaling))}}},
+          {"time_step", {{"limit", c.limit}, {"estimates", cost.estimates}, {"products", cost.products}, {"share_of_longer_steps", number(cost.share)}}},
+          {"raised_step", raised}};
 }
 
 Json bodies(const Simulation& simulation) {
@@ -121,7 +135,8 @@ Json stages(const RunRecord& record) {
                     {"end_time_s", number(stage.end_time)},
                     {"kinetic_J", number(stage.kinetic)},
                     {"internal_J", number(stage.elastic + stage.plastic)},
-                    {"kinetic_over_internal", number(stage.kinetic_over_internal())}});
+                    {"kinetic_over_internal", number(stage.kinetic_over_internal())},
+                    {"kinetic_over_internal_peak", number(stage.kinetic_over_internal_peak)}});
   return list;
 }
 

@@ -21,6 +21,8 @@ void check_bodies(const Scene& scene, FaultList& faults);
 void check_tools(const Scene& scene, FaultList& faults);
 /// Pairs name bodies and tools, each once; what says the same thing of the contact twice.
 void check_contact(const Scene& scene, FaultList& faults);
+/// Steps that fit each other, and a limit that all materials know.
+void check_time_step(const Scene& scene, FaultList& faults);
 /// Stages that refer to tools, probes that refer to bodies, frames.
 void check_stages(const Scene& scene, FaultList& faults);
 void check_output(const Scene& scene, FaultList& faults);

@@ -24,6 +24,7 @@ std::vector<Fault> check_scene(const Scene& scene) {
   check_bodies(scene, list);
   check_tools(scene, list);
   check_contact(scene, list);
+  check_time_step(scene, list);
   check_stages(scene, list);
   check_output(scene, list);
   merge_faults(faults, between);

@@ -12,9 +12,11 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   for (double* value : {&time, &dt, &previous_dt, &work, &damping, &settled_away, &friction, &contact_dissipated, &contact_potential,
                         &initial, &most, &min_gap, &explicit_stable_dt, &first_dt, &first_element_dt, &smallest.dt, &next_crossing_check, &wall})
     a.number(*value);
-  for (long* value : {&steps, &halvings, &active_pairs, &crossings}) a.number(*value);
+  for (long* value : {&steps, &halvings, &active_pairs, &crossings, &longer_steps}) a.number(*value);
   a.raw(control);
+  if (plan.time_step.limit == "global") global.exchange(a, static_cast<std::size_t>(elements.blocks()) * kLanes);
   a.number(smallest.element);
+  a.number(smallest.node);
   a.text(smallest.reason);
   a.raw(settle);
   a.raw(unsettled);

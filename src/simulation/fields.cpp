@@ -29,6 +29,12 @@ const std::vector<std::string>& Simulation::warnings() const { return impl_->war
 
 namespace {
 StepLimit described(StepLimit limit, const Model& model) {
+  if (limit.node >= 0)
+    for (const BodyModel& body : model.bodies)
+      if (limit.node < body.first_node + body.node_count) {
+        limit.reason = "node " + std::to_string(limit.node) + " of body " + body.name;
+        break;
+      }
   if (limit.element >= 0)
     for (const BodyModel& body : model.bodies)
       if (limit.element < body.first_element + body.element_count) {
@@ -41,6 +47,11 @@ StepLimit described(StepLimit limit, const Model& model) {
 
 StepLimit Simulation::step_limit() const { return described(impl_->limit, impl_->model); }
 StepLimit Simulation::smallest_step() const { return described(impl_->smallest, impl_->model); }
+const AddedMass& Simulation::added_mass() const { return impl_->added; }
+GlobalLimitCost Simulation::global_limit_cost() const {
+  const Impl& s = *impl_;
+  return {s.global.estimates, s.global.products, s.steps > 0 ? static_cast<double>(s.longer_steps) / static_cast<double>(s.steps) : 0};
+}
 
 const Energies& Simulation::energies() const {
   const Impl& s = *impl_;

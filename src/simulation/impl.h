@@ -7,6 +7,7 @@
 #include "forming_sim/loads/boundary.h"
 #include "forming_sim/loads/pressure.h"
 #include "forming_sim/simulation/simulation.h"
+#include "simulation/global_limit.h"
 #include "simulation/settle.h"
 #include "simulation/stages.h"
 #include "simulation/step_control.h"
@@ -38,7 +39,11 @@ struct Simulation::Impl {
   double time = 0, dt = 0, previous_dt = 0;
   long steps = 0;
   StepControl control;
+  GlobalLimit global;
+  CellRates rates;                  ///< when the stable step was last asked for
   StepLimit limit, smallest;
+  AddedMass added;
+  long longer_steps = 0;            ///< than time_step.limit node allows
   double first_dt = 0;
   double first_element_dt = 0;  ///< stable step of the limiting element at the start, s
   Settle settle, unsettled;         ///< of the running stage; of the last that ran into its limit
@@ -69,10 +74,15 @@ struct Simulation::Impl {
   std::vector<ToolMotion> tool_motions(double from, double to) const;
   void place_tools();
 
-  // step.cpp
-  /// dt of the coming step: the elements' bound, the user's limit, the stage's end.
+  // step_limit.cpp
+  /// dt of the coming step: what the mesh bears, the user's limit, the stage's end.
   void choose_dt();
+  void find_stable_step();
+  /// Gives mass to the nodes around which the step is below time_step.raise_to. Throws SceneError.
+  void raise_step();
   [[noreturn]] void collapse(double stable, int element) const;
+
+  // step.cpp
   /// v* = v + (dt_previous + dt)/2 f/m with damping and prescribed motion; f is complete.
   void predict(double step_dt, NodeField& v_star) const;
   void take_step();

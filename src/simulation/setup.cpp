@@ -55,9 +55,11 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
     : plan(p), model(std::move(m)), X(initial_positions_of(model)), x(X),
       v(X.size(), Node::Zero()), v_before(v), f(v),
       elements(model.bodies, model.dimension, X,
-               {p.time_step.mass_scaling, p.time_step.linear_viscosity, p.time_step.quadratic_viscosity, model.axisymmetric}, n),
+               {p.time_step.mass_scaling, p.time_step.linear_viscosity, p.time_step.quadratic_viscosity,
+                p.time_step.limit != "element" || p.time_step.raise_to > 0, model.axisymmetric}, n),
       stages(plan.stages, model), contact_pressure(X.size(), 0.0), node_impulse(contact_pressure) {
   set_up_loads();
+  raise_step();
   set_up_contact();
   double kinetic = 0;
   for (std::size_t i = 0; i < v.size(); ++i) kinetic += 0.5 * elements.nodal_mass()[i] * v[i].squaredNorm();
@@ -92,7 +94,7 @@ void Simulation::Impl::set_up_loads() {
 }
 
 void Simulation::Impl::set_up_contact() {
-  warnings = model.notes;
+  warnings.insert(warnings.end(), model.notes.begin(), model.notes.end());
   tools.resize(model.tools.size());
   place_tools();
   // What can meet: a body and a tool, two bodies, a body and itself.

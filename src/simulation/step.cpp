@@ -1,4 +1,4 @@
-// One step: the stable dt, forces, the kick, contact, and the ledger's sums.
+// One step: forces, the kick, contact, and the ledger's sums.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <sstream>
@@ -10,33 +10,6 @@ namespace forming_sim {
 
 namespace {
 constexpr double kForceMeanSteps = 50;  ///< tool forces and contact pressures are running means over about this many steps
-constexpr double kCollapse = 1e-3;     ///< an element whose stable step falls to this part of the first is no element any more
-}
-
-void Simulation::Impl::choose_dt() {
-  if (control.due()) {
-    double stable = 0;
-    int element = -1;
-    elements.stable_step(x, v, stable, element);
-    control.update(stable, element);
-    if (first_element_dt == 0) first_element_dt = stable;
-    if (stable < kCollapse * first_element_dt) collapse(stable, element);
-  }
-  const TimeStepConfig& config = plan.time_step;
-  dt = config.safety * control.element_dt;
-  limit = {dt, control.element, {}};
-  if (config.maximum > 0 && config.maximum < dt) dt = config.maximum, limit = {dt, -1, "time_step.maximum"};
-  if (steps == 0) first_dt = dt;
-  if (smallest.dt == 0 || limit.dt < smallest.dt) smallest = limit;
-  const double left = stages.remaining(time);
-  if (left < 2 * dt) dt = left > dt * (1 + 1e-9) ? 0.5 * left : left;
-}
-
-void Simulation::Impl::collapse(double stable, int element) const {
-  std::ostringstream text;
-  text << "at time " << time << " s the stable step of element " << element << " has fallen to " << stable << " s, from " << first_element_dt
-       << " s at the start: the element is squeezed flat. Refine the mesh there, lower the speed or the stroke of what presses on it, or check the material";
-  throw Error(Code::mesh_error, text.str());
 }
 
 void Simulation::Impl::predict(double step_dt, NodeField& v_star) const {
@@ -54,6 +27,7 @@ void Simulation::Impl::take_step() {
   v_before = v;
   choose_dt();
   --control.until_next;
+  if (control.longer) ++longer_steps;
   elements.forces(x, v, previous_dt, dt, f);
   NodeField external;
   if (loaded) {

@@ -8,17 +8,25 @@
 namespace forming_sim {
 
 struct StepControl {
-  double element_dt = 0;   ///< stable step of the limiting element, no safety, s
-  int element = -1;
+  double stable_dt = 0;    ///< no safety, s
+  int element = -1, node = -1;  ///< what limits it; neither: the whole mesh
+  bool longer = false;     ///< than time_step.limit node allows
+  double bound = 0;        ///< what was found last, s
   int interval = 1, until_next = 0;
 
   bool due() const { return until_next <= 0; }
-  void update(double dt, int limiting) {
-    const double ratio = element_dt > 0 ? dt / element_dt : 1;
+  /// dt: the bound now. close: it has little to spare, and is taken for what it will have fallen to
+  /// by the next time if it goes on falling as it did since the last.
+  void update(double dt, bool close) {
+    const double ratio = bound > 0 ? dt / bound : 1, fall = std::max(0.0, 1 - ratio) / interval;
     if (ratio < 0.99) interval = std::max(1, interval / 4);
     else if (ratio > 0.998) interval = std::min(64, interval * 2);
-    element_dt = dt;
-    element = limiting;
+    bound = stable_dt = dt;
+    if (close) {
+      interval = std::min(interval, 32);
+      while (interval > 1 && fall * interval > 0.01) interval /= 2;
+      stable_dt = dt * std::max(0.9, 1 - fall * interval);
+    }
     until_next = interval;
   }
 };

@@ -56,10 +56,10 @@ struct NodalView {
   double last_dt = 0;                 ///< s, in which v led to x, for Law::classical
 };
 
-/// Result of the time-step pass for one block.
-struct BlockStep {
-  double dt;   ///< s, stable step of the most restrictive lane
-  int lane;
+/// What bounds the step of the cells of one block (element/time_step.h).
+struct BlockRates {
+  Lane omega2;   ///< 1/s2
+  Lane damping;  ///< 1/s, of bulk viscosity
 };
 
 /// The kernels of one vector width, for blocks [first, last) of a group.
@@ -69,8 +69,8 @@ struct Kernels {
   void (*forces)(const CellGroup&, const NodalView&, int first, int last);
   /// Share of the current volume of each cell node into `records` ([block][cell node][lane]).
   void (*volumes)(const CellGroup&, const NodalView&, int first, int last);
-  /// Stable time step by the bound of element/time_step.h.
-  void (*time_step)(const CellGroup&, const NodalView&, int first, int last, BlockStep* out);
+  /// The bounds of element/time_step.h, [block].
+  void (*rates)(const CellGroup&, const NodalView&, int first, int last, BlockRates* out);
   /// Cauchy stress [block][simplex][6][lane], V/V0 [block][simplex][lane] and stored
   /// deviatoric plus volumetric energy [block], without changing the memory.
   void (*observe)(const CellGroup&, const NodalView&, int first, int last, double* stress, double* ratio,

@@ -10,6 +10,7 @@
 #include "forming_sim/element/cell_group.h"
 #include "forming_sim/config/fault.h"
 #include "forming_sim/element/body.h"
+#include "forming_sim/element/step_bounds.h"
 #include "forming_sim/element/stillness.h"
 #include "forming_sim/parallel/team.h"
 #include "forming_sim/tensor/vec.h"
@@ -39,6 +40,7 @@ struct GroupPlan {
 struct ElementOptions {
   double mass_scaling = 1;
   double linear_viscosity = 0, quadratic_viscosity = 0;
+  bool shares = false;        ///< keep what each cell has of its nodes' masses: sum_rates()
   bool axisymmetric = false;  ///< the section of dimension 2 is turned about the y axis: x is the radius, volumes, masses and forces are those of the whole circle
 };
 
@@ -64,6 +66,20 @@ class Elements {
   /// Stable time step at x, without a safety factor: dt and the simplex' cell.
   void stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const;
 
+  // element/step_bounds.h
+  void find_rates(const NodeField& x, const NodeField& v, CellRates& rates) const;
+  CellLimit slowest_cell(const CellRates& rates) const;
+  /// Sums over the cells at each node; only with ElementOptions::shares.
+  NodalRates sum_rates(const CellRates& rates) const;
+  /// kg more on each node, for good. It changes no cell's own rates.
+  void add_mass(const std::vector<double>& kg);
+
+  double slowest_wave() const;  ///< sqrt((K + 4 mu/3)/rho) of the slowest material, masses scaled, m/s
+
+  /// f = internal forces at x as if nothing yielded on the way from the last positions: a change of
+  /// x gives the elastic tangent. Without viscosity; no memory changes. Not of Law::classical.
+  void elastic_forces(const NodeField& x, NodeField& f);
+
   long blocks() const;           ///< of cells, over all groups
   long blocks_at_rest() const;   ///< of those, passed over by the last forces(): see element/stillness.h
   double plastic_work() const;   ///< dissipated so far, J
@@ -85,6 +101,8 @@ class Elements {
   [[noreturn]] void report_inversion(const NodeField& x) const;
   void check_axis(const NodeField& x) const;
   void nodal_pressure(const NodalView& view) const;
+  void keep_shares(const NodeField& X);
+  void sum_records(NodeField& f) const;
   /// Those of the blocks whose nodes moved, or whose memory the last evaluation changed.
   void forces_of_moved(Group& g, const NodalView& view);
   static long blocks_of_a_thread(const Group& group);

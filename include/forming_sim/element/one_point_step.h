@@ -59,7 +59,7 @@ template <class T, int D> class OnePointBound {
   }
 
   /// rate: |dV/dt|/V, for the quadratic viscosity.
-  T step(const T& rate) const { return damped_step<T, D>(g_, omega2_, sum_, V_, V_, rate); }
+  StepRates<T> rates(const T& rate) const { return {omega2_, viscous_damping<T, D>(g_, sum_, V_, V_, rate)}; }
 
  private:
   static void add(Symmetric<T, D>& S, const T& k, const Vector<T, D>& a, const Vector<T, D>& b) {

@@ -15,8 +15,7 @@
 //   With a share theta of the element's own pressure the two add up. With p per element it is the element's own; with p per node the element's
 //   own bounds it (the squares of means do not exceed the means of squares).
 // Bulk viscosity eta = rho l (b1 c + b2^2 l |D|) adds the damping
-//   xi = omega_eta^2 / (2 omega), omega_eta^2 = eta/V sum_a |dV/dx_a|^2 / m_a
-// and the step becomes 2/omega (sqrt(1 + xi^2) - xi).
+//   C = eta/V sum_a |dV/dx_a|^2 / m_a;  what the step becomes: element/step_bounds.h.
 #include "forming_sim/element/cell_group.h"
 #include "forming_sim/element/ring_step.h"
 #include "forming_sim/material/law.h"
@@ -43,19 +42,19 @@ template <class T, int D> T shape_bound(const Symmetric<T, D>& S, T& I1) {
   return larger(T(2.0) * (I1 * T(1.0 / 3) + root), shear);
 }
 
-/// 2/omega, less what bulk viscosity takes. sum: sum_a |dV/dx_a|^2 / m_a; rate: |dV/dt|/V.
-template <class T, int D> T damped_step(const CellGroup& g, const T& omega2, const T& sum, const T& V, const T& extent, const T& rate) {
-  const T omega = sqrt(omega2);
-  T dt = T(2.0) / omega;
-  if (g.linear_viscosity > 0 || g.quadratic_viscosity > 0) {
-    const T l = lanewise([](double v) { return D == 2 ? __builtin_sqrt(v) : __builtin_cbrt(v); }, extent);
-    const double c = __builtin_sqrt((g.solid.K + 4.0 / 3 * g.solid.mu) / g.density);
-    const double b2 = g.quadratic_viscosity;
-    const T eta = T(g.density) * l * (T(g.linear_viscosity * c) + T(b2 * b2) * l * rate);
-    const T xi = eta / V * sum / (T(2.0) * omega);
-    dt = dt * (sqrt(T(1.0) + xi * xi) - xi);
-  }
-  return dt;
+/// What bounds the step of a cell: the squares of its frequencies, 1/s2, and its damping, 1/s.
+template <class T> struct StepRates {
+  T omega2, damping;
+};
+
+/// The damping by bulk viscosity. sum: sum_a |dV/dx_a|^2 / m_a; rate: |dV/dt|/V.
+template <class T, int D> T viscous_damping(const CellGroup& g, const T& sum, const T& V, const T& extent, const T& rate) {
+  if (!(g.linear_viscosity > 0 || g.quadratic_viscosity > 0)) return T(0.0);
+  const T l = lanewise([](double v) { return D == 2 ? __builtin_sqrt(v) : __builtin_cbrt(v); }, extent);
+  const double c = __builtin_sqrt((g.solid.K + 4.0 / 3 * g.solid.mu) / g.density);
+  const double b2 = g.quadratic_viscosity;
+  const T eta = T(g.density) * l * (T(g.linear_viscosity * c) + T(b2 * b2) * l * rate);
+  return eta / V * sum;
 }
 
 template <class T, int D, int Nodes, bool Ring> class StepBound {
@@ -110,7 +109,7 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
   }
 
   /// rate: |dV/dt|/V, for the quadratic viscosity.
-  T step(const T& rate) const {
+  StepRates<T> rates(const T& rate) const {
     T sum(0.0);
     for (int a = 0; a < Nodes; ++a) {
       if constexpr (Ring)
@@ -123,7 +122,7 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
     const bool per_cell = g_.pressure == PressureMode::cell;
     const double theta = per_cell ? g_.element_share : 0;
     const T omega2 = per_cell ? deviatoric_ + T(1 - theta) * cell_volumetric + T(theta) * own_ : element_;
-    return damped_step<T, D>(g_, omega2, sum, V_, extent_, rate);
+    return {omega2, viscous_damping<T, D>(g_, sum, V_, extent_, rate)};
   }
 
  private:

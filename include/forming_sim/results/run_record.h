@@ -1,6 +1,8 @@
 #pragma once
 // What the files of a run must remember from its earlier parts: it goes into
 // the checkpoint, so that a resumed run ends with the same summary.
+#include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,11 +19,25 @@ struct Peak {
   double time = 0;                  ///< s
 };
 
+/// The largest kinetic over internal energy of a stage, of the times at which the internal energy
+/// was at least kMeaningful of what it was at the stage's end: before a tool has done any work the
+/// ratio is large and says nothing. What the end will be is not known on the way, so the largest
+/// ratio of each level of internal energy is kept, levels 1 % apart.
+class KineticPeak {
+ public:
+  static constexpr double kMeaningful = 0.01;
+  void look(double kinetic, double internal);
+  /// NaN where there was no internal energy.
+  double at_end(double internal) const;
+  std::map<int, double> levels;  ///< ln(internal)/ln(1.01), rounded down; largest ratio there
+};
+
 /// A stage that has ended.
 struct StageRecord {
   std::string name, kind;
   double end_time = 0;                           ///< s
   double kinetic = 0, elastic = 0, plastic = 0;  ///< J (J/m in plane strain)
+  double kinetic_over_internal_peak = std::numeric_limits<double>::quiet_NaN();  ///< KineticPeak
   double kinetic_over_internal() const;          ///< kinetic / (elastic + plastic); NaN where that is 0
 };
 
@@ -31,6 +47,8 @@ struct RunRecord {
   std::optional<Peak> surface_strain_formed;               ///< at the end of the last form stage so far
   std::optional<double> angle_formed_deg;                  ///< likewise
   std::optional<double> kinetic_over_internal_formed;      ///< likewise
+  std::optional<double> kinetic_over_internal_forming;     ///< largest peak of the form stages so far
+  KineticPeak kinetic_peak;                                ///< of the running stage
   std::vector<StageRecord> stages;
   std::vector<std::string> notes;                          ///< said in the summary's warnings
   double history_time = 0;                                 ///< of the last row, s

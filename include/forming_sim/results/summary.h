@@ -5,7 +5,14 @@
 //   nodes, elements, steps, sim_time_s, wall_time_s, ns_per_element_step
 //   time_step_s {first, min, limited_by}
 //   energy_J {kinetic, elastic, plastic, contact, friction, damping, work, initial,
-//             balance_error, kinetic_over_internal, kinetic_over_internal_formed}
+//             balance_error, kinetic_over_internal, kinetic_over_internal_formed,
+//             kinetic_over_internal_forming}
+//                   formed: at the end of forming, where the tools may rest already; forming: the
+//                   largest of the form stages' peaks, which judges mass scaling and tool speed
+//   options {bulk_viscosity, damping, settling, mass_scaling,
+//            time_step {limit, estimates, products, share_of_longer_steps},
+//            raised_step {to_s, added_mass_kg, fraction, bodies [{name, added_mass_kg}],
+//                         most {node, added_mass_kg, position}}}   null without time_step.raise_to
 //   contact {crossings, halvings, min_gap_over_h0, h0_m}
 //   plastic_strain {max, where}                      at the end (it never decreases)
 //   surface_strain {max, where, at_end_of_forming {max, where}, at_end {max, where}}
@@ -14,7 +21,10 @@
 //   bodies [{name, mass, centre, momentum, angular_momentum, bounding_box {min, max}}]
 //   tools [{name, peak_force, unit, position, present}]
 //   springback {angle_deg_formed, angle_deg_released, change_deg, probe {from, to}, kinetic_over_internal}
-//   stages [{name, kind, end_time_s, kinetic_J, internal_J, kinetic_over_internal}]
+//   stages [{name, kind, end_time_s, kinetic_J, internal_J, kinetic_over_internal,
+//            kinetic_over_internal_peak}]
+//                   peak: of the rows of the history at which the internal energy was at least 1 %
+//                   of what it was at the end of the stage
 //
 // SI units; in plane strain energies, masses and forces are per metre of width
 // ("per_metre_of_width": true). where: {element, body, position, time_s}.

@@ -2,6 +2,7 @@
 // Observers watch a run; none changes a number of it.
 #include <string>
 #include <vector>
+#include <vector>
 
 #include "forming_sim/config/fault.h"
 #include "forming_sim/tensor/vec.h"
@@ -27,9 +28,25 @@ struct Energies {
 
 /// What limits the time step.
 struct StepLimit {
-  double dt = 0;          ///< s, the stable step of the limiting element, safety included
-  int element = -1;       ///< simplex that limits it, -1: none (maximum or stage end)
-  std::string reason;     ///< "element 17 of body sheet", "time_step.maximum"
+  double dt = 0;          ///< s, safety included
+  int element = -1;       ///< simplex that limits it, -1: none (a node, the whole mesh or maximum)
+  int node = -1;          ///< node that limits it, likewise
+  std::string reason;     ///< "element 17 of body sheet", "node 12 of body sheet", "the whole mesh", "time_step.maximum"
+};
+
+/// What time_step.raise_to has added to the masses.
+struct AddedMass {
+  std::vector<double> bodies;  ///< kg (kg/m in plane strain); empty: raise_to was not given
+  double total = 0;            ///< kg
+  double fraction = 0;         ///< of the mass of all bodies before
+  int node = -1;               ///< that has got most, -1: none got any
+  double most = 0;             ///< kg on it
+};
+
+/// What the runs that look for the fastest swing of the mesh cost: time_step.limit global.
+struct GlobalLimitCost {
+  long estimates = 0, products = 0;  ///< a product costs one evaluation of the forces
+  double share = 0;                  ///< of the steps, those that were longer than time_step.limit node allows
 };
 
 struct ContactStatus {

@@ -1,0 +1,134 @@
+// What bounds the time step, and forces with plastic flow held.
+#include <algorithm>
+#include <cmath>
+
+#include "element/group.h"
+#include "forming_sim/element/one_point.h"
+
+namespace forming_sim {
+
+double stable_step(double omega2, double damping) {
+  const double omega = std::sqrt(omega2), xi = damping / (2 * omega);
+  return 2 / omega * (std::sqrt(1 + xi * xi) - xi);
+}
+
+NodeLimit slowest_node(const NodalRates& rates, const std::vector<double>& mass) {
+  NodeLimit limit;
+  for (std::size_t n = 0; n < mass.size(); ++n) {
+    if (rates.stiffness[n] == 0) continue;  // a node of no cell
+    const double dt = stable_step(rates.stiffness[n] / mass[n], rates.damping[n] / mass[n]);
+    if (!(dt >= limit.dt)) limit = {dt, static_cast<int>(n)};  // a NaN wins
+  }
+  return limit;
+}
+
+void Elements::find_rates(const NodeField& x, const NodeField& v, CellRates& rates) const {
+  const NodalView view{x.data()->data(), v.data()->data(), inertia_.data(), nullptr, 0, 0};
+  rates.resize(groups_.size());
+  for (std::size_t k = 0; k < groups_.size(); ++k) {
+    const Group& g = groups_[k];
+    rates[k].resize(g.blocks);
+    team_->share(g.blocks, blocks_of_a_thread(g), [&](long first, long last) {
+      kernels_.rates(g, view, static_cast<int>(first), static_cast<int>(last), rates[k].data());
+    });
+  }
+}
+
+CellLimit Elements::slowest_cell(const CellRates& rates) const {
+  CellLimit limit;
+  for (std::size_t k = 0; k < groups_.size(); ++k) {
+    const Group& g = groups_[k];
+    for (int cell = 0; cell < g.cells; ++cell) {
+      const BlockRates& block = rates[k][cell / kLanes];
+      const double dt = forming_sim::stable_step(block.omega2[cell % kLanes], block.damping[cell % kLanes]);
+      if (!(dt >= limit.dt)) limit = {dt, g.first_element + cell * g.parts};  // a NaN wins
+    }
+  }
+  return limit;
+}
+
+void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const {
+  CellRates rates;
+  find_rates(x, v, rates);
+  const CellLimit limit = slowest_cell(rates);
+  dt = limit.dt;
+  element = limit.element;
+}
+
+/// The masses M_c of element/step_bounds.h, [cell][node]: those to which element/time_step.h refers.
+void Elements::keep_shares(const NodeField& X) {
+  for (Group& g : groups_) {
+    g.share.assign(static_cast<std::size_t>(g.cells) * g.cell_nodes, 0.0);
+    for (int cell = 0; cell < g.cells; ++cell) {
+      const int b = cell / kLanes, l = cell % kLanes;
+      const auto node = [&](int a) { return g.node_storage[(static_cast<std::size_t>(b) * g.cell_nodes + a) * kLanes + l]; };
+      const auto mass = [&](int s) { return g.density * g.memory_storage[(static_cast<std::size_t>(b) * g.cell_simplices + s + 1) * g.items - 1][l]; };
+      double* share = &g.share[static_cast<std::size_t>(cell) * g.cell_nodes];
+      if (!g.constants_storage.empty()) {
+        Vec3 corners[8];
+        for (int a = 0; a < g.cell_nodes; ++a) corners[a] = vec3(X[node(a)]);
+        const OnePointStart start = start_one_point(corners, dimension_, g.solid);
+        for (int a = 0; a < g.cell_nodes; ++a) share[a] = mass(0) * start.share[a];
+        continue;
+      }
+      const CellShape& shape = shape_of(static_cast<CellKind>(g.kind));
+      for (int s = 0; s < g.cell_simplices; ++s)
+        for (int a = 0; a <= dimension_; ++a) {
+          const int corner = shape.simplex[s][a];
+          share[corner] += mass(s) / (dimension_ + 1) / (axisymmetric_ ? inertia_[node(corner)] : 1);
+        }
+    }
+  }
+}
+
+NodalRates Elements::sum_rates(const CellRates& rates) const {
+  NodalRates sum;
+  sum.stiffness.assign(mass_.size(), 0.0);
+  sum.damping.assign(mass_.size(), 0.0);
+  for (std::size_t k = 0; k < groups_.size(); ++k) {
+    const Group& g = groups_[k];
+    for (int cell = 0; cell < g.cells; ++cell) {
+      const int b = cell / kLanes, l = cell % kLanes;
+      const BlockRates& block = rates[k][b];
+      for (int a = 0; a < g.cell_nodes; ++a) {
+        const int node = g.node_storage[(static_cast<std::size_t>(b) * g.cell_nodes + a) * kLanes + l];
+        const double share = g.share[static_cast<std::size_t>(cell) * g.cell_nodes + a];
+        sum.stiffness[node] += share * block.omega2[l];
+        sum.damping[node] += share * block.damping[l];
+      }
+    }
+  }
+  return sum;
+}
+
+double Elements::slowest_wave() const {
+  double speed = 1e300;
+  for (const Group& g : groups_) speed = std::min(speed, std::sqrt((g.solid.K + 4.0 / 3 * g.solid.mu) / g.density));
+  return speed;
+}
+
+void Elements::add_mass(const std::vector<double>& kg) {
+  for (std::size_t n = 0; n < mass_.size(); ++n) mass_[n] += kg[n];
+}
+
+void Elements::elastic_forces(const NodeField& x, NodeField& f) {
+  const NodalView view{x.data()->data(), nullptr, nullptr, pressure_.data(), 0, 0};
+  if (any_nodal_) nodal_pressure(view);
+  std::vector<double> unused;
+  for (const Group& g : groups_) unused.resize(std::max<std::size_t>(unused.size(), 3 * static_cast<std::size_t>(g.blocks)));
+  for (const Group& own : groups_) {
+    CellGroup g = own;
+    for (int k = 0; k < g.solid.layers; ++k) g.solid.layer[k].hardening.kind = HardeningCurve::elastic;
+    g.linear_viscosity = g.quadratic_viscosity = 0;
+    g.plastic_work = unused.data();
+    g.viscous_work = g.plastic_work + g.blocks;
+    g.lowest_ratio = g.viscous_work + g.blocks;
+    team_->share(g.blocks, blocks_of_a_thread(own), [&](long first, long last) {
+      kernels_.forces(g, view, static_cast<int>(first), static_cast<int>(last));
+    });
+  }
+  stillness_.forget();  // the records are those of x now
+  sum_records(f);
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,81 @@
+#pragma once
+// time_step.limit global: a bound on the frequencies of the whole mesh, found now and
+// then by a Lanczos run (simulation/lanczos.h) and followed in between by the cells.
+//
+// Between two runs the stiffness K = sum_c K_c grows at most as that of its fastest
+// growing cell. How much that is a cell's bound omega2_c tells but roughly: it is the nearer to
+// the truth the flatter the cell, so that a mode of the mesh can gain on it. The square of its
+// growth is taken,
+//   omega^2 <= omega^2(then) (max over the cells of omega2_c(now)/omega2_c(then))^2,
+// which makes rubber that is squeezed to half its height within one such interval keep below the
+// truth (test/simulation/step_limit_test.cpp). A run comes when the bound of some cell has risen by
+// 1 % or fallen by 5 % and the last run has been paid for by 20 steps for each of its products,
+// or without that after 100 steps for each.
+#include <algorithm>
+#include <vector>
+
+#include "forming_sim/element/step_bounds.h"
+
+namespace forming_sim {
+
+class GlobalLimit {
+ public:
+  long estimates = 0, products = 0;
+
+  bool due(long step, const CellRates& rates) const {
+    if (estimates == 0 || step >= latest_) return true;
+    if (step < soonest_) return false;
+    const Change change = since(rates);
+    return change.most > 1.01 || change.least < 0.95;
+  }
+  /// A run of `cost` products has found omega2, at these rates.
+  void set(long step, double omega2, int cost, const CellRates& rates) {
+    ++estimates;
+    products += cost;
+    omega2_ = omega2;
+    then_.clear();
+    each(rates, [&](double now) { then_.push_back(now); });
+    soonest_ = step + 20L * cost;
+    latest_ = step + 100L * cost;
+  }
+  /// Bound on omega^2 now, 1/s2.
+  double omega2(const CellRates& rates) const {
+    const double growth = since(rates).most;
+    return omega2_ * growth * growth;
+  }
+
+  /// cells: number of entries of the rates.
+  template <class Archive> void exchange(Archive& a, std::size_t cells) {
+    then_.resize(cells);
+    a.numbers(then_.data(), cells);
+    for (long* value : {&estimates, &products, &soonest_, &latest_}) a.number(*value);
+    a.number(omega2_);
+  }
+
+ private:
+  template <class Visit> static void each(const CellRates& rates, Visit&& visit) {
+    for (const std::vector<BlockRates>& group : rates)
+      for (const BlockRates& block : group)
+        for (double now : block.omega2.value) visit(now);
+  }
+  /// Of the cells' bounds; `most` at least 1: cells that widen are believed at the next run.
+  struct Change {
+    double least = 1, most = 1;
+  };
+  Change since(const CellRates& rates) const {
+    Change change;
+    std::size_t k = 0;
+    each(rates, [&](double now) {
+      const double ratio = now / then_[k++];
+      change.least = std::min(change.least, ratio);
+      change.most = std::max(change.most, ratio);
+    });
+    return change;
+  }
+
+  double omega2_ = 0;
+  std::vector<double> then_;  ///< omega2 of every cell at the last run, 1/s2
+  long soonest_ = 0, latest_ = 0;
+};
+
+}  // namespace forming_sim

@@ -1,0 +1,119 @@
+// How long a step may be: what the mesh bears by the bound that the scene asks for, and
+// the mass that raises it.
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "forming_sim/config/words.h"
+#include "forming_sim/simulation/fastest_swing.h"
+#include "simulation/impl.h"
+
+namespace forming_sim {
+
+namespace {
+constexpr double kCollapse = 1e-3;  ///< an element whose stable step falls to this part of the first is no element any more
+}  // namespace
+
+void Simulation::Impl::choose_dt() {
+  if (control.due()) find_stable_step();
+  const TimeStepConfig& config = plan.time_step;
+  dt = config.safety * control.stable_dt;
+  limit.dt = dt;
+  limit.element = control.element;
+  limit.node = control.node;
+  limit.reason = control.element < 0 && control.node < 0 ? "the whole mesh" : "";
+  if (config.maximum > 0 && config.maximum < dt) dt = config.maximum, limit = {dt, -1, -1, "time_step.maximum"};
+  if (steps == 0) first_dt = dt;
+  if (smallest.dt == 0 || limit.dt < smallest.dt) smallest = limit;
+  const double left = stages.remaining(time);
+  if (left < 2 * dt) dt = left > dt * (1 + 1e-9) ? 0.5 * left : left;
+}
+
+void Simulation::Impl::find_stable_step() {
+  elements.find_rates(x, v, rates);
+  const CellLimit cell = elements.slowest_cell(rates);
+  if (first_element_dt == 0) first_element_dt = cell.dt;
+  if (cell.dt < kCollapse * first_element_dt) collapse(cell.dt, cell.element);
+  control.element = cell.element;
+  control.node = -1;
+  control.longer = false;
+  const TimeStepConfig& config = plan.time_step;
+  if (config.limit == "element" && config.raise_to == 0) return control.update(cell.dt, false);
+
+  const NodalRates nodal = elements.sum_rates(rates);
+  const NodeLimit node = slowest_node(nodal, elements.nodal_mass());
+  double stable = node.dt;
+  control.element = -1;
+  control.node = node.node;
+  if (config.limit == "global" && std::isfinite(node.dt)) {
+    const std::vector<double>& mass = elements.nodal_mass();
+    if (global.due(steps, rates)) {
+      const SpectrumBound bound = fastest_swing(elements, x, nodal, boundaries, model.dimension, global.estimates);
+      global.set(steps, bound.above, bound.products, rates);
+    }
+    double damping = 0;
+    for (std::size_t n = 0; n < mass.size(); ++n) damping = std::max(damping, nodal.damping[n] / mass[n]);
+    const double whole = forming_sim::stable_step(global.omega2(rates), damping);
+    if (whole > stable) {
+      stable = whole;
+      control.node = -1;
+      control.longer = true;
+    }
+  }
+  control.update(stable, control.longer);
+}
+
+void Simulation::Impl::raise_step() {
+  const TimeStepConfig& config = plan.time_step;
+  if (config.raise_to == 0) return;
+  elements.find_rates(x, v, rates);
+  const NodalRates nodal = elements.sum_rates(rates);
+  const std::vector<double>& mass = elements.nodal_mass();
+  double all = 0;
+  for (double m : mass) all += m;
+  const auto needed = [&](std::size_t n, double step) { return std::max(0.0, nodal.mass_for(n, step / config.safety) - mass[n]); };
+  const auto share = [&](double step) {
+    double sum = 0;
+    for (std::size_t n = 0; n < mass.size(); ++n) sum += needed(n, step);
+    return sum / all;
+  };
+  added.fraction = share(config.raise_to);
+  if (added.fraction > config.raise_limit) {
+    double low = 0, high = config.raise_to;
+    for (int i = 0; i < 40; ++i) (share(0.5 * (low + high)) > config.raise_limit ? high : low) = 0.5 * (low + high);
+    std::ostringstream remedy;
+    remedy.precision(3);
+    remedy << "it takes " << 100 * added.fraction << " % more mass, and time_step.raise_limit allows " << 100 * config.raise_limit << " %: give at most "
+           << low << ", or a larger raise_limit; without raise_to the first step is "
+           << config.safety * slowest_node(nodal, mass).dt << " s";
+    throw SceneError({{Code::invalid_scene, "time_step.raise_to", number_text(config.raise_to) + " s", remedy.str()}});
+  }
+  std::vector<double> kg(mass.size());
+  for (const BodyModel& body : model.bodies) {
+    double sum = 0;
+    for (int n = body.first_node; n < body.first_node + body.node_count; ++n) {
+      sum += kg[n] = needed(n, config.raise_to);
+      if (kg[n] > added.most) added.most = kg[n], added.node = n;
+    }
+    added.bodies.push_back(sum);
+    added.total += sum;
+  }
+  elements.add_mass(kg);
+  if (added.node < 0) return;
+  std::ostringstream text;
+  text.precision(3);
+  text << "time_step.raise_to has added " << added.total << (model.per_width() ? " kg/m" : " kg") << " to the masses, " << 100 * added.fraction << " %:";
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (added.bodies[b] > 0) text << (b > 0 ? "," : "") << ' ' << added.bodies[b] << " to " << model.bodies[b].name;
+  text << "; most, " << added.most << ", to node " << added.node << " at (" << vec3(x[added.node]).transpose() << ") m";
+  warnings.push_back(text.str());
+}
+
+void Simulation::Impl::collapse(double stable, int element) const {
+  std::ostringstream text;
+  text << "at time " << time << " s the stable step of element " << element << " has fallen to " << stable << " s, from " << first_element_dt
+       << " s at the start: the element is squeezed flat. Refine the mesh there, lower the speed or the stroke of what presses on it, or check the material";
+  throw Error(Code::mesh_error, text.str());
+}
+
+}  // namespace forming_sim

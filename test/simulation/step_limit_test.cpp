@@ -1,0 +1,332 @@
+// time_step.limit: the bounds on the step against the true limit of small meshes.
+#include <gtest/gtest.h>
+
+#include "forming_sim/simulation/fastest_swing.h"
+#include "support/dense_limit.h"
+#include "support/rings.h"
+#include "support/runs.h"
+
+namespace forming_sim {
+namespace {
+
+struct Limits {
+  double element, node, global, exact;
+  int products;
+};
+
+/// The bounds of a body at x and the truth; run: of the random start.
+Limits limits_of(Elements& elements, const NodeField& x, int dimension, long run, const BoundarySet& held = {}) {
+  const NodeField rest(x.size(), Node::Zero());
+  CellRates rates;
+  elements.find_rates(x, rest, rates);
+  const NodalRates nodal = elements.sum_rates(rates);
+  const SpectrumBound swing = fastest_swing(elements, x, nodal, held, dimension, run);
+  return {elements.slowest_cell(rates).dt, slowest_node(nodal, elements.nodal_mass()).dt, stable_step(swing.above, 0),
+          dense_limit(elements, x, dimension, held), swing.products};
+}
+
+void expect_right(const Limits& limits, const std::string& what) {
+  EXPECT_LE(limits.element, limits.node * (1 + 1e-12)) << what;
+  EXPECT_LE(limits.node, limits.exact * (1 + 1e-6)) << what;
+  EXPECT_LE(limits.global, limits.exact) << what;
+  EXPECT_GE(limits.global, 0.9 * limits.exact) << what;
+  std::printf("  of the true limit: element %.3f, node %.3f, global %.3f (%d products) %s\n", limits.element / limits.exact,
+              limits.node / limits.exact, limits.global / limits.exact, limits.products, what.c_str());
+}
+
+ElementOptions with_shares(bool axisymmetric = false) {
+  ElementOptions options;
+  options.shares = true;
+  options.axisymmetric = axisymmetric;
+  return options;
+}
+
+struct Case { CellKind kind; const char* average; };
+void PrintTo(const Case& c, std::ostream* out) { *out << shape_of(c.kind).name << ", pressure per " << c.average; }
+
+class EveryFamily : public ::testing::TestWithParam<Case> {
+ protected:
+  int dimension() const { return shape_of(GetParam().kind).dimension; }
+  Mesh mesh() const { return block_of(GetParam().kind, dimension() == 2 ? 5 : 2); }
+  /// A body whose nodes were shaken by `size` before it became one.
+  void check(const MaterialConfig& material, double size, const std::string& what, const std::function<void(Elements&, NodeField&)>& deform) const {
+    const BodyModel b = body_of(mesh(), material, GetParam().average);
+    NodeField x = positions_of(b.mesh);
+    shake(x, dimension(), size, 3);
+    Elements elements({b}, dimension(), x, with_shares(), 1);
+    deform(elements, x);
+    for (long run = 0; run < 3; ++run) expect_right(limits_of(elements, x, dimension(), run), what);
+  }
+  static void nothing(Elements&, NodeField&) {}
+};
+
+TEST_P(EveryFamily, RegularAndDistortedCells) {
+  check(aluminium(), 0, "regular", nothing);
+  check(aluminium(), 0.04, "distorted", nothing);
+}
+
+TEST_P(EveryFamily, NearlyIncompressible) {
+  MaterialConfig m = aluminium();
+  m.poissons_ratio = 0.4999;
+  check(m, 0.04, "nu .4999", nothing);
+}
+
+TEST_P(EveryFamily, AfterPlasticFlow) {
+  const int D = dimension();
+  check(aluminium(true), 0.02, "plastic", [&](Elements& elements, NodeField& x) {
+    const NodeField rest(x.size(), Node::Zero());
+    NodeField f(x.size());
+    for (int step = 0; step < 20; ++step) {
+      for (Node& n : x) {
+        n[0] *= 1.01, n[1] /= 1.01;
+        n[0] += 0.004 * n[1];
+      }
+      shake(x, D, 5e-4, static_cast<unsigned>(step));
+      elements.forces(x, rest, 0, 0, f);
+    }
+    EXPECT_GT(elements.plastic_work(), 0);
+  });
+}
+
+TEST_P(EveryFamily, StretchedRubber) {
+  MaterialConfig m;
+  m.law = "hyperelastic";
+  m.density = 1100;
+  m.h1 = 10e6;
+  m.h2 = 5e6;
+  m.bulk_modulus = 500e6;
+  check(m, 0.02, "rubber", [](Elements&, NodeField& x) {
+    for (Node& n : x) n[0] *= 1.6, n[1] /= 1.6, n[0] += 0.3 * n[1];
+  });
+}
+
+// The product with the stiffness leaves no trace: the next forces are those that would have been.
+TEST_P(EveryFamily, LookingForTheFastestSwingChangesNothing) {
+  const int D = dimension();
+  const BodyModel b = body_of(mesh(), aluminium(true), GetParam().average);
+  const NodeField X = positions_of(b.mesh), rest(X.size(), Node::Zero());
+  NodeField f(X.size()), g(X.size());
+  Elements plain({b}, D, X, with_shares(), 1), asked({b}, D, X, with_shares(), 1);
+  for (int step = 0; step < 12; ++step) {
+    NodeField x = X;
+    if (step > 3) shake(x, D, 0.01, static_cast<unsigned>(step) / 4);  // rests now and then: blocks are passed over
+    plain.forces(x, rest, 0, 0, f);
+    asked.forces(x, rest, 0, 0, g);
+    for (std::size_t n = 0; n < x.size(); ++n) ASSERT_EQ(f[n], g[n]) << "step " << step << " node " << n;
+    if (step % 3 == 1) limits_of(asked, x, D, step);
+  }
+  EXPECT_GT(plain.plastic_work(), 0);
+  std::vector<double> one, two;
+  plain.append_state(one);
+  asked.append_state(two);
+  EXPECT_EQ(one, two);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryFamily,
+                         ::testing::Values(Case{CellKind::triangle, "element"}, Case{CellKind::triangle, "node"}, Case{CellKind::quad2, "cell"},
+                                           Case{CellKind::crossed, "cell"}, Case{CellKind::tetrahedron, "node"}, Case{CellKind::hex6, "cell"},
+                                           Case{CellKind::hex24, "cell"}, Case{CellKind::quad1, "cell"}, Case{CellKind::hex1, "cell"}));
+
+TEST(StepLimit, OfRings) {
+  for (CellKind kind : {CellKind::triangle, CellKind::quad2, CellKind::crossed})
+    for (double inner : {0.0, 0.3}) {
+      const BodyModel b = body_of(ring_block(kind, inner, 4), aluminium(), kind == CellKind::triangle ? "node" : "cell");
+      NodeField x = positions_of(b.mesh);
+      shake_rings(x, 0.02, 4);
+      Elements elements({b}, 2, x, with_shares(true), 1);
+      ResolvedBoundary axis;
+      axis.config.kind = "symmetric";
+      axis.config.normal = Vec3::UnitX();
+      axis.config.set = "axis";
+      for (std::size_t n = 0; n < x.size(); ++n)
+        if (x[n][0] == 0) axis.nodes.push_back(static_cast<int>(n));
+      const BoundarySet held(axis.nodes.empty() ? std::vector<ResolvedBoundary>() : std::vector<ResolvedBoundary>{axis}, 2);
+      expect_right(limits_of(elements, x, 2, 0, held), std::string("ring of ") + shape_of(kind).name);
+    }
+}
+
+// One thin column of cells in an even mesh, which its neighbours' mass slows down.
+Mesh mesh_with_a_sliver(CellKind kind, double thin) {
+  Mesh mesh = block_of(kind, 6);
+  for (Vec3& X : mesh.nodes)
+    if (X.x() > 0.5 + 1e-9) X.x() -= (1 - thin) * std::min(1.0 / 6, X.x() - 0.5);
+  return mesh;
+}
+
+TEST(StepLimit, OfSlivers) {
+  for (CellKind kind : {CellKind::quad1, CellKind::crossed, CellKind::quad2, CellKind::hex1}) {
+    const int D = shape_of(kind).dimension;
+    const BodyModel b = body_of(mesh_with_a_sliver(kind, 0.1), aluminium());
+    const NodeField x = positions_of(b.mesh);
+    Elements elements({b}, D, x, with_shares(), 1);
+    const Limits limits = limits_of(elements, x, D, 1);
+    expect_right(limits, std::string("sliver of ") + shape_of(kind).name);
+    if (is_one_point(kind)) {
+      EXPECT_GT(limits.node, 1.5 * limits.element);  // its nodes are all its neighbours' too
+    }
+  }
+}
+
+// One fast mode far above a crowd, which a random start hardly sees.
+TEST(Lanczos, TheBoundHoldsForEveryStart) {
+  const std::size_t nodes = 300;
+  for (double crowd : {0.999, 0.9, 0.5, 0.01}) {
+    int most = 0;
+    double worst = 1;
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+      const SpectrumBound bound = bound_spectrum(nodes, 2, seed, 10.0, [](NodeField&) {}, [&](const NodeField& v, NodeField& w) {
+        for (std::size_t n = 0; n < nodes; ++n) w[n] = (n == 17 ? 1 : crowd * static_cast<double>(n) / nodes) * v[n];
+      });
+      ASSERT_GE(bound.above, 1) << crowd << ' ' << seed;
+      ASSERT_LE(bound.below, 1 + 1e-5);
+      worst = std::max(worst, bound.above);
+      most = std::max(most, bound.products);
+    }
+    EXPECT_LT(worst, 1.1);
+    EXPECT_LT(most, 60);
+    std::printf("  crowd below %.3f: at most %.4f, %d products\n", crowd, worst, most);
+  }
+}
+
+/// Largest total energy over the first of a free swing at a step that is `share` of the global limit; infinite where it ended.
+double growth_of_energy(CellKind kind, double share) {
+  const int D = shape_of(kind).dimension;
+  const BodyModel b = body_of(block_of(kind, D == 2 ? 5 : 2), aluminium());
+  NodeField x = positions_of(b.mesh);
+  shake(x, D, 0.03, 5);
+  Elements elements({b}, D, x, with_shares(), 1);
+  const double dt = share * limits_of(elements, x, D, 2).global;
+  NodeField v(x.size(), Node::Zero()), f(x.size());
+  shake(v, D, 1e-3, 6);
+  double first = 0, most = 0;
+  for (int step = 0; step < 60000; ++step) {
+    try {
+      elements.forces(x, v, dt, dt, f);
+    } catch (const Error&) {
+      return std::numeric_limits<double>::infinity();  // a cell turned inside out
+    }
+    double energy = 0;
+    for (std::size_t n = 0; n < x.size(); ++n) {
+      const Node before = v[n];
+      v[n] += dt / elements.nodal_mass()[n] * f[n];
+      energy += 0.5 * elements.nodal_mass()[n] * before.dot(v[n]);  // with the stored energy: kept exactly where all is linear
+    }
+    if (step % 100 == 0) energy += elements.observe(x).stored_energy;
+    if (step == 0) first = energy;
+    if (step % 100 == 0) most = std::max(most, energy);
+    if (!(most < 100 * first)) return most / first;
+    for (std::size_t n = 0; n < x.size(); ++n) x[n] += dt * v[n];
+  }
+  return most / first;
+}
+
+TEST(StepLimit, ALongSwingAtTheGlobalLimitKeepsItsEnergy) {
+  for (CellKind kind : {CellKind::crossed, CellKind::quad1, CellKind::hex6, CellKind::hex1}) {
+    EXPECT_LT(growth_of_energy(kind, 0.99), 1.01) << shape_of(kind).name;
+    EXPECT_GT(growth_of_energy(kind, 1.15), 100) << shape_of(kind).name;  // the limit is near
+  }
+}
+
+// Rubber squeezed to half its height within about the time between two Lanczos runs: its memory
+// never changes, so that elements of one's own tell the truth at any moment.
+TEST(StepLimit, FollowsABodyThatIsSqueezedFast) {
+  for (CellKind kind : {CellKind::crossed, CellKind::quad1, CellKind::hex1}) {
+    const int D = shape_of(kind).dimension;
+    MaterialConfig m;
+    m.law = "hyperelastic";
+    m.density = 1100;
+    m.h1 = 10e6;
+    m.h2 = 5e6;
+    m.bulk_modulus = 500e6;
+    const Mesh mesh = block_of(kind, D == 2 ? 5 : 2);
+    OneBody run(body_of(mesh, m), 1);
+    run.plan.time_step.limit = "global";
+    const double duration = 500 * run.start()->dt(), height = 0.8;
+    run.plan.stages[0].duration = duration;
+    BoundaryConfig bottom, top;
+    bottom.set = "bottom";
+    top.set = "top";
+    bottom.kind = "fixed";
+    top.kind = "velocity";
+    top.axes = {D == 2 ? "y" : "z"};
+    top.times = {0, duration};
+    top.velocities = {Vec3::Zero(), Vec3::Zero()};
+    top.velocities[1][D - 1] = -height / duration;
+    run.plan.bodies[0].boundaries = {bottom, top};
+    auto sim = run.start();
+    Elements elements(run.model.bodies, D, positions_of(mesh), with_shares(), 1);
+    const BoundarySet held({resolve(bottom, "block", mesh, 0), resolve(top, "block", mesh, 0)}, D);
+    const double first = sim->dt();
+    double most = 0, least = 1;
+    NodeField x = sim->positions();
+    while (sim->step()) {
+      if (sim->steps() % 10 == 0) {
+        const double share = sim->step_limit().dt / run.plan.time_step.safety / dense_limit(elements, x, D, held);
+        most = std::max(most, share), least = std::min(least, share);
+      }
+      x = sim->positions();
+    }
+    std::printf("  %s: the step falls to %.2f; limit over the true one %.3f to %.3f, %ld runs\n", shape_of(kind).name,
+                sim->step_limit().dt / first, least, most, sim->global_limit_cost().estimates);
+    EXPECT_LT(sim->step_limit().dt, 0.8 * first);
+    EXPECT_LE(most, 1);
+  }
+}
+
+// A sheet that flows, pulled and let go: the step follows it, and a run is the same for
+// one and two threads and across a checkpoint.
+OneBody pulled_strip() {
+  OneBody run(body_of(generate_blank(strip_of(20e-3, 1e-3, 40, 3)), aluminium(true)), 4e-5);
+  BoundaryConfig left, right;
+  left.set = "left";
+  left.kind = "fixed";
+  right.set = "right";
+  right.kind = "velocity";
+  right.axes = {"x"};
+  right.times = {0, 1e-5};
+  right.velocities = {Vec3::Zero(), Vec3(60, 0, 0)};
+  run.plan.bodies[0].boundaries = {left, right};
+  run.plan.time_step.limit = "global";
+  return run;
+}
+
+TEST(StepLimit, ARunIsTheSameOnTwoThreadsAndAcrossACheckpoint) {
+  OneBody run = pulled_strip();
+  run.plan.time_step.raise_to = 4e-8;
+  run.plan.time_step.raise_limit = 10;
+  auto one = run.start(1), two = run.start(2), later = run.start(1);
+  for (int step = 0; step < 500; ++step) one->step(), two->step();
+  later->restore(one->save());
+  for (bool more = true; more;) {
+    more = one->step();
+    EXPECT_EQ(later->step(), more);
+    EXPECT_EQ(two->step(), more);
+  }
+  ASSERT_GT(one->steps(), 700);
+  EXPECT_GT(one->global_limit_cost().estimates, 1);
+  EXPECT_EQ(one->global_limit_cost().products, later->global_limit_cost().products);
+  for (std::size_t n = 0; n < one->positions().size(); ++n) {
+    ASSERT_EQ(one->positions()[n], two->positions()[n]);
+    ASSERT_EQ(one->positions()[n], later->positions()[n]);
+  }
+  EXPECT_EQ(one->energies().plastic, later->energies().plastic);
+}
+
+TEST(StepLimit, TheGlobalLimitIsTakenAndTold) {
+  OneBody run = pulled_strip();
+  auto global = run.start();
+  run.plan.time_step.limit = "element";
+  auto element = run.start();
+  const std::atomic<bool> go_on{false};
+  ASSERT_EQ(global->run(go_on).code, Code::success);
+  ASSERT_EQ(element->run(go_on).code, Code::success);
+  std::printf("  steps %ld, by elements %ld\n", global->steps(), element->steps());
+  EXPECT_LT(static_cast<double>(global->steps()), 0.85 * static_cast<double>(element->steps()));
+  EXPECT_EQ(global->smallest_step().reason, "the whole mesh");
+  EXPECT_GT(global->global_limit_cost().share, 0.99);
+  EXPECT_LT(global->balance_error(), 2e-3);
+  EXPECT_NEAR(global->energies().plastic, element->energies().plastic, 0.005 * element->energies().plastic);
+}
+
+}  // namespace
+}  // namespace forming_sim

@@ -1,0 +1,32 @@
+#pragma once
+// The true limit of the step of a small mesh, from all its eigenvalues.
+#include <Eigen/Eigenvalues>
+
+#include "forming_sim/element/elements.h"
+#include "forming_sim/loads/boundary.h"
+
+namespace forming_sim {
+
+/// 2/omega of the fastest mode at x, plastic flow held: M^-1/2 K M^-1/2 by central differences.
+inline double dense_limit(Elements& elements, const NodeField& x, int D, const BoundarySet& held = {}) {
+  const int n = static_cast<int>(x.size()) * D;
+  const double h = 1e-6;
+  const std::vector<double>& mass = elements.nodal_mass();
+  Eigen::MatrixXd K(n, n), P = Eigen::MatrixXd::Identity(n, n);
+  NodeField fp(x.size()), fm(x.size());
+  for (int c = 0; c < n; ++c) {
+    NodeField plus = x, minus = x;
+    plus[c / D][c % D] += h;
+    minus[c / D][c % D] -= h;
+    elements.elastic_forces(plus, fp);
+    elements.elastic_forces(minus, fm);
+    for (int r = 0; r < n; ++r)
+      K(r, c) = -(fp[r / D][r % D] - fm[r / D][r % D]) / (2 * h) / std::sqrt(mass[r / D] * mass[c / D]);
+  }
+  for (std::size_t k = 0; k < held.nodes().size(); ++k)
+    P.block(held.nodes()[k] * D, held.nodes()[k] * D, D, D) = held.projector(static_cast<int>(k)).topLeftCorner(D, D);
+  const Eigen::MatrixXd A = P * (0.5 * (K + K.transpose())) * P;
+  return 2 / std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+}
+
+}  // namespace forming_sim
