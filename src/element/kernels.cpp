@@ -234,7 +234,7 @@ template <class Cell, bool OneLayer>
     PointResponse<Pack, D> point;
     if constexpr (Cell::one_point) {
       Hourglass<Pack, D> hourglass(g.solid, constants, e, x);
-      point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J, memory, hourglass, hourglass_of<Cell>(g, block), Keep::yes);
+      point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J, memory, hourglass, hourglass_of<Cell>(g, block));
       for (int m = 0; m < D; ++m)
         for (int i = 0; i < D; ++i) force[m][i] = Pack(0.0);
       hourglass.add_forces(V0, force, f);

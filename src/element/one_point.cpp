@@ -41,7 +41,10 @@ template <int D> class Start {
     for (int a = 0; a < N; ++a) put(Cell::weights + a * D, Eigen::Matrix<double, D, 1>(w_.col(a)));
     Eigen::Matrix<double, M, D> start = h_ * X_.transpose() * E_ / c_;
     for (int k = 0; k < M; ++k) put(Cell::start + k * D, Eigen::Matrix<double, D, 1>(start.row(k)));
-    put_pairs(Cell::slopes, slopes_);
+    if constexpr (D == 2)
+      for (int i = 0; i < 2; ++i) put(Cell::slopes + 2 * i, Eigen::Vector2d(slopes_.col(i)));
+    else
+      put_pairs(Cell::slopes, slopes_);
     Eigen::Matrix<double, N, 1> share;
     for (int a = 0; a < N; ++a) share[a] = result.share[a];
     const Square inertia = w_ * share.cwiseInverse().asDiagonal() * w_.transpose();
@@ -94,7 +97,8 @@ template <int D> class Start {
     c_ = D == 2 ? std::sqrt(2 * result.volume) : std::cbrt(6 * result.volume);
     w_ = c_ * E_.transpose() * b_;
     const Square U = E_.transpose() * J;
-    slopes_ = (c_ / N) * (0.5 * (U + U.transpose())).inverse();
+    if constexpr (D == 2) slopes_ = (c_ / N) * U * U.colwise().squaredNorm().cwiseInverse().asDiagonal();
+    else slopes_ = (c_ / N) * (0.5 * (U + U.transpose())).inverse();
     result.edges.template topLeftCorner<D, D>() = c_ * E_;
   }
 

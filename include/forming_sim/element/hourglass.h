@@ -31,7 +31,7 @@
 // points of a fine mesh would; where none does, the cell is elastic; across a neutral axis, where
 // S = 0, s is bounded, and h = 2/3 makes the moment of the cell that of the rectangle of yield stress.
 // What the points dissipate beside the centre is s : d ep V0/3.
-#include "forming_sim/element/hourglass_strain.h"
+#include "forming_sim/element/hourglass_flow.h"
 #include "forming_sim/material/law.h"
 
 namespace forming_sim {
@@ -43,8 +43,8 @@ template <int D> constexpr int kHourglassItems = D * kPlaneItems<D> + (D == 3 ? 
 /// Numbers of memory of a cell beside those of its point.
 template <int D> int hourglass_items(const SolidConstants& m) { return m.law == Law::hyperelastic ? 0 : m.layers * kHourglassItems<D>; }
 
-/// Half the distance of the points of yield over that of the faces.
-constexpr double kYieldPoint = 2.0 / 3;
+/// Place of (i, j) in a symmetric tensor.
+inline constexpr int kFull[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
 
 template <class T, int D> class Hourglass {
   using Cell = OnePoint<D>;
@@ -52,7 +52,7 @@ template <class T, int D> class Hourglass {
  public:
   /// constants: of the cell; x: of its corners; e: its edges.
   Hourglass(const SolidConstants& m, const double* constants, const Edges<T, D>& e, const Vector<T, D>* x) : moduli_(m), edges_(e) {
-    for (int i = 0; i < Cell::pairs; ++i) load(constants, Cell::slopes + i, slopes_[i]);
+    for (int i = 0; i < Cell::inertia - Cell::slopes; ++i) load(constants, Cell::slopes + i, slopes_[i]);
     Vector<T, D> sum[Cell::modes];
     sum_modes<T, D>(x, sum);
     for (int k = 0; k < Cell::modes; ++k) {
@@ -70,21 +70,12 @@ template <class T, int D> class Hourglass {
   /// Stresses of a body without plasticity.
   void add_elastic() { add(Strain(), T(1)); }
 
-  /// One step of a layer. S: the law's stress after the step, `kept` times that of the trial; p: its
-  /// plastic strain before; memory: kHourglassItems, those of the layer.
-  void add_layer(const LayerConstants& layer, const Symmetric<T, D>& S, const T& kept, const T& p, double* memory, Keep keep) {
-    Strain ep = load_plastic(memory);
-    if (layer.hardening.kind != HardeningCurve::elastic) {
-      const YieldStress<T> yield = yield_stress(layer.hardening, p);
-      const T back = T(1) / kept;
-      const Symmetric<T, D> trial = in_frame(S, back);
-      const T Q0 = T(1.5) * contract(S, S) * back * back;
-      bool changed = false;
-      for (int d = 0; d < D; ++d) changed |= flow(d, layer, yield, trial, Q0, ep.plane[d], memory, keep);
-      if constexpr (D == 3)
-        for (int d = 0; d < 3; ++d) changed |= relax(yield.value, kept, T(layer.weight), d, ep);
-      if (changed && keep == Keep::yes) store_plastic(ep, memory);
-    }
+  /// One step of a layer whose law has answered `point` and stored its memory. Where the cell yields by
+  /// its variation, mean and variation flow together, and both answers change.
+  void add_layer(const SolidConstants& m, const LayerConstants& layer, const T& factor, const T& J, PointResponse<T, D>& point, double* memory,
+                 double* hourglass_memory) {
+    Strain ep = load_plastic(hourglass_memory);
+    if (layer.hardening.kind != HardeningCurve::elastic && flow(m, layer, factor, J, point, memory, ep, hourglass_memory)) store_plastic(ep, hourglass_memory);
     add(ep, T(layer.weight));
   }
 
@@ -136,21 +127,78 @@ template <class T, int D> class Hourglass {
       for (int d = 0; d < 3; ++d) store(memory, 3 * kPlaneItems<D> + d, ep.warp[d]);
   }
 
-  /// factor F^-1 S F, symmetric: its components along the material axes.
-  Symmetric<T, D> in_frame(const Symmetric<T, D>& S, const T& factor) const {
+  /// F^-1 S F, symmetric: components of a stress along the cell's axes.
+  Symmetric<T, D> in_frame(const Symmetric<T, D>& S) const {
     Vector<T, D> Sx[D];
-    for (int m = 0; m < D; ++m) Sx[m] = factor * (S * edges_.x[m]);
+    for (int m = 0; m < D; ++m) Sx[m] = S * edges_.x[m];
     Symmetric<T, D> r;
     for (int m = 0; m < D; ++m) r[m] = dot(edges_.up[m], Sx[m]);
     const auto shear = [&](int i, int j) { return T(0.5) * (dot(edges_.up[i], Sx[j]) + dot(edges_.up[j], Sx[i])); };
     r[3] = shear(0, 1);
     if constexpr (D == 2) {
-      r[2] = factor * S[2];
+      r[2] = S[2];
     } else {
       r[4] = shear(1, 2);
       r[5] = shear(2, 0);
     }
     return r;
+  }
+
+  /// The tensor whose components along the cell's axes are A: sym x^m (x) A_mk x_k.
+  Symmetric<T, D> out_of_frame(const Symmetric<T, D>& A) const {
+    Vector<T, D> y[D];
+    for (int m = 0; m < D; ++m) {
+      y[m] = A[kFull[m][0]] * edges_.x[0];
+      for (int k = 1; k < D; ++k) y[m] += A[kFull[m][k]] * edges_.x[k];
+    }
+    const auto part = [&](int i, int j) {
+      T sum = edges_.up[0][i] * y[0][j] + edges_.up[0][j] * y[0][i];
+      for (int m = 1; m < D; ++m) sum += edges_.up[m][i] * y[m][j] + edges_.up[m][j] * y[m][i];
+      return T(0.5) * sum;
+    };
+    Symmetric<T, D> r;
+    for (int i = 0; i < D; ++i) r[i] = part(i, i);
+    r[3] = part(0, 1);
+    if constexpr (D == 2) {
+      r[2] = A[2];
+    } else {
+      r[4] = part(1, 2);
+      r[5] = part(2, 0);
+    }
+    return r;
+  }
+
+  /// A B + B A
+  static Symmetric<T, D> twice_symmetric_product(const Symmetric<T, D>& A, const Symmetric<T, D>& B) {
+    Symmetric<T, D> r;
+    const auto entry = [&](int i, int j) {
+      T sum = A[kFull[i][0]] * B[kFull[0][j]] + B[kFull[i][0]] * A[kFull[0][j]];
+      for (int k = 1; k < D; ++k) sum += A[kFull[i][k]] * B[kFull[k][j]] + B[kFull[i][k]] * A[kFull[k][j]];
+      return sum;
+    };
+    for (int i = 0; i < D; ++i) r[i] = entry(i, i);
+    r[3] = entry(0, 1);
+    if constexpr (D == 2) {
+      r[2] = T(2) * A[2] * B[2];
+    } else {
+      r[4] = entry(1, 2);
+      r[5] = entry(2, 0);
+    }
+    return r;
+  }
+
+  /// G^mk = x^m . B x^k.
+  void pull(const Symmetric<T, D>& B, Symmetric<T, D>& G) const {
+    Vector<T, D> Bx[D];
+    for (int m = 0; m < D; ++m) Bx[m] = B * edges_.up[m];
+    for (int m = 0; m < D; ++m) G[m] = dot(edges_.up[m], Bx[m]);
+    G[3] = dot(edges_.up[0], Bx[1]);
+    if constexpr (D == 2) {
+      G[2] = B[2];
+    } else {
+      G[4] = dot(edges_.up[1], Bx[2]);
+      G[5] = dot(edges_.up[2], Bx[0]);
+    }
   }
 
   T layer_energy(const Strain& ep) const {
@@ -167,40 +215,72 @@ template <class T, int D> class Hourglass {
     return sum;
   }
 
-  /// The two points of coordinate d (2D: of the strain along E_d); whether one of them yields.
-  bool flow(int d, const LayerConstants& layer, const YieldStress<T>& yield, const Symmetric<T, D>& S, const T& Q0, Plane<T>& ep, double* memory, Keep keep) {
-    const int i = D == 2 ? d : (d + 1) % 3, j = D == 2 ? 2 : (d + 2) % 3;
-    const Plane<T> in_plane{S[i], S[j], D == 2 ? T(0) : S[kPair<3>[i][j]]};
-    const Plane<T> s = moduli_.stress(strain_.plane[d] - ep);
-    constexpr double h = kYieldPoint;
-    T rise;  // p'
-    const int rise_at = d * kPlaneItems<D> + kPlaneItems<D> - 1;
-    load(memory, rise_at, rise);
-    // q^2 = 3/2 (S +- h dev s) : (S +- h dev s)
-    const T even = Q0 + T(h * h) * (s.a * s.a + s.b * s.b - s.a * s.b + T(3) * s.shear * s.shear);
-    const T odd = T(3 * h) * (in_plane.a * s.a + in_plane.b * s.b + T(2) * in_plane.shear * s.shear);
-    const T harder = T(h) * yield.slope * rise;
-    const T limit[2] = {yield.value + harder, yield.value - harder};
-    const T Q[2] = {even + odd, even - odd};
-    if (!any(Q[0] > limit[0] * limit[0]) && !any(Q[1] > limit[1] * limit[1])) return false;
-    const T stiffness = T(1) / (T(3 * moduli_.mu) + yield.slope);
-    T dp[2], over_q[2];
-    for (int k = 0; k < 2; ++k) {
-      const T q = sqrt(larger(Q[k], T(1e-300)));
-      dp[k] = larger((q - limit[k]) * stiffness, T(0));
-      over_q[k] = dp[k] / q;
+  /// All coordinates, one after the other, and the last mode; whether ep changed.
+  bool flow(const SolidConstants& m, const LayerConstants& layer, const T& factor, const T& J, PointResponse<T, D>& point, double* memory, Strain& ep,
+            double* hourglass_memory) {
+    constexpr int size = Symmetric<T, D>::size;
+    T p;
+    load(memory, size, p);
+    const YieldStress<T> yield = yield_stress(layer.hardening, p);
+    MeanFlow<T, D> mean{in_frame(point.S), {}, T(2) * factor, yield.value, yield.slope, T(0)};
+    for (int i = 0; i < size; ++i) mean.strain[i] = T(0);
+    T rise[D], share[D], most(0);  // p'; 1 where the coordinate's variation takes part, else 0
+    for (int d = 0; d < D; ++d) {
+      load(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise[d]);
+      const T excess = normal<T, D>(mean, moduli_.stress(strain_.plane[d] - ep.plane[d]), rise[d], PlaneOf<T, D>(slopes_, d)).excess;
+      share[d] = select(excess > T(1e-12), T(1), T(0));
+      most = larger(most, share[d]);
     }
-    const T along = T(0.75 / h) * (over_q[0] - over_q[1]), across = T(0.75) * (over_q[0] + over_q[1]);
-    const T mean = T(1.0 / 3) * (s.a + s.b);
-    const Plane<T> rate{along * in_plane.a + across * (s.a - mean), along * in_plane.b + across * (s.b - mean),
-                        T(2) * (along * in_plane.shear + across * s.shear)};
-    ep = {ep.a + rate.a, ep.b + rate.b, ep.shear + rate.shear};
-    dissipation_ += T(layer.weight / 3) * work(moduli_.stress(strain_.plane[d] - ep), rate);
-    if (keep == Keep::yes) store(memory, rise_at, rise + T(0.5 / h) * (dp[0] - dp[1]));
-    return true;
+    const bool together = any(most > T(0));
+    if (together) {
+      // From the trial on: what the law has returned is taken back.
+      const T returned = most * (T(1) / point.kept - T(1));
+      const T dp = sqrt(T(1.5) * contract(mean.S, mean.S)) * returned / (T(1.5) * mean.modulus);
+      for (int i = 0; i < size; ++i) mean.flow(i, -(returned / mean.modulus * mean.S[i]));
+      mean.harden(-dp);
+      for (int d = 0; d < D; ++d) {
+        if (!any(share[d] > T(0))) continue;
+        dissipation_ += T(layer.weight) * flow_to_surface<T, D>(mean, moduli_, strain_.plane[d], share[d], ep.plane[d], rise[d], PlaneOf<T, D>(slopes_, d));
+        store(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise[d]);
+      }
+      flow_of_mean(mean);
+    }
+    if (together) take_mean_flow(m, factor, J, mean, point, memory);
+    bool changed = together;
+    if constexpr (D == 3) {
+      const T left = smaller(point.kept * mean.sigma / larger(mean.sigma + T(3) * T(moduli_.mu) * mean.p, T(0.5) * mean.sigma), T(1));
+      for (int d = 0; d < 3; ++d) changed |= relax(mean.sigma, left, T(layer.weight), d, ep);
+    }
+    return changed;
   }
 
-  /// The last mode: it relaxes as the law's stress does and does not pass the yield stress.
+  /// The plastic strain of the mean, D along the cell's axes, enters the law's memory: B <- B - D B - B D, or the
+  /// classical S <- S - 2 mu D; it dissipates S : D.
+  void take_mean_flow(const SolidConstants& m, const T& factor, const T& J, const MeanFlow<T, D>& mean, PointResponse<T, D>& point, double* memory) {
+    constexpr int size = Symmetric<T, D>::size;
+    const Symmetric<T, D> flow = out_of_frame(mean.strain);
+    if (m.law == Law::classical) {
+      for (int i = 0; i < size; ++i) {
+        point.S[i] -= T(2 * m.mu) * flow[i];
+        store(memory, i, point.S[i]);
+      }
+    } else {
+      Symmetric<T, D> G = load_memory<T, D>(memory);
+      Symmetric<T, D> B = push(G, edges_);
+      const Symmetric<T, D> change = twice_symmetric_product(flow, B);
+      for (int i = 0; i < size; ++i) B[i] -= change[i];
+      pull(B, G);
+      for (int i = 0; i < size; ++i) store(memory, i, G[i]);
+      B = deviator(B);
+      for (int i = 0; i < size; ++i) point.S[i] = factor * B[i];
+    }
+    point.dissipation += J * contract(point.S, flow);
+    T p;
+    load(memory, size, p);
+    store(memory, size, p + mean.p);
+  }
+
+  /// The last mode: it relaxes as a stress does that is not along the flow, and does not pass the yield stress.
   bool relax(const T& limit, const T& kept, const T& weight, int d, Strain& ep) {
     const T elastic = strain_.warp[d] - ep.warp[d], s = T(moduli_.E) * elastic;
     const T left = smaller(kept, limit / larger(absolute(s), limit));
@@ -224,7 +304,7 @@ template <class T, int D> class Hourglass {
 
   const PlaneModuli<T> moduli_;
   const Edges<T, D>& edges_;
-  T slopes_[Cell::pairs];
+  T slopes_[Cell::inertia - Cell::slopes];
   T rise_[Cell::modes][D], z_[Cell::modes][D];
   Strain strain_, stress_;
   T dissipation_{0.0};
@@ -234,7 +314,7 @@ template <class T, int D> class Hourglass {
 /// the cell, the latter kHourglassItems of each layer; none of a hyperelastic body.
 template <class T, int D>
 PointResponse<T, D> step_with_hourglass(const SolidConstants& m, const Edges<T, D>& e, const Vector<T, D>* moved, const T& J, double* memory,
-                                   Hourglass<T, D>& hourglass, double* hourglass_memory, Keep keep) {
+                                   Hourglass<T, D>& hourglass, double* hourglass_memory) {
   constexpr int size = Symmetric<T, D>::size;
   if (m.law == Law::hyperelastic) {
     hourglass.add_elastic();
@@ -243,12 +323,10 @@ PointResponse<T, D> step_with_hourglass(const SolidConstants& m, const Edges<T, 
   PointResponse<T, D> sum;
   for (int i = 0; i < size; ++i) sum.S[i] = T(0);
   sum.dissipation = T(0);
-  const T factor = m.law == Law::classical ? T(0) : stress_factor(m, J);
+  const T factor = m.law == Law::classical ? T(m.mu) : stress_factor(m, J);
   for (int k = 0; k < m.layers; ++k) {
-    T p;
-    load(memory, size, p);
-    const PointResponse<T, D> r = m.law == Law::classical ? classical_step(m, e, moved, J, memory, keep) : layer_step(m, k, factor, e, J, memory, keep);
-    hourglass.add_layer(m.layer[k], r.S, r.kept, p, hourglass_memory, keep);
+    PointResponse<T, D> r = m.law == Law::classical ? classical_step(m, e, moved, J, memory, Keep::yes) : layer_step(m, k, factor, e, J, memory, Keep::yes);
+    hourglass.add_layer(m, m.layer[k], factor, J, r, memory, hourglass_memory);
     const T w(m.layer[k].weight);
     for (int i = 0; i < size; ++i) sum.S[i] += w * r.S[i];
     sum.dissipation += w * r.dissipation;

@@ -29,8 +29,8 @@ template <int D> struct OnePoint {
   static constexpr int nodes = D == 2 ? 4 : 8, modes = D == 2 ? 1 : 4, pairs = D * (D + 1) / 2;
   static constexpr int weights = 0;                     ///< [node][m]
   static constexpr int start = weights + nodes * D;     ///< [mode][m]
-  static constexpr int slopes = start + modes * D;      ///< [pair] c/2^D grad(xi_i) . E_j, symmetric in E
-  static constexpr int inertia = slopes + pairs;        ///< [pair] sum_a w_ma w_ka / share_a
+  static constexpr int slopes = start + modes * D;      ///< 3D: [pair] c/8 grad(xi_i) . E_j, symmetric in E; 2D: [i][j] c/4 g_i . E_j/|g_i|^2, g_i = dX/dxi_i at the centre
+  static constexpr int inertia = slopes + (D == 2 ? 4 : pairs);        ///< [pair] sum_a w_ma w_ka / share_a
   static constexpr int stiffness = inertia + pairs;     ///< [m] Pa, bounds the modes' stiffness: element/one_point_step.h
   static constexpr int looseness = stiffness + D;       ///< 1 / smallest eigenvalue of the modes' inverse inertia
   static constexpr int slant = looseness + 1;           ///< cosine between the modes and the uniform shapes, 0 for a parallelepiped
