@@ -88,7 +88,7 @@ TEST_P(RingMass, TheAxisOfAnAcceleratedColumnKeepsUp) {
   EXPECT_LT(fine.own, 0.05 * 0.5 * 0.34);  // of the bulge of the ends, s nu / 2
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, RingMass, ::testing::Values(CellKind::quad2, CellKind::crossed));
+INSTANTIATE_TEST_SUITE_P(Kinds, RingMass, ::testing::Values(CellKind::quad2, CellKind::crossed, CellKind::quad1));
 
 }  // namespace
 }  // namespace forming_sim

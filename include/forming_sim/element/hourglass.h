@@ -32,6 +32,7 @@
 // S = 0, s is bounded, and h = 2/3 makes the moment of the cell that of the rectangle of yield stress.
 // What the points dissipate beside the centre is s : d ep V0/3.
 #include "forming_sim/element/hourglass_flow.h"
+#include "forming_sim/element/one_point_ring.h"
 #include "forming_sim/material/law.h"
 
 namespace forming_sim {
@@ -46,12 +47,12 @@ template <int D> int hourglass_items(const SolidConstants& m) { return m.law == 
 /// Place of (i, j) in a symmetric tensor.
 inline constexpr int kFull[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
 
-template <class T, int D> class Hourglass {
-  using Cell = OnePoint<D>;
+template <class T, int D, bool Ring = false> class Hourglass {
+  using Cell = OnePoint<D, Ring>;
 
  public:
   /// constants: of the cell; x: of its corners; e: its edges.
-  Hourglass(const SolidConstants& m, const double* constants, const Edges<T, D>& e, const Vector<T, D>* x) : moduli_(m), edges_(e) {
+  Hourglass(const SolidConstants& m, const double* constants, const Edges<T, D, Ring>& e, const Vector<T, D>* x) : moduli_(m), edges_(e) {
     for (int i = 0; i < Cell::inertia - Cell::slopes; ++i) load(constants, Cell::slopes + i, slopes_[i]);
     Vector<T, D> sum[Cell::modes];
     sum_modes<T, D>(x, sum);
@@ -64,6 +65,8 @@ template <class T, int D> class Hourglass {
       }
     }
     strain_.from(z_, slopes_);
+    if constexpr (Ring) hoop_ = HoopStrain<T>(constants, e, x, strain_);
+    constants_ = constants;
     for (int d = 0; d < 3; ++d) stress_.warp[d] = T(0);
   }
 
@@ -101,7 +104,26 @@ template <class T, int D> class Hourglass {
       for (int m = 0; m < D; ++m) on_edges[m] += rise_[k][m] * r[k];  // d x^m = -(x^m . d x_k) x^k
     }
     take_modes<T, D>(r, on_corners);
+    if constexpr (Ring)
+      for (int d = 0; d < 2; ++d) {
+        const T force = T(1.0 / 3) * V0 * stress_.plane[d].b;
+        for (int a = 0; a < 4; ++a) on_corners[a][0] -= force * hoop_.rate(1 - d, a);
+      }
   }
+
+  /// Of a ring: d of the fibre strain e_d, and of the hoop strain that varies with coordinate i, by x_a (r_a).
+  Vector<T, D> fibre_rate(int d, int a) const {
+    T gamma(kHourglass<D>[0][a]);
+    for (int m = 0; m < D; ++m) {
+      T w;
+      load(constants_, Cell::weights + a * D + m, w);
+      gamma -= rise_[0][m] * w;
+    }
+    Vector<T, D> row = (gamma * slopes_[2 * d]) * edges_.up[0];
+    row += (gamma * slopes_[2 * d + 1]) * edges_.up[1];
+    return row;
+  }
+  T hoop_rate(int i, int a) const { return hoop_.rate(i, a); }
 
  private:
   using Strain = HourglassStrain<T, D>;
@@ -194,7 +216,7 @@ template <class T, int D> class Hourglass {
     for (int m = 0; m < D; ++m) G[m] = dot(edges_.up[m], Bx[m]);
     G[3] = dot(edges_.up[0], Bx[1]);
     if constexpr (D == 2) {
-      G[2] = B[2];
+      G[2] = Ring ? B[2] * edges_.up[2][0] * edges_.up[2][0] : B[2];
     } else {
       G[4] = dot(edges_.up[1], Bx[2]);
       G[5] = dot(edges_.up[2], Bx[0]);
@@ -303,7 +325,9 @@ template <class T, int D> class Hourglass {
   }
 
   const PlaneModuli<T> moduli_;
-  const Edges<T, D>& edges_;
+  const Edges<T, D, Ring>& edges_;
+  const double* constants_;
+  std::conditional_t<Ring, HoopStrain<T>, int> hoop_;
   T slopes_[Cell::inertia - Cell::slopes];
   T rise_[Cell::modes][D], z_[Cell::modes][D];
   Strain strain_, stress_;
@@ -312,9 +336,9 @@ template <class T, int D> class Hourglass {
 
 /// One step of the law at the centre and of the variation about it. memory, hourglass_memory: of
 /// the cell, the latter kHourglassItems of each layer; none of a hyperelastic body.
-template <class T, int D>
-PointResponse<T, D> step_with_hourglass(const SolidConstants& m, const Edges<T, D>& e, const Vector<T, D>* moved, const T& J, double* memory,
-                                   Hourglass<T, D>& hourglass, double* hourglass_memory) {
+template <class T, int D, bool Ring>
+PointResponse<T, D> step_with_hourglass(const SolidConstants& m, const Edges<T, D, Ring>& e, const Vector<T, D>* moved, const T& J, double* memory,
+                                        Hourglass<T, D, Ring>& hourglass, double* hourglass_memory) {
   constexpr int size = Symmetric<T, D>::size;
   if (m.law == Law::hyperelastic) {
     hourglass.add_elastic();
