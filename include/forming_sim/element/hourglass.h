@@ -149,46 +149,61 @@ template <class T, int D, bool Ring = false> class Hourglass {
       for (int d = 0; d < 3; ++d) store(memory, 3 * kPlaneItems<D> + d, ep.warp[d]);
   }
 
-  /// F^-1 S F, symmetric: components of a stress along the cell's axes.
-  Symmetric<T, D> in_frame(const Symmetric<T, D>& S) const {
-    Vector<T, D> Sx[D];
-    for (int m = 0; m < D; ++m) Sx[m] = S * edges_.x[m];
-    Symmetric<T, D> r;
-    for (int m = 0; m < D; ++m) r[m] = dot(edges_.up[m], Sx[m]);
-    const auto shear = [&](int i, int j) { return T(0.5) * (dot(edges_.up[i], Sx[j]) + dot(edges_.up[j], Sx[i])); };
-    r[3] = shear(0, 1);
-    if constexpr (D == 2) {
-      r[2] = S[2];
-    } else {
-      r[4] = shear(1, 2);
-      r[5] = shear(2, 0);
+  /// The cell's axes turned as its edges are: the orthonormal vectors nearest to the edges' directions,
+  /// A <- (A + A^-T)/2, which ends at the rotation of the polar decomposition. Not F^-1 S F, in which shear
+  /// would grow with the ratio of the stretches.
+  struct Axes {
+    Vector<T, D> e[D];
+    explicit Axes(const Edges<T, D, Ring>& edges) {
+      Edges<T, D> a;
+      for (int m = 0; m < D; ++m) a.x[m] = T(1) / sqrt(dot(edges.x[m], edges.x[m])) * edges.x[m];
+      for (int k = 0; k < 5; ++k) {
+        find_reciprocal(a);
+        for (int m = 0; m < D; ++m)
+          for (int i = 0; i < D; ++i) a.x[m][i] = T(0.5) * (a.x[m][i] + a.up[m][i]);
+      }
+      for (int m = 0; m < D; ++m) e[m] = a.x[m];
     }
-    return r;
-  }
-
-  /// The tensor whose components along the cell's axes are A: sym x^m (x) A_mk x_k.
-  Symmetric<T, D> out_of_frame(const Symmetric<T, D>& A) const {
-    Vector<T, D> y[D];
-    for (int m = 0; m < D; ++m) {
-      y[m] = A[kFull[m][0]] * edges_.x[0];
-      for (int k = 1; k < D; ++k) y[m] += A[kFull[m][k]] * edges_.x[k];
+    /// Components of a spatial tensor along the axes, of the size of the tensor itself.
+    Symmetric<T, D> of(const Symmetric<T, D>& S) const {
+      Vector<T, D> Se[D];
+      for (int m = 0; m < D; ++m) Se[m] = S * e[m];
+      Symmetric<T, D> r;
+      for (int m = 0; m < D; ++m) r[m] = dot(e[m], Se[m]);
+      r[3] = dot(e[0], Se[1]);
+      if constexpr (D == 2) {
+        r[2] = S[2];
+      } else {
+        r[4] = dot(e[1], Se[2]);
+        r[5] = dot(e[2], Se[0]);
+      }
+      const T size = sqrt(contract(S, S) / larger(contract(r, r), T(1e-300)));
+      for (int i = 0; i < Symmetric<T, D>::size; ++i) r[i] *= size;
+      return r;
     }
-    const auto part = [&](int i, int j) {
-      T sum = edges_.up[0][i] * y[0][j] + edges_.up[0][j] * y[0][i];
-      for (int m = 1; m < D; ++m) sum += edges_.up[m][i] * y[m][j] + edges_.up[m][j] * y[m][i];
-      return T(0.5) * sum;
-    };
-    Symmetric<T, D> r;
-    for (int i = 0; i < D; ++i) r[i] = part(i, i);
-    r[3] = part(0, 1);
-    if constexpr (D == 2) {
-      r[2] = A[2];
-    } else {
-      r[4] = part(1, 2);
-      r[5] = part(2, 0);
+    Symmetric<T, D> spatial(const Symmetric<T, D>& A) const {
+      Vector<T, D> y[D];
+      for (int m = 0; m < D; ++m) {
+        y[m] = A[kFull[m][0]] * e[0];
+        for (int k = 1; k < D; ++k) y[m] += A[kFull[m][k]] * e[k];
+      }
+      const auto part = [&](int i, int j) {
+        T sum = e[0][i] * y[0][j];
+        for (int m = 1; m < D; ++m) sum += e[m][i] * y[m][j];
+        return sum;
+      };
+      Symmetric<T, D> r;
+      for (int i = 0; i < D; ++i) r[i] = part(i, i);
+      r[3] = part(0, 1);
+      if constexpr (D == 2) {
+        r[2] = A[2];
+      } else {
+        r[4] = part(1, 2);
+        r[5] = part(2, 0);
+      }
+      return r;
     }
-    return r;
-  }
+  };
 
   /// A B + B A
   static Symmetric<T, D> twice_symmetric_product(const Symmetric<T, D>& A, const Symmetric<T, D>& B) {
@@ -244,7 +259,8 @@ template <class T, int D, bool Ring = false> class Hourglass {
     T p;
     load(memory, size, p);
     const YieldStress<T> yield = yield_stress(layer.hardening, p);
-    MeanFlow<T, D> mean{in_frame(point.S), {}, T(2) * factor, yield.value, yield.slope, T(0)};
+    const Axes axes(edges_);
+    MeanFlow<T, D> mean{axes.of(point.S), {}, T(2) * factor, yield.value, yield.slope, T(0)};
     for (int i = 0; i < size; ++i) mean.strain[i] = T(0);
     T rise[D], share[D], most(0);  // p'; 1 where the coordinate's variation takes part, else 0
     for (int d = 0; d < D; ++d) {
@@ -267,7 +283,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
       }
       flow_of_mean(mean);
     }
-    if (together) take_mean_flow(m, factor, J, mean, point, memory);
+    if (together) take_mean_flow(m, factor, J, axes.spatial(mean.strain), mean.p, point, memory);
     bool changed = together;
     if constexpr (D == 3) {
       const T left = smaller(point.kept * mean.sigma / larger(mean.sigma + T(3) * T(moduli_.mu) * mean.p, T(0.5) * mean.sigma), T(1));
@@ -276,11 +292,10 @@ template <class T, int D, bool Ring = false> class Hourglass {
     return changed;
   }
 
-  /// The plastic strain of the mean, D along the cell's axes, enters the law's memory: B <- B - D B - B D, or the
+  /// The plastic strain of the mean, D, enters the law's memory: B <- B - D B - B D, or the
   /// classical S <- S - 2 mu D; it dissipates S : D.
-  void take_mean_flow(const SolidConstants& m, const T& factor, const T& J, const MeanFlow<T, D>& mean, PointResponse<T, D>& point, double* memory) {
+  void take_mean_flow(const SolidConstants& m, const T& factor, const T& J, const Symmetric<T, D>& flow, const T& dp, PointResponse<T, D>& point, double* memory) {
     constexpr int size = Symmetric<T, D>::size;
-    const Symmetric<T, D> flow = out_of_frame(mean.strain);
     if (m.law == Law::classical) {
       for (int i = 0; i < size; ++i) {
         point.S[i] -= T(2 * m.mu) * flow[i];
@@ -299,7 +314,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
     point.dissipation += J * contract(point.S, flow);
     T p;
     load(memory, size, p);
-    store(memory, size, p + mean.p);
+    store(memory, size, p + dp);
   }
 
   /// The last mode: it relaxes as a stress does that is not along the flow, and does not pass the yield stress.

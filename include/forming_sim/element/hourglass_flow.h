@@ -13,9 +13,9 @@
 // h = 2/3 makes it so; where the whole cell flows one way, s is that of the hardening
 // alone.
 //
-// Flow is normal to it in (S, s/3), the stresses that work on the mean and on ep. Of a
-// flow with multiplier L the mean plastic strain takes d p = 2 L (Q_n + mu)/sigma_s, such that
-// sigma_s dp is what it dissipates, and p' takes S : d ep / sigma_s.
+// Flow is normal to it in (S, s/3), the stresses that work on the mean and on ep. On the surface a
+// flow with multiplier L takes d p = 2 L/sigma_s, such that sigma_s dp is what it dissipates, and
+// d p' = S : d ep / sigma_s.
 #include "forming_sim/element/hourglass_strain.h"
 #include "forming_sim/material/hardening.h"
 
@@ -115,10 +115,11 @@ T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli<T>& moduli, const Plan
   const Plane<T> s = moduli.stress(strain - ep);
   const Normal<T, D> n = normal<T, D>(mean, s, rise, at);
   const Plane<T> direction = at.part(n.varied), softer = moduli.stress(direction);
-  const T over = T(1) / mean.sigma;
+  // Newton's step on root = sqrt(Q_n + mu), which is of first degree in the stresses: far outside it is the radial return.
+  const T root = sqrt(larger(T(1) + n.excess, T(1))), over = T(1) / mean.sigma, to_root = T(1) / (root * mean.sigma);
   const T resistance = mean.modulus * contract(n.mean, n.mean) + T(3) * work(softer, direction) +
-                       mean.slope * over * over * (T(4) + T(3) * n.along * n.along);
-  T L = share * larger(n.excess, T(0)) / resistance;
+                       mean.slope * over * over * (T(4) * root * root * root + T(3) * n.along * n.along);
+  T L = share * T(2) * root * (root - T(1)) / resistance;
   Symmetric<T, D> S = mean.S;
   for (int i = 0; i < size; ++i) S[i] -= mean.modulus * L * n.mean[i];
   const T three = T(3) * L;
@@ -128,9 +129,9 @@ T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli<T>& moduli, const Plan
   L *= select(turned, before / select(turned, before - after, T(1)), T(1));
   const Plane<T> rate{T(3) * L * direction.a, T(3) * L * direction.b, T(3) * L * direction.shear};
   ep = {ep.a + rate.a, ep.b + rate.b, ep.shear + rate.shear};
-  rise += T(3) * L * n.along * over;
+  rise += T(3) * L * n.along * to_root;
   for (int i = 0; i < size; ++i) mean.flow(i, L * n.mean[i]);
-  mean.harden(T(2) * L * over * (T(1) + n.excess));
+  mean.harden(T(2) * L * over * root);
   return T(1.0 / 3) * work(moduli.stress(strain - ep), rate);
 }
 
