@@ -259,6 +259,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
     T p;
     load(memory, size, p);
     const YieldStress<T> yield = yield_stress(layer.hardening, p);
+    if (!any(may_yield(point.S, yield, ep, hourglass_memory))) return relax_all(layer, yield.value, point.kept, ep);
     const Axes axes(edges_);
     MeanFlow<T, D> mean{axes.of(point.S), {}, T(2) * factor, yield.value, yield.slope, T(0)};
     for (int i = 0; i < size; ++i) mean.strain[i] = T(0);
@@ -284,11 +285,30 @@ template <class T, int D, bool Ring = false> class Hourglass {
       flow_of_mean(mean);
     }
     if (together) take_mean_flow(m, factor, J, axes.spatial(mean.strain), mean.p, point, memory);
-    bool changed = together;
-    if constexpr (D == 3) {
-      const T left = smaller(point.kept * mean.sigma / larger(mean.sigma + T(3) * T(moduli_.mu) * mean.p, T(0.5) * mean.sigma), T(1));
-      for (int d = 0; d < 3; ++d) changed |= relax(mean.sigma, left, T(layer.weight), d, ep);
+    const T left = smaller(point.kept * mean.sigma / larger(mean.sigma + T(3) * T(moduli_.mu) * mean.p, T(0.5) * mean.sigma), T(1));
+    return relax_all(layer, mean.sigma, left, ep) || together;
+  }
+
+  /// Whether a coordinate can be outside its surface: Q_n + mu <= Q_n + sqrt(Q_n Q_m) + Q_m, without directions.
+  auto may_yield(const Symmetric<T, D>& S, const YieldStress<T>& yield, const Strain& ep, const double* hourglass_memory) const {
+    const T one = T(1) / yield.value, n = sqrt(T(1.5) * contract(S, S)) * one;
+    T most(0);
+    for (int d = 0; d < D; ++d) {
+      T rise;
+      load(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise);
+      const Plane<T> s = moduli_.stress(strain_.plane[d] - ep.plane[d]);
+      const T q = sqrt(s.a * s.a + s.b * s.b - s.a * s.b + T(3) * s.shear * s.shear);
+      const T m = T(kFaceStress) * (q * one + absolute(yield.slope * rise) * one * n);
+      most = larger(most, n * n + n * m + m * m);
     }
+    return most > T(1 + 1e-12);
+  }
+
+  /// The last mode, of hexahedra; whether it flows.
+  bool relax_all(const LayerConstants& layer, const T& limit, const T& left, Strain& ep) {
+    bool changed = false;
+    if constexpr (D == 3)
+      for (int d = 0; d < 3; ++d) changed |= relax(limit, left, T(layer.weight), d, ep);
     return changed;
   }
 
