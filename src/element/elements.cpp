@@ -80,10 +80,10 @@ struct ElementStart {
       share[a] = mass_share(x, corner, a, dimension, ring);
     }
   }
-  ElementStart(const NodeField& x, const int* cell, int first_node, int dimension, const SolidConstants& solid) : nodes(dimension == 2 ? 4 : 8) {
+  ElementStart(const NodeField& x, const int* cell, int first_node, int dimension, bool ring, const SolidConstants& solid) : nodes(dimension == 2 ? 4 : 8) {
     Vec3 corners[8];
     for (int a = 0; a < nodes; ++a) corners[a] = vec3(x[node[a] = cell[a] + first_node]);
-    OnePointStart start = start_one_point(corners, dimension, solid);
+    OnePointStart start = start_one_point(corners, dimension, ring, solid);
     edges = start.edges;
     volume = start.volume;
     std::copy(start.share, start.share + nodes, share);
@@ -108,6 +108,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   nodal_volume0_.assign(nodes, 0.0);
   nodal_bulk_.assign(nodes, 0.0);
   inertia_.assign(axisymmetric_ ? nodes : 0, 0.0);
+  std::vector<double> simplex_mass(inertia_.size(), 0.0);
   long records = 0;
   for (const BodyModel& body : bodies) {
     int first_element = body.first_element;
@@ -143,7 +144,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.node_storage.resize(static_cast<std::size_t>(g.blocks) * shape.nodes * kLanes);
       g.memory_storage.resize(static_cast<std::size_t>(g.blocks) * shape.points * g.items);
       if (is_one_point(cells.kind)) {
-        g.constants_storage.resize(static_cast<std::size_t>(g.blocks) * (D == 2 ? OnePoint<2>::items : OnePoint<3>::items));
+        g.constants_storage.resize(static_cast<std::size_t>(g.blocks) * one_point_items(D, g.ring));
         g.hourglass_items = D == 2 ? hourglass_items<2>(g.solid) : hourglass_items<3>(g.solid);
         g.hourglass_storage.resize(static_cast<std::size_t>(g.blocks) * g.hourglass_items);
       }
@@ -161,7 +162,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
           }
           for (int s = 0; s < shape.points; ++s) {
             const int element = g.first_element + cell * shape.simplices + s;
-            const ElementStart initial = is_one_point(cells.kind) ? ElementStart(x, of_cell, body.first_node, D, g.solid)
+            const ElementStart initial = is_one_point(cells.kind) ? ElementStart(x, of_cell, body.first_node, D, axisymmetric_, g.solid)
                                                                   : ElementStart(x, simplices_[element], D, axisymmetric_);
             const double V0 = initial.volume;
             if (!(V0 > 0)) {
@@ -181,11 +182,13 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
             for (std::size_t i = 0; i < items; ++i) g.constants_storage[b * items + i][l] = initial.constants[i];
             if (!first) continue;
             for (int a = 0; a < initial.nodes; ++a) mass_[initial.node[a]] += g.density * V0 * initial.share[a];
-            if (is_one_point(cells.kind)) continue;  // it has no share in nodal pressures
+            if (is_one_point(cells.kind)) continue;  // it has no share in nodal pressures, and the bound of its step its own masses
             for (int a = 0; a < initial.nodes; ++a) {
               nodal_volume0_[initial.node[a]] += V0 / (D + 1);
               nodal_bulk_[initial.node[a]] = g.solid.K;
-              if (axisymmetric_) inertia_[initial.node[a]] = g.density;
+              if (!axisymmetric_) continue;
+              inertia_[initial.node[a]] = g.density;
+              simplex_mass[initial.node[a]] += g.density * V0 * initial.share[a];
             }
           }
         }
@@ -194,7 +197,8 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       groups_.push_back(std::move(g));
     }
   }
-  for (std::size_t n = 0; n < inertia_.size(); ++n) inertia_[n] *= nodal_volume0_[n] / mass_[n];
+  for (std::size_t n = 0; n < inertia_.size(); ++n)
+    if (simplex_mass[n] > 0) inertia_[n] *= nodal_volume0_[n] / simplex_mass[n];
   record_size_ = D == 2 ? kRecord<2> : kRecord<3>;
   record_storage_.resize(static_cast<std::size_t>(records) * record_size_ / kLanes);
   records_ = record_storage_.empty() ? nullptr : record_storage_.data()->value;
@@ -322,14 +326,21 @@ double Elements::volume_ratio(const NodeField& x, int element) const {
   const int block = where.cell / kLanes, l = where.cell % kLanes, point = where.simplex % g.cell_simplices;
   const double V0 = g.memory_storage[(static_cast<std::size_t>(block) * g.cell_simplices + point + 1) * g.items - 1][l];
   if (g.constants_storage.empty()) return SimplexShape(x, simplices_[element], dimension_, axisymmetric_).volume / V0;
-  const int D = dimension_, items = D == 2 ? OnePoint<2>::items : OnePoint<3>::items;
+  const int D = dimension_, items = one_point_items(D, axisymmetric_);
   Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
   edges.topLeftCorner(D, D).setZero();
   for (int a = 0; a < g.cell_nodes; ++a)
     for (int m = 0; m < D; ++m)
       edges.col(m) += g.constants_storage[static_cast<std::size_t>(block) * items + a * D + m][l] *
                       vec3(x[g.node_storage[(static_cast<std::size_t>(block) * g.cell_nodes + a) * kLanes + l]]);
-  return edges.determinant() / (D == 2 ? 2 : 6) / V0;
+  double circle = 1;
+  if (axisymmetric_) {
+    circle = 0;
+    for (int a = 0; a < g.cell_nodes; ++a)
+      circle += kTwoPi * g.constants_storage[static_cast<std::size_t>(block) * items + OnePoint<2, true>::hoop + a][l] *
+                x[g.node_storage[(static_cast<std::size_t>(block) * g.cell_nodes + a) * kLanes + l]][0];
+  }
+  return circle * edges.determinant() / (D == 2 ? 2 : 6) / V0;
 }
 
 void Elements::report_inversion(const NodeField& x) const {

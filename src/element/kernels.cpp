@@ -31,7 +31,7 @@ void gather(const int* nodes, const double* field, Vector<Pack, kD<Cell>>* out) 
 
 /// Constants of a block of one-point cells; null elsewhere.
 template <class Cell> const double* constants_of(const CellGroup& g, long block) {
-  if constexpr (Cell::one_point) return g.constants + block * OnePoint<kD<Cell>>::items * kLanes;
+  if constexpr (Cell::one_point) return g.constants + block * OnePoint<kD<Cell>, Cell::ring>::items * kLanes;
   else return nullptr;
 }
 template <class Cell> double* hourglass_of(const CellGroup& g, long block) { return g.hourglass + block * g.hourglass_items * kLanes; }
@@ -46,6 +46,10 @@ void edges_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s, V
     for (int m = 0; m < D; ++m) {
       edge[m] = weight(constants, m) * x[0];
       for (int a = 1; a < Cell::nodes; ++a) edge[m] += weight(constants, a * D + m) * x[a];
+    }
+    if constexpr (Cell::ring) {  // x_3 = sum_a o_a r_a
+      edge[2] = {{Pack(0.0), Pack(0.0)}};
+      for (int a = 0; a < Cell::nodes; ++a) edge[2][0] += weight(constants, OnePoint<D, true>::hoop + a) * x[a][0];
     }
   } else {
     const auto& corner = Cell::table[s];
@@ -233,8 +237,8 @@ template <class Cell, bool OneLayer>
     if (classical) moved_edges<Cell>(view, constants, v, s, w);
     PointResponse<Pack, D> point;
     if constexpr (Cell::one_point) {
-      Hourglass<Pack, D> hourglass(g.solid, constants, e, x);
-      point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J, memory, hourglass, hourglass_of<Cell>(g, block), Keep::yes);
+      Hourglass<Pack, D, Cell::ring> hourglass(g.solid, constants, e, x);
+      point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J, memory, hourglass, hourglass_of<Cell>(g, block));
       for (int m = 0; m < D; ++m)
         for (int i = 0; i < D; ++i) force[m][i] = Pack(0.0);
       hourglass.add_forces(V0, force, f);
@@ -251,7 +255,10 @@ template <class Cell, bool OneLayer>
       else force[m] = of_mean;
     }
     spread<Cell>(constants, s, force, f);
-    if constexpr (Cell::ring) {  // the hoop: -V sigma . x^3, a third on each corner since x_3 is their mean radius
+    if constexpr (Cell::ring && Cell::one_point) {  // the hoop: -V sigma . x^3, through the weights of x_3
+      const Pack hoop = e.volume * e.up[2][0] * point.S[2];
+      for (int a = 0; a < Cell::nodes; ++a) f[a][0] -= weight(constants, OnePoint<D, true>::hoop + a) * hoop;
+    } else if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
       const Pack hoop = e.volume * e.up[2][0] * point.S[2] * Pack(1.0 / 3);
       for (int a = 0; a <= D; ++a) f[Cell::table[s][a]][0] -= hoop;
     }
@@ -288,7 +295,8 @@ template <class Cell> void volumes_of_block(const CellGroup& g, const NodalView&
 }
 
 template <class Cell>
-using CellBound = std::conditional_t<Cell::one_point, OnePointBound<Pack, kD<Cell>>, StepBound<Pack, kD<Cell>, Cell::nodes, Cell::ring>>;
+using CellBound = std::conditional_t<!Cell::one_point, StepBound<Pack, kD<Cell>, Cell::nodes, Cell::ring>,
+                                     std::conditional_t<Cell::ring, OnePointRingBound<Pack>, OnePointBound<Pack, kD<Cell>>>>;
 
 template <class Cell>
 [[gnu::flatten]] void rates_of_block(const CellGroup& g, const NodalView& view, long block, BlockRates& out) {
@@ -309,7 +317,8 @@ template <class Cell>
     edges_of<Cell>(constants, x, s, e.x);
     find_reciprocal(e);
     const double* memory = memory_of<Cell>(g, block, s);
-    if constexpr (Cell::one_point) bound.set(e, memory, initial_volume(g, memory), constants, Hourglass<Pack, D>(g.solid, constants, e, x));
+    if constexpr (Cell::one_point && Cell::ring) bound.set(e, x, memory, initial_volume(g, memory), constants, Hourglass<Pack, D, true>(g.solid, constants, e, x));
+    else if constexpr (Cell::one_point) bound.set(e, memory, initial_volume(g, memory), constants, Hourglass<Pack, D>(g.solid, constants, e, x));
     else bound.add(e, memory, initial_volume(g, memory), Cell::table[s]);
   }
   Pack rate(0.0);
@@ -347,7 +356,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
     const Pack V0 = initial_volume(g, memory);
     const Pack J = e.volume / V0;
     stored += V0 * point_energy(g.solid, e, J, memory);
-    if constexpr (Cell::one_point) stored += V0 * Hourglass<Pack, D>(g.solid, constants, e, x).energy(g.solid, hourglass_of<Cell>(g, block));
+    if constexpr (Cell::one_point) stored += V0 * Hourglass<Pack, D, Cell::ring>(g.solid, constants, e, x).energy(g.solid, hourglass_of<Cell>(g, block));
     if (classical) stored += e.volume * p[s] * p[s] * Pack(0.5 / g.solid.K);
     else if (g.pressure != PressureMode::node) stored += Pack(0.5 * g.solid.K * own) * V0 * (J - Pack(1.0)) * (J - Pack(1.0));
     cell_V += e.volume;
@@ -384,7 +393,7 @@ template <class Work> void with_cell(const CellGroup& g, Work&& work) {
     case CellKind::tetrahedron: return work(cell_types::Tetrahedron());
     case CellKind::hex6: return work(cell_types::Hex6());
     case CellKind::hex24: return work(cell_types::Hex24());
-    case CellKind::quad1: return work(cell_types::Quad1());
+    case CellKind::quad1: return flat(cell_types::Quad1());
     case CellKind::hex1: return work(cell_types::Hex1());
   }
 }

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forming_sim/element/hourglass.h"
+#include "forming_sim/element/hourglass_strain.h"
 
 namespace forming_sim {
 namespace {
@@ -24,8 +24,8 @@ template <int D> double shape_function(int a, const double* xi, double* gradient
   return value;
 }
 
-template <int D> class Start {
-  using Cell = OnePoint<D>;
+template <int D, bool Ring = false> class Start {
+  using Cell = OnePoint<D, Ring>;
   static constexpr int N = Cell::nodes, M = Cell::modes;
   using Square = Eigen::Matrix<double, D, D>;
   using Corners = Eigen::Matrix<double, D, N>;
@@ -38,10 +38,14 @@ template <int D> class Start {
     for (int a = 0; a < N; ++a) X_.col(a) = corners[a].head<D>();
     if (!integrate()) return;
     find_frame();
+    if constexpr (Ring) put_hoop();
     for (int a = 0; a < N; ++a) put(Cell::weights + a * D, Eigen::Matrix<double, D, 1>(w_.col(a)));
     Eigen::Matrix<double, M, D> start = h_ * X_.transpose() * E_ / c_;
     for (int k = 0; k < M; ++k) put(Cell::start + k * D, Eigen::Matrix<double, D, 1>(start.row(k)));
-    put_pairs(Cell::slopes, slopes_);
+    if constexpr (D == 2)
+      for (int i = 0; i < 2; ++i) put(Cell::slopes + 2 * i, Eigen::Vector2d(slopes_.col(i)));
+    else
+      put_pairs(Cell::slopes, slopes_);
     Eigen::Matrix<double, N, 1> share;
     for (int a = 0; a < N; ++a) share[a] = result.share[a];
     const Square inertia = w_ * share.cwiseInverse().asDiagonal() * w_.transpose();
@@ -65,13 +69,23 @@ template <int D> class Start {
       }
       const Square J = X_ * dN.transpose();
       const double det = J.determinant();
-      if (!(det > 0)) {
-        result.volume = std::min(det, 0.0);
+      double circle = 1;  // of this point, in a ring
+      if constexpr (Ring) {
+        circle = 0;
+        for (int a = 0; a < N; ++a) circle += kTwoPi * value[a] * X_(0, a);
+      }
+      const double volume = circle * det;
+      if (!(det > 0) || !(volume > 0)) {
+        result.volume = std::min(volume, 0.0);
         return false;
       }
-      result.volume += det;
-      b_ += det * J.inverse().transpose() * dN;
-      for (int a = 0; a < N; ++a) result.share[a] += det * value[a];
+      extent_ += det;
+      result.volume += volume;
+      b_ += volume * J.inverse().transpose() * dN;
+      for (int a = 0; a < N; ++a) {
+        result.share[a] += volume * value[a];
+        even_[a] += det * value[a];
+      }
     }
     b_ /= result.volume;
     for (double& s : result.share) s /= result.volume;
@@ -91,11 +105,25 @@ template <int D> class Start {
     const Square J = X_ * dN.transpose();
     const Eigen::JacobiSVD<Square> svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);
     E_ = svd.matrixU() * svd.matrixV().transpose();
-    c_ = D == 2 ? std::sqrt(2 * result.volume) : std::cbrt(6 * result.volume);
+    c_ = D == 2 ? std::sqrt(2 * extent_) : std::cbrt(6 * extent_);
     w_ = c_ * E_.transpose() * b_;
     const Square U = E_.transpose() * J;
-    slopes_ = (c_ / N) * (0.5 * (U + U.transpose())).inverse();
+    if constexpr (D == 2) slopes_ = (c_ / N) * U * U.colwise().squaredNorm().cwiseInverse().asDiagonal();
+    else slopes_ = (c_ / N) * (0.5 * (U + U.transpose())).inverse();
     result.edges.template topLeftCorner<D, D>() = c_ * E_;
+  }
+
+  void put_hoop() {
+    double slope[2] = {}, radius = 0;
+    for (int a = 0; a < N; ++a) {
+      const double share = even_[a] / extent_;
+      radius += share * X_(0, a);
+      for (int i = 0; i < 2; ++i) slope[i] += 0.25 * kCornerSides[a][i] * X_(0, a);
+      result.constants[Cell::hoop + a] = share;
+      result.constants[Cell::mass + a] = result.share[a];
+    }
+    for (int i = 0; i < 2; ++i) result.constants[Cell::hoop_start + i] = slope[i] / radius;
+    result.edges(2, 2) = radius;
   }
 
   /// The modes in terms of the mass: gamma = L Q with rows of Q of unit length in 1/share.
@@ -142,12 +170,14 @@ template <int D> class Start {
   Corners X_, b_, w_;
   Modes h_;
   Square E_, slopes_;
-  double c_ = 0;
+  double c_ = 0, extent_ = 0;  ///< extent: volume, of a ring the area of its section
+  double even_[N] = {};        ///< int N_a over the section
 };
 
 }  // namespace
 
-OnePointStart start_one_point(const Vec3* corners, int dimension, const SolidConstants& solid) {
+OnePointStart start_one_point(const Vec3* corners, int dimension, bool ring, const SolidConstants& solid) {
+  if (ring) return Start<2, true>(corners, solid).result;
   if (dimension == 2) return Start<2>(corners, solid).result;
   return Start<3>(corners, solid).result;
 }

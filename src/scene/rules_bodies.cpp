@@ -79,11 +79,9 @@ void check_hardening(const HardeningConfig& hardening, const std::string& path, 
   }
 }
 
-void check_one_point(const BodyConfig& body, const std::string& path, bool axisymmetric, FaultList& faults) {
+void check_one_point(const BodyConfig& body, const std::string& path, FaultList& faults) {
   const std::string* pattern = body.blank ? &body.blank->pattern : body.mesh ? &body.mesh->pattern : nullptr;
   if (!pattern || *pattern != "one_point") return;
-  const std::string here = path + (body.blank ? ".blank" : ".mesh") + ".pattern";
-  if (axisymmetric) faults.add(here, given_text(*pattern), "give fine or coarse: a one-point cell cannot be turned about an axis");
   if (body.pressure_average == "node")
     faults.add(path + ".pressure_average", given_text(body.pressure_average), "give cell: a one-point cell has a pressure of its own, none in nodes");
 }
@@ -117,7 +115,7 @@ void check_bodies(const Scene& scene, FaultList& faults) {
     const std::string path = body_path(i);
     check_source(body, path, scene.dimension, faults);
     check_material(body, path, faults);
-    check_one_point(body, path, scene.axisymmetric, faults);
+    check_one_point(body, path, faults);
     const auto sets = known_sets(body);
     const auto check_set = [&](const std::string& set, const std::string& here) {
       if (!sets || set.empty() || std::find(sets->begin(), sets->end(), set) != sets->end()) return;

@@ -78,17 +78,24 @@ Errors column(CellKind kind, double nu, int cells) {
   return {error(elements.nodal_mass()), error(equal)};
 }
 
-class RingMass : public ::testing::TestWithParam<CellKind> {};
+/// By what the error falls, at least, when cells are half as long: simplices are of second order but for a logarithm; the
+/// axis of one-point cells is of order 1.2 (.0013, .00055, .00023 m at 4, 8, 16 cells), from a smaller error on.
+struct Column {
+  CellKind kind;
+  double gain;
+};
+
+class RingMass : public ::testing::TestWithParam<Column> {};
 
 TEST_P(RingMass, TheAxisOfAnAcceleratedColumnKeepsUp) {
-  const Errors coarse = column(GetParam(), 0.34, 4), fine = column(GetParam(), 0.34, 8);
+  const Errors coarse = column(GetParam().kind, 0.34, 4), fine = column(GetParam().kind, 0.34, 8);
   for (const Errors& e : {coarse, fine}) std::cout << "  error of the axis " << e.own << " m, with equal shares " << e.equal << " m\n";
-  EXPECT_LT(fine.own, coarse.own / 2.5);  // second order but for a logarithm
+  EXPECT_LT(fine.own, coarse.own / GetParam().gain);
   EXPECT_LT(fine.own, fine.equal / 2);
   EXPECT_LT(fine.own, 0.05 * 0.5 * 0.34);  // of the bulge of the ends, s nu / 2
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, RingMass, ::testing::Values(CellKind::quad2, CellKind::crossed));
+INSTANTIATE_TEST_SUITE_P(Kinds, RingMass, ::testing::Values(Column{CellKind::quad2, 2.5}, Column{CellKind::crossed, 2.5}, Column{CellKind::quad1, 2.2}));
 
 }  // namespace
 }  // namespace forming_sim

@@ -169,7 +169,9 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EveryRing,
                                            Case{CellKind::crossed, "cell", 30}, Case{CellKind::crossed, "node", 0},
                                            Case{CellKind::crossed, "cell", 0, "layers"}, Case{CellKind::quad2, "cell", 0, "paper"},
                                            Case{CellKind::crossed, "cell", 0, "hyperelastic"},
-                                           Case{CellKind::triangle, "node", 0.3, "hyperelastic"}));
+                                           Case{CellKind::triangle, "node", 0.3, "hyperelastic"}, Case{CellKind::quad1, "cell", 0},
+                                           Case{CellKind::quad1, "cell", 0.3}, Case{CellKind::quad1, "cell", 30}, Case{CellKind::quad1, "cell", 0, "layers"},
+                                           Case{CellKind::quad1, "cell", 0.3, "paper"}, Case{CellKind::quad1, "cell", 0, "hyperelastic"}));
 
 // A thin ring far from the axis is a section in plane strain, but for its circumference.
 TEST(Rings, FarFromTheAxisTheyAreAPlaneStrainSection) {

@@ -1,6 +1,9 @@
 #pragma once
 // Cook's membrane: a tapered panel clamped at the left, sheared at the right, plane strain,
 // elastic-plastic (VERIFICATION: its upper right corner rises by 6.95 +- .1 mm).
+#include <algorithm>
+#include <cmath>
+
 #include "support/sections.h"
 
 namespace forming_sim {
@@ -23,9 +26,30 @@ inline MaterialConfig cook_material() {
   return m;
 }
 
+// The traction rises smoothly and stays. A straight ramp, or one that is four times as fast, overshoots, and what overshoots
+// stays as plastic strain.
+constexpr double kCookLoading = 5e-3, kCookHold = 1e-3;  ///< s; the panel swings in about .1 ms, in plastic flow in some ms
+constexpr double kCookDamping = 6e3;                     ///< 1/s
+
+/// Share of the traction after `time`, s, of a loading that takes `loading`.
+inline double cook_share(double time, double loading = kCookLoading) {
+  const double s = std::min(1.0, time / loading);
+  return s * s * s * (10 - 15 * s + 6 * s * s);
+}
+
 /// Corners (0,0) (48,44) (48,60) (0,44) mm, cells x cells.
 inline Mesh membrane(int cells, const std::string& pattern) {
   return mapped_section(cells, cells, [](double s, double t) { return Vec3(48e-3 * s, 44e-3 * s + t * (44e-3 - 28e-3 * s), 0); }, pattern);
+}
+
+/// The traction as forces on the nodes, N: the edge's share to each, half as much at its ends.
+inline NodeField cook_load(const Mesh& mesh, int cells) {
+  NodeField load(mesh.nodes.size(), Node::Zero());
+  for (int n : mesh.sets.at("right")) {
+    const bool corner = std::abs(mesh.nodes[n].y() - 44e-3) < 1e-9 || std::abs(mesh.nodes[n].y() - 60e-3) < 1e-9;
+    load[n][1] = kCookTraction * 16e-3 / cells * (corner ? 0.5 : 1);
+  }
+  return load;
 }
 
 /// Its node at (48,60) mm.

@@ -31,7 +31,8 @@
 // points of a fine mesh would; where none does, the cell is elastic; across a neutral axis, where
 // S = 0, s is bounded, and h = 2/3 makes the moment of the cell that of the rectangle of yield stress.
 // What the points dissipate beside the centre is s : d ep V0/3.
-#include "forming_sim/element/hourglass_strain.h"
+#include "forming_sim/element/hourglass_flow.h"
+#include "forming_sim/element/one_point_ring.h"
 #include "forming_sim/material/law.h"
 
 namespace forming_sim {
@@ -43,16 +44,16 @@ template <int D> constexpr int kHourglassItems = D * kPlaneItems<D> + (D == 3 ? 
 /// Numbers of memory of a cell beside those of its point.
 template <int D> int hourglass_items(const SolidConstants& m) { return m.law == Law::hyperelastic ? 0 : m.layers * kHourglassItems<D>; }
 
-/// Half the distance of the points of yield over that of the faces.
-constexpr double kYieldPoint = 2.0 / 3;
+/// Place of (i, j) in a symmetric tensor.
+inline constexpr int kFull[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
 
-template <class T, int D> class Hourglass {
-  using Cell = OnePoint<D>;
+template <class T, int D, bool Ring = false> class Hourglass {
+  using Cell = OnePoint<D, Ring>;
 
  public:
   /// constants: of the cell; x: of its corners; e: its edges.
-  Hourglass(const SolidConstants& m, const double* constants, const Edges<T, D>& e, const Vector<T, D>* x) : moduli_(m), edges_(e) {
-    for (int i = 0; i < Cell::pairs; ++i) load(constants, Cell::slopes + i, slopes_[i]);
+  Hourglass(const SolidConstants& m, const double* constants, const Edges<T, D, Ring>& e, const Vector<T, D>* x) : moduli_(m), edges_(e) {
+    for (int i = 0; i < Cell::inertia - Cell::slopes; ++i) load(constants, Cell::slopes + i, slopes_[i]);
     Vector<T, D> sum[Cell::modes];
     sum_modes<T, D>(x, sum);
     for (int k = 0; k < Cell::modes; ++k) {
@@ -64,27 +65,20 @@ template <class T, int D> class Hourglass {
       }
     }
     strain_.from(z_, slopes_);
+    if constexpr (Ring) hoop_ = HoopStrain<T>(constants, e, x, strain_);
+    constants_ = constants;
     for (int d = 0; d < 3; ++d) stress_.warp[d] = T(0);
   }
 
   /// Stresses of a body without plasticity.
   void add_elastic() { add(Strain(), T(1)); }
 
-  /// One step of a layer. S: the law's stress after the step, `kept` times that of the trial; p: its
-  /// plastic strain before; memory: kHourglassItems, those of the layer.
-  void add_layer(const LayerConstants& layer, const Symmetric<T, D>& S, const T& kept, const T& p, double* memory, Keep keep) {
-    Strain ep = load_plastic(memory);
-    if (layer.hardening.kind != HardeningCurve::elastic) {
-      const YieldStress<T> yield = yield_stress(layer.hardening, p);
-      const T back = T(1) / kept;
-      const Symmetric<T, D> trial = in_frame(S, back);
-      const T Q0 = T(1.5) * contract(S, S) * back * back;
-      bool changed = false;
-      for (int d = 0; d < D; ++d) changed |= flow(d, layer, yield, trial, Q0, ep.plane[d], memory, keep);
-      if constexpr (D == 3)
-        for (int d = 0; d < 3; ++d) changed |= relax(yield.value, kept, T(layer.weight), d, ep);
-      if (changed && keep == Keep::yes) store_plastic(ep, memory);
-    }
+  /// One step of a layer whose law has answered `point` and stored its memory. Where the cell yields by
+  /// its variation, mean and variation flow together, and both answers change.
+  void add_layer(const SolidConstants& m, const LayerConstants& layer, const T& factor, const T& J, PointResponse<T, D>& point, double* memory,
+                 double* hourglass_memory) {
+    Strain ep = load_plastic(hourglass_memory);
+    if (layer.hardening.kind != HardeningCurve::elastic && flow(m, layer, factor, J, point, memory, ep, hourglass_memory)) store_plastic(ep, hourglass_memory);
     add(ep, T(layer.weight));
   }
 
@@ -110,7 +104,26 @@ template <class T, int D> class Hourglass {
       for (int m = 0; m < D; ++m) on_edges[m] += rise_[k][m] * r[k];  // d x^m = -(x^m . d x_k) x^k
     }
     take_modes<T, D>(r, on_corners);
+    if constexpr (Ring)
+      for (int d = 0; d < 2; ++d) {
+        const T force = T(1.0 / 3) * V0 * stress_.plane[d].b;
+        for (int a = 0; a < 4; ++a) on_corners[a][0] -= force * hoop_.rate(1 - d, a);
+      }
   }
+
+  /// Of a ring: d of the fibre strain e_d, and of the hoop strain that varies with coordinate i, by x_a (r_a).
+  Vector<T, D> fibre_rate(int d, int a) const {
+    T gamma(kHourglass<D>[0][a]);
+    for (int m = 0; m < D; ++m) {
+      T w;
+      load(constants_, Cell::weights + a * D + m, w);
+      gamma -= rise_[0][m] * w;
+    }
+    Vector<T, D> row = (gamma * slopes_[2 * d]) * edges_.up[0];
+    row += (gamma * slopes_[2 * d + 1]) * edges_.up[1];
+    return row;
+  }
+  T hoop_rate(int i, int a) const { return hoop_.rate(i, a); }
 
  private:
   using Strain = HourglassStrain<T, D>;
@@ -136,21 +149,93 @@ template <class T, int D> class Hourglass {
       for (int d = 0; d < 3; ++d) store(memory, 3 * kPlaneItems<D> + d, ep.warp[d]);
   }
 
-  /// factor F^-1 S F, symmetric: its components along the material axes.
-  Symmetric<T, D> in_frame(const Symmetric<T, D>& S, const T& factor) const {
-    Vector<T, D> Sx[D];
-    for (int m = 0; m < D; ++m) Sx[m] = factor * (S * edges_.x[m]);
+  /// The cell's axes turned as its edges are: the orthonormal vectors nearest to the edges' directions,
+  /// A <- (A + A^-T)/2, which ends at the rotation of the polar decomposition. Not F^-1 S F, in which shear
+  /// would grow with the ratio of the stretches.
+  struct Axes {
+    Vector<T, D> e[D];
+    explicit Axes(const Edges<T, D, Ring>& edges) {
+      Edges<T, D> a;
+      for (int m = 0; m < D; ++m) a.x[m] = T(1) / sqrt(dot(edges.x[m], edges.x[m])) * edges.x[m];
+      for (int k = 0; k < 5; ++k) {
+        find_reciprocal(a);
+        for (int m = 0; m < D; ++m)
+          for (int i = 0; i < D; ++i) a.x[m][i] = T(0.5) * (a.x[m][i] + a.up[m][i]);
+      }
+      for (int m = 0; m < D; ++m) e[m] = a.x[m];
+    }
+    /// Components of a spatial tensor along the axes, of the size of the tensor itself.
+    Symmetric<T, D> of(const Symmetric<T, D>& S) const {
+      Vector<T, D> Se[D];
+      for (int m = 0; m < D; ++m) Se[m] = S * e[m];
+      Symmetric<T, D> r;
+      for (int m = 0; m < D; ++m) r[m] = dot(e[m], Se[m]);
+      r[3] = dot(e[0], Se[1]);
+      if constexpr (D == 2) {
+        r[2] = S[2];
+      } else {
+        r[4] = dot(e[1], Se[2]);
+        r[5] = dot(e[2], Se[0]);
+      }
+      const T size = sqrt(contract(S, S) / larger(contract(r, r), T(1e-300)));
+      for (int i = 0; i < Symmetric<T, D>::size; ++i) r[i] *= size;
+      return r;
+    }
+    Symmetric<T, D> spatial(const Symmetric<T, D>& A) const {
+      Vector<T, D> y[D];
+      for (int m = 0; m < D; ++m) {
+        y[m] = A[kFull[m][0]] * e[0];
+        for (int k = 1; k < D; ++k) y[m] += A[kFull[m][k]] * e[k];
+      }
+      const auto part = [&](int i, int j) {
+        T sum = e[0][i] * y[0][j];
+        for (int m = 1; m < D; ++m) sum += e[m][i] * y[m][j];
+        return sum;
+      };
+      Symmetric<T, D> r;
+      for (int i = 0; i < D; ++i) r[i] = part(i, i);
+      r[3] = part(0, 1);
+      if constexpr (D == 2) {
+        r[2] = A[2];
+      } else {
+        r[4] = part(1, 2);
+        r[5] = part(2, 0);
+      }
+      return r;
+    }
+  };
+
+  /// A B + B A
+  static Symmetric<T, D> twice_symmetric_product(const Symmetric<T, D>& A, const Symmetric<T, D>& B) {
     Symmetric<T, D> r;
-    for (int m = 0; m < D; ++m) r[m] = dot(edges_.up[m], Sx[m]);
-    const auto shear = [&](int i, int j) { return T(0.5) * (dot(edges_.up[i], Sx[j]) + dot(edges_.up[j], Sx[i])); };
-    r[3] = shear(0, 1);
+    const auto entry = [&](int i, int j) {
+      T sum = A[kFull[i][0]] * B[kFull[0][j]] + B[kFull[i][0]] * A[kFull[0][j]];
+      for (int k = 1; k < D; ++k) sum += A[kFull[i][k]] * B[kFull[k][j]] + B[kFull[i][k]] * A[kFull[k][j]];
+      return sum;
+    };
+    for (int i = 0; i < D; ++i) r[i] = entry(i, i);
+    r[3] = entry(0, 1);
     if constexpr (D == 2) {
-      r[2] = factor * S[2];
+      r[2] = T(2) * A[2] * B[2];
     } else {
-      r[4] = shear(1, 2);
-      r[5] = shear(2, 0);
+      r[4] = entry(1, 2);
+      r[5] = entry(2, 0);
     }
     return r;
+  }
+
+  /// G^mk = x^m . B x^k.
+  void pull(const Symmetric<T, D>& B, Symmetric<T, D>& G) const {
+    Vector<T, D> Bx[D];
+    for (int m = 0; m < D; ++m) Bx[m] = B * edges_.up[m];
+    for (int m = 0; m < D; ++m) G[m] = dot(edges_.up[m], Bx[m]);
+    G[3] = dot(edges_.up[0], Bx[1]);
+    if constexpr (D == 2) {
+      G[2] = Ring ? B[2] * edges_.up[2][0] * edges_.up[2][0] : B[2];
+    } else {
+      G[4] = dot(edges_.up[1], Bx[2]);
+      G[5] = dot(edges_.up[2], Bx[0]);
+    }
   }
 
   T layer_energy(const Strain& ep) const {
@@ -167,40 +252,92 @@ template <class T, int D> class Hourglass {
     return sum;
   }
 
-  /// The two points of coordinate d (2D: of the strain along E_d); whether one of them yields.
-  bool flow(int d, const LayerConstants& layer, const YieldStress<T>& yield, const Symmetric<T, D>& S, const T& Q0, Plane<T>& ep, double* memory, Keep keep) {
-    const int i = D == 2 ? d : (d + 1) % 3, j = D == 2 ? 2 : (d + 2) % 3;
-    const Plane<T> in_plane{S[i], S[j], D == 2 ? T(0) : S[kPair<3>[i][j]]};
-    const Plane<T> s = moduli_.stress(strain_.plane[d] - ep);
-    constexpr double h = kYieldPoint;
-    T rise;  // p'
-    const int rise_at = d * kPlaneItems<D> + kPlaneItems<D> - 1;
-    load(memory, rise_at, rise);
-    // q^2 = 3/2 (S +- h dev s) : (S +- h dev s)
-    const T even = Q0 + T(h * h) * (s.a * s.a + s.b * s.b - s.a * s.b + T(3) * s.shear * s.shear);
-    const T odd = T(3 * h) * (in_plane.a * s.a + in_plane.b * s.b + T(2) * in_plane.shear * s.shear);
-    const T harder = T(h) * yield.slope * rise;
-    const T limit[2] = {yield.value + harder, yield.value - harder};
-    const T Q[2] = {even + odd, even - odd};
-    if (!any(Q[0] > limit[0] * limit[0]) && !any(Q[1] > limit[1] * limit[1])) return false;
-    const T stiffness = T(1) / (T(3 * moduli_.mu) + yield.slope);
-    T dp[2], over_q[2];
-    for (int k = 0; k < 2; ++k) {
-      const T q = sqrt(larger(Q[k], T(1e-300)));
-      dp[k] = larger((q - limit[k]) * stiffness, T(0));
-      over_q[k] = dp[k] / q;
+  /// All coordinates, one after the other, and the last mode; whether ep changed.
+  bool flow(const SolidConstants& m, const LayerConstants& layer, const T& factor, const T& J, PointResponse<T, D>& point, double* memory, Strain& ep,
+            double* hourglass_memory) {
+    constexpr int size = Symmetric<T, D>::size;
+    T p;
+    load(memory, size, p);
+    const YieldStress<T> yield = yield_stress(layer.hardening, p);
+    if (!any(may_yield(point.S, yield, ep, hourglass_memory))) return relax_all(layer, yield.value, point.kept, ep);
+    const Axes axes(edges_);
+    MeanFlow<T, D> mean{axes.of(point.S), {}, T(2) * factor, yield.value, yield.slope, T(0)};
+    for (int i = 0; i < size; ++i) mean.strain[i] = T(0);
+    T rise[D], share[D], most(0);  // p'; 1 where the coordinate's variation takes part, else 0
+    for (int d = 0; d < D; ++d) {
+      load(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise[d]);
+      const T excess = normal<T, D>(mean, moduli_.stress(strain_.plane[d] - ep.plane[d]), rise[d], PlaneOf<T, D>(slopes_, d)).excess;
+      share[d] = select(excess > T(1e-12), T(1), T(0));
+      most = larger(most, share[d]);
     }
-    const T along = T(0.75 / h) * (over_q[0] - over_q[1]), across = T(0.75) * (over_q[0] + over_q[1]);
-    const T mean = T(1.0 / 3) * (s.a + s.b);
-    const Plane<T> rate{along * in_plane.a + across * (s.a - mean), along * in_plane.b + across * (s.b - mean),
-                        T(2) * (along * in_plane.shear + across * s.shear)};
-    ep = {ep.a + rate.a, ep.b + rate.b, ep.shear + rate.shear};
-    dissipation_ += T(layer.weight / 3) * work(moduli_.stress(strain_.plane[d] - ep), rate);
-    if (keep == Keep::yes) store(memory, rise_at, rise + T(0.5 / h) * (dp[0] - dp[1]));
-    return true;
+    const bool together = any(most > T(0));
+    if (together) {
+      // From the trial on: what the law has returned is taken back.
+      const T returned = most * (T(1) / point.kept - T(1));
+      const T dp = sqrt(T(1.5) * contract(mean.S, mean.S)) * returned / (T(1.5) * mean.modulus);
+      for (int i = 0; i < size; ++i) mean.flow(i, -(returned / mean.modulus * mean.S[i]));
+      mean.harden(-dp);
+      for (int d = 0; d < D; ++d) {
+        if (!any(share[d] > T(0))) continue;
+        dissipation_ += T(layer.weight) * flow_to_surface<T, D>(mean, moduli_, strain_.plane[d], share[d], ep.plane[d], rise[d], PlaneOf<T, D>(slopes_, d));
+        store(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise[d]);
+      }
+      flow_of_mean(mean);
+    }
+    if (together) take_mean_flow(m, factor, J, axes.spatial(mean.strain), mean.p, point, memory);
+    const T left = smaller(point.kept * mean.sigma / larger(mean.sigma + T(3) * T(moduli_.mu) * mean.p, T(0.5) * mean.sigma), T(1));
+    return relax_all(layer, mean.sigma, left, ep) || together;
   }
 
-  /// The last mode: it relaxes as the law's stress does and does not pass the yield stress.
+  /// Whether a coordinate can be outside its surface: Q_n + mu <= Q_n + sqrt(Q_n Q_m) + Q_m, without directions.
+  auto may_yield(const Symmetric<T, D>& S, const YieldStress<T>& yield, const Strain& ep, const double* hourglass_memory) const {
+    const T one = T(1) / yield.value, n = sqrt(T(1.5) * contract(S, S)) * one;
+    T most(0);
+    for (int d = 0; d < D; ++d) {
+      T rise;
+      load(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise);
+      const Plane<T> s = moduli_.stress(strain_.plane[d] - ep.plane[d]);
+      const T q = sqrt(s.a * s.a + s.b * s.b - s.a * s.b + T(3) * s.shear * s.shear);
+      const T m = T(kFaceStress) * (q * one + absolute(yield.slope * rise) * one * n);
+      most = larger(most, n * n + n * m + m * m);
+    }
+    return most > T(1 + 1e-12);
+  }
+
+  /// The last mode, of hexahedra; whether it flows.
+  bool relax_all(const LayerConstants& layer, const T& limit, const T& left, Strain& ep) {
+    bool changed = false;
+    if constexpr (D == 3)
+      for (int d = 0; d < 3; ++d) changed |= relax(limit, left, T(layer.weight), d, ep);
+    return changed;
+  }
+
+  /// The plastic strain of the mean, D, enters the law's memory: B <- B - D B - B D, or the
+  /// classical S <- S - 2 mu D; it dissipates S : D.
+  void take_mean_flow(const SolidConstants& m, const T& factor, const T& J, const Symmetric<T, D>& flow, const T& dp, PointResponse<T, D>& point, double* memory) {
+    constexpr int size = Symmetric<T, D>::size;
+    if (m.law == Law::classical) {
+      for (int i = 0; i < size; ++i) {
+        point.S[i] -= T(2 * m.mu) * flow[i];
+        store(memory, i, point.S[i]);
+      }
+    } else {
+      Symmetric<T, D> G = load_memory<T, D>(memory);
+      Symmetric<T, D> B = push(G, edges_);
+      const Symmetric<T, D> change = twice_symmetric_product(flow, B);
+      for (int i = 0; i < size; ++i) B[i] -= change[i];
+      pull(B, G);
+      for (int i = 0; i < size; ++i) store(memory, i, G[i]);
+      B = deviator(B);
+      for (int i = 0; i < size; ++i) point.S[i] = factor * B[i];
+    }
+    point.dissipation += J * contract(point.S, flow);
+    T p;
+    load(memory, size, p);
+    store(memory, size, p + dp);
+  }
+
+  /// The last mode: it relaxes as a stress does that is not along the flow, and does not pass the yield stress.
   bool relax(const T& limit, const T& kept, const T& weight, int d, Strain& ep) {
     const T elastic = strain_.warp[d] - ep.warp[d], s = T(moduli_.E) * elastic;
     const T left = smaller(kept, limit / larger(absolute(s), limit));
@@ -223,8 +360,10 @@ template <class T, int D> class Hourglass {
   }
 
   const PlaneModuli<T> moduli_;
-  const Edges<T, D>& edges_;
-  T slopes_[Cell::pairs];
+  const Edges<T, D, Ring>& edges_;
+  const double* constants_;
+  std::conditional_t<Ring, HoopStrain<T>, int> hoop_;
+  T slopes_[Cell::inertia - Cell::slopes];
   T rise_[Cell::modes][D], z_[Cell::modes][D];
   Strain strain_, stress_;
   T dissipation_{0.0};
@@ -232,9 +371,9 @@ template <class T, int D> class Hourglass {
 
 /// One step of the law at the centre and of the variation about it. memory, hourglass_memory: of
 /// the cell, the latter kHourglassItems of each layer; none of a hyperelastic body.
-template <class T, int D>
-PointResponse<T, D> step_with_hourglass(const SolidConstants& m, const Edges<T, D>& e, const Vector<T, D>* moved, const T& J, double* memory,
-                                   Hourglass<T, D>& hourglass, double* hourglass_memory, Keep keep) {
+template <class T, int D, bool Ring>
+PointResponse<T, D> step_with_hourglass(const SolidConstants& m, const Edges<T, D, Ring>& e, const Vector<T, D>* moved, const T& J, double* memory,
+                                        Hourglass<T, D, Ring>& hourglass, double* hourglass_memory) {
   constexpr int size = Symmetric<T, D>::size;
   if (m.law == Law::hyperelastic) {
     hourglass.add_elastic();
@@ -243,12 +382,10 @@ PointResponse<T, D> step_with_hourglass(const SolidConstants& m, const Edges<T, 
   PointResponse<T, D> sum;
   for (int i = 0; i < size; ++i) sum.S[i] = T(0);
   sum.dissipation = T(0);
-  const T factor = m.law == Law::classical ? T(0) : stress_factor(m, J);
+  const T factor = m.law == Law::classical ? T(m.mu) : stress_factor(m, J);
   for (int k = 0; k < m.layers; ++k) {
-    T p;
-    load(memory, size, p);
-    const PointResponse<T, D> r = m.law == Law::classical ? classical_step(m, e, moved, J, memory, keep) : layer_step(m, k, factor, e, J, memory, keep);
-    hourglass.add_layer(m.layer[k], r.S, r.kept, p, hourglass_memory, keep);
+    PointResponse<T, D> r = m.law == Law::classical ? classical_step(m, e, moved, J, memory, Keep::yes) : layer_step(m, k, factor, e, J, memory, Keep::yes);
+    hourglass.add_layer(m, m.layer[k], factor, J, r, memory, hourglass_memory);
     const T w(m.layer[k].weight);
     for (int i = 0; i < size; ++i) sum.S[i] += w * r.S[i];
     sum.dissipation += w * r.dissipation;

@@ -33,7 +33,7 @@ template <class T, int D> struct HourglassStrain {
 
   void from(const T (*z)[D], const T* A) {
     if constexpr (D == 2) {
-      for (int i = 0; i < 2; ++i) plane[i].a = A[i] * z[0][i];
+      for (int i = 0; i < 2; ++i) plane[i].a = A[2 * i] * z[0][0] + A[2 * i + 1] * z[0][1];
     } else {
       const auto& at = kPair<3>;
       for (int d = 0; d < 3; ++d) {
@@ -48,7 +48,7 @@ template <class T, int D> struct HourglassStrain {
   /// With stresses in place of strains: dU/dz per volume.
   void gradient(const T* A, T (*g)[D]) const {
     if constexpr (D == 2) {
-      for (int i = 0; i < 2; ++i) g[0][i] = T(1.0 / 3) * A[i] * plane[i].a;
+      for (int m = 0; m < 2; ++m) g[0][m] = T(1.0 / 3) * (A[m] * plane[0].a + A[2 + m] * plane[1].a);
     } else {
       const auto& at = kPair<3>;
       for (int k = 0; k < 3; ++k)

@@ -24,17 +24,20 @@
 
 namespace forming_sim {
 
-/// The constants of a cell, numbers one after the other.
-template <int D> struct OnePoint {
+/// The constants of a cell, numbers one after the other. Ring: turned about the y axis, element/one_point_ring.h.
+template <int D, bool Ring = false> struct OnePoint {
   static constexpr int nodes = D == 2 ? 4 : 8, modes = D == 2 ? 1 : 4, pairs = D * (D + 1) / 2;
   static constexpr int weights = 0;                     ///< [node][m]
   static constexpr int start = weights + nodes * D;     ///< [mode][m]
-  static constexpr int slopes = start + modes * D;      ///< [pair] c/2^D grad(xi_i) . E_j, symmetric in E
-  static constexpr int inertia = slopes + pairs;        ///< [pair] sum_a w_ma w_ka / share_a
+  static constexpr int slopes = start + modes * D;      ///< 3D: [pair] c/8 grad(xi_i) . E_j, symmetric in E; 2D: [i][j] c/4 g_i . E_j/|g_i|^2, g_i = dX/dxi_i at the centre
+  static constexpr int inertia = slopes + (D == 2 ? 4 : pairs);        ///< [pair] sum_a w_ma w_ka / share_a
   static constexpr int stiffness = inertia + pairs;     ///< [m] Pa, bounds the modes' stiffness: element/one_point_step.h
   static constexpr int looseness = stiffness + D;       ///< 1 / smallest eigenvalue of the modes' inverse inertia
   static constexpr int slant = looseness + 1;           ///< cosine between the modes and the uniform shapes, 0 for a parallelepiped
-  static constexpr int items = slant + 1;
+  static constexpr int hoop = slant + 1;                ///< ring: [node] o_a
+  static constexpr int hoop_start = hoop + 4;           ///< ring: [i] R_i/X_3
+  static constexpr int mass = hoop_start + 2;           ///< ring: [node] share in the mass
+  static constexpr int items = Ring ? mass + 4 : slant + 1;
 };
 
 /// Place of (i, j) among the pairs.
@@ -61,6 +64,8 @@ struct OnePointStart {
 };
 /// corners: as in mesh.h, 4 of them (z = 0) or 8. Where the volume at an integration point is not
 /// positive, so is the volume returned, and nothing else is.
-OnePointStart start_one_point(const Vec3* corners, int dimension, const SolidConstants& solid);
+/// ring: the volume is that of the whole circle, the third edge the hoop of mean radius.
+OnePointStart start_one_point(const Vec3* corners, int dimension, bool ring, const SolidConstants& solid);
+inline int one_point_items(int dimension, bool ring) { return dimension == 3 ? OnePoint<3>::items : ring ? OnePoint<2, true>::items : OnePoint<2>::items; }
 
 }  // namespace forming_sim

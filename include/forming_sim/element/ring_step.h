@@ -30,6 +30,21 @@ template <class T> T largest_eigenvalue(const Symmetric<T, 3>& M) {
   return x;
 }
 
+/// M grows by a node with the shape gradient (gr, gz), hoop = d e_33/d u_r and these inverse masses.
+template <class T> void add_deviatoric(Symmetric<T, 3>& M, const T& radial, const T& axial, const T& gr, const T& gz, const T& hoop) {
+  const double half = 0.70710678118654752, sixth = 0.40824829046386302;  // 1/sqrt2, 1/sqrt6
+  const auto add = [&](const T& w, const T& p, const T& q, const T& s) {
+    M[0] += w * p * p;
+    M[1] += w * q * q;
+    M[2] += w * s * s;
+    M[3] += w * p * q;
+    M[4] += w * q * s;
+    M[5] += w * s * p;
+  };
+  add(radial, T(half) * gr, T(sixth) * (gr - T(2.0) * hoop), T(half) * gz);
+  add(axial, T(-half) * gz, T(sixth) * gz, T(half) * gr);
+}
+
 /// Of one ring element: the inverse masses of its corners over 3/(rho V0), radial and
 /// axial (0: held), the shape gradients g and hoop = 1/(3r).
 template <class T> struct RingShapes {
@@ -38,21 +53,9 @@ template <class T> struct RingShapes {
 
   /// 2 lambda_max(M): stands for max(2 (I1/3 + sqrt(I1^2/9 - I2/3)), s1 + s2) of time_step.h.
   T deviatoric() const {
-    const double half = 0.70710678118654752, sixth = 0.40824829046386302;  // 1/sqrt2, 1/sqrt6
     Symmetric<T, 3> M;
     for (int i = 0; i < 6; ++i) M[i] = T(0.0);
-    const auto add = [&](const T& w, const T& p, const T& q, const T& s) {
-      M[0] += w * p * p;
-      M[1] += w * q * q;
-      M[2] += w * s * s;
-      M[3] += w * p * q;
-      M[4] += w * q * s;
-      M[5] += w * s * p;
-    };
-    for (int a = 0; a < 3; ++a) {
-      add(inertia[a][0], T(half) * g[a][0], T(sixth) * (g[a][0] - T(2.0) * hoop), T(half) * g[a][1]);
-      add(inertia[a][1], T(-half) * g[a][1], T(sixth) * g[a][1], T(half) * g[a][0]);
-    }
+    for (int a = 0; a < 3; ++a) add_deviatoric(M, inertia[a][0], inertia[a][1], g[a][0], g[a][1], hoop);
     return T(2.0) * largest_eigenvalue(M);
   }
 
