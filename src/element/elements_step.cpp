@@ -67,7 +67,7 @@ void Elements::keep_shares(const NodeField& X) {
       if (!g.constants_storage.empty()) {
         Vec3 corners[8];
         for (int a = 0; a < g.cell_nodes; ++a) corners[a] = vec3(X[node(a)]);
-        const OnePointStart start = start_one_point(corners, dimension_, g.solid);
+        const OnePointStart start = start_one_point(corners, dimension_, axisymmetric_, g.solid);
         for (int a = 0; a < g.cell_nodes; ++a) share[a] = mass(0) * start.share[a];
         continue;
       }

@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EveryFamily,
                                            Case{CellKind::hex24, "cell"}, Case{CellKind::quad1, "cell"}, Case{CellKind::hex1, "cell"}));
 
 TEST(StepLimit, OfRings) {
-  for (CellKind kind : {CellKind::triangle, CellKind::quad2, CellKind::crossed})
+  for (CellKind kind : {CellKind::triangle, CellKind::quad2, CellKind::crossed, CellKind::quad1})
     for (double inner : {0.0, 0.3}) {
       const BodyModel b = body_of(ring_block(kind, inner, 4), aluminium(), kind == CellKind::triangle ? "node" : "cell");
       NodeField x = positions_of(b.mesh);

@@ -99,7 +99,7 @@ template <class T> class OnePointRingBound {
     V_ = e.volume;
     extent_ = extent(e);
   }
-  T step(const T& rate) const { return damped_step<T, 2>(g_, omega2_, sum_, V_, extent_, rate); }
+  StepRates<T> rates(const T& rate) const { return {omega2_, viscous_damping<T, 2>(g_, sum_, V_, extent_, rate)}; }
 
  private:
   const CellGroup& g_;
