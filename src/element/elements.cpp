@@ -271,8 +271,10 @@ void Elements::forces_of_moved(Group& g, const NodalView& view) {
 
 void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, double dt, NodeField& f) {
   if (axisymmetric_) check_axis(x);
+  StageClock clock(times_);
   NodalView view{x.data()->data(), v.data()->data(), nullptr, pressure_.data(), dt, last_dt};
   if (any_nodal_) nodal_pressure(view);
+  clock.ends(&StepTimes::pressure);
   if (may_sleep_) stillness_.look(x, *team_);
   if (stillness_.any()) {
     for (Group& g : groups_) forces_of_moved(g, view);
@@ -283,6 +285,7 @@ void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, do
   for (const Group& g : groups_)
     for (double ratio : g.lowest)
       if (!(ratio > 0)) report_inversion(x);
+  clock.ends(&StepTimes::cells);
   const bool flat = dimension_ == 2;
   team_->share(static_cast<long>(mass_.size()), kNodesOfAThread, [&](long first, long last) {
     for (long n = first; n < last; ++n) {
@@ -295,10 +298,12 @@ void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, do
       f[n] = sum;
     }
   });
+  clock.ends(&StepTimes::sum);
 }
 
 void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const {
   const NodalView view{x.data()->data(), v.data()->data(), inertia_.data(), nullptr, 0, 0};
+  StageClock clock(times_);
   dt = 1e300;
   element = -1;
   for (const Group& g : groups_) {
@@ -312,6 +317,7 @@ void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, i
         element = g.first_element + std::min(b * kLanes + steps[b].lane, g.cells - 1) * g.parts;
       }
   }
+  clock.ends(&StepTimes::bound);
 }
 
 Elements::Location Elements::locate(int element) const {

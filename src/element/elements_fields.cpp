@@ -17,6 +17,7 @@ std::vector<GroupPlan> Elements::plan() const {
     plan.cells = g.cells;
     plan.elements = static_cast<long>(g.cells) * g.cell_simplices;
     plan.memory_bytes = static_cast<double>((g.memory_storage.size() + g.constants_storage.size() + g.hourglass_storage.size()) * sizeof(Lane));
+    plan.state_bytes = static_cast<double>((g.memory_storage.size() / g.items * (g.items - 1) + g.hourglass_storage.size()) * sizeof(Lane));  // V0 stays
     plan.force_bytes = static_cast<double>(g.node_storage.size()) * record_size_ * sizeof(double);
     plan.index_bytes = static_cast<double>(g.node_storage.size()) * 2 * sizeof(int);  // of the cell's nodes, of the node's forces
     groups.push_back(plan);

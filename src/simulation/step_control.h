@@ -3,6 +3,7 @@
 // fast, seldom while it does not.
 #include <algorithm>
 
+#include "forming_sim/simulation/config.h"
 #include "forming_sim/simulation/observer.h"
 
 namespace forming_sim {
@@ -16,7 +17,7 @@ struct StepControl {
   void update(double dt, int limiting) {
     const double ratio = element_dt > 0 ? dt / element_dt : 1;
     if (ratio < 0.99) interval = std::max(1, interval / 4);
-    else if (ratio > 0.998) interval = std::min(64, interval * 2);
+    else if (ratio > 0.998) interval = std::min(kLongestBoundInterval, interval * 2);
     element_dt = dt;
     element = limiting;
     until_next = interval;

@@ -10,6 +10,7 @@
 #include "forming_sim/element/cell_group.h"
 #include "forming_sim/config/fault.h"
 #include "forming_sim/element/body.h"
+#include "forming_sim/element/step_times.h"
 #include "forming_sim/element/stillness.h"
 #include "forming_sim/parallel/team.h"
 #include "forming_sim/tensor/vec.h"
@@ -32,8 +33,9 @@ struct GroupPlan {
   int layers = 1;            ///< of the law
   long cells = 0, elements = 0;
   double memory_bytes = 0;   ///< state of the law, of all elements; of one-point cells their constants too
+  double state_bytes = 0;    ///< the part of it that plastic flow writes
   double force_bytes = 0;    ///< forces on the cells' nodes before they are summed
-  double index_bytes = 0;    ///< which nodes the cells have
+  double index_bytes = 0;    ///< which nodes the cells have, and which of those forces a node has
 };
 
 struct ElementOptions {
@@ -54,6 +56,8 @@ class Elements {
   const std::vector<std::array<int, 4>>& simplices() const { return simplices_; }
   const std::vector<double>& nodal_mass() const { return mass_; }  ///< kg, scaled
   std::vector<GroupPlan> plan() const;
+  /// From now on the stages of every call are booked there; null: no more. Not owned.
+  void time_stages(StepTimes* times) { times_ = times; }
 
   /// f = internal forces at x (N); updates the memory of what yields.
   /// v: the velocities that led to x in last_dt (0: nothing has moved yet), for Law::classical
@@ -106,6 +110,7 @@ class Elements {
   bool any_nodal_ = false;
   bool may_sleep_ = true;                            ///< forces follow from positions and memory alone
   Stillness stillness_;
+  StepTimes* times_ = nullptr;
 };
 
 }  // namespace forming_sim
