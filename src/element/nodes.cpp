@@ -3,9 +3,9 @@
 namespace forming_sim {
 
 void kick_nodes(Team& team, const NodeField& v, const NodeField& f, const std::vector<double>& mass, double kick, double damping, NodeField& to) {
-  const double a = 0.5 * damping * kick;
+  const double a = 0.5 * damping * kick, keep = (1 - a) / (1 + a), push = kick / (1 + a);
   team.share(static_cast<long>(v.size()), kNodesOfAThread, [&](long first, long last) {
-    for (long i = first; i < last; ++i) to[i] = ((1 - a) * v[i] + kick / mass[i] * f[i]) / (1 + a);
+    for (long i = first; i < last; ++i) to[i] = keep * v[i] + push / mass[i] * f[i];
   });
 }
 

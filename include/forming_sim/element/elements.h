@@ -34,8 +34,8 @@ struct GroupPlan {
   long cells = 0, elements = 0;
   double memory_bytes = 0;   ///< state of the law, of all elements; of one-point cells their constants too
   double state_bytes = 0;    ///< the part of it that plastic flow writes
-  double force_bytes = 0;    ///< forces on the cells' nodes before they are summed
-  double index_bytes = 0;    ///< which nodes the cells have, and which of those forces a node has
+  double force_bytes = 0;    ///< sums of the cells' forces, one a node of each tile (element/cell_group.h)
+  double index_bytes = 0;    ///< which nodes the cells have, in which slot of a tile they add to them, and which slots a node has
 };
 
 struct ElementOptions {
@@ -69,7 +69,7 @@ class Elements {
   void stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const;
 
   long blocks() const;           ///< of cells, over all groups
-  long blocks_at_rest() const;   ///< of those, passed over by the last forces(): see element/stillness.h
+  long blocks_at_rest() const;   ///< of those, passed over with their tile by the last forces(): see element/stillness.h
   double plastic_work() const;   ///< dissipated so far, J
   double viscous_work() const;   ///< dissipated so far by bulk viscosity, J
   std::vector<double> plastic_strain() const;
@@ -89,10 +89,14 @@ class Elements {
   [[noreturn]] void report_inversion(const NodeField& x) const;
   void check_axis(const NodeField& x) const;
   void nodal_pressure(const NodalView& view) const;
-  /// Those of the blocks whose nodes moved, or whose memory the last evaluation changed.
+  /// Cuts the groups into tiles, gives every node of each tile a slot, and tells the nodes theirs.
+  void lay_tiles(int nodes);
+  void forces_of_tile(const Group& g, const NodalView& view, long tile) const;
+  /// Those of the tiles whose nodes moved, or whose memory the last evaluation changed.
   void forces_of_moved(Group& g, const NodalView& view);
   static long blocks_of_a_thread(const Group& group);
-  template <class Work> void over_blocks(Work&& work) const;
+  static long tiles_of_a_thread(const Group& group);
+  template <class Work> void over_tiles(Work&& work) const;
 
   const Kernels& kernels_;
   int dimension_;
@@ -102,9 +106,9 @@ class Elements {
   std::vector<std::array<int, 4>> simplices_;
   std::vector<double> mass_;
   std::vector<double> inertia_;                      ///< axisymmetric only: NodalView::inertia
-  std::vector<int> record_start_, record_index_;     ///< records of a node
-  std::vector<Lane> record_storage_;
-  double* records_ = nullptr;                        ///< [record][kRecord]
+  std::vector<int> slot_start_, slot_index_;         ///< slots of a node
+  std::vector<Lane> slot_storage_;
+  double* slots_ = nullptr;                          ///< [slot][kRecord]
   int record_size_ = 0;
   mutable std::vector<double> pressure_, nodal_volume0_, nodal_bulk_;  ///< nodal pressure only
   bool any_nodal_ = false;

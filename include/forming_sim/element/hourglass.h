@@ -70,17 +70,17 @@ template <class T, int D> class Hourglass {
   /// Stresses of a body without plasticity.
   void add_elastic() { add(Strain(), T(1)); }
 
-  /// One step of a layer. S: the law's stress after the step, `kept` times that of the trial; p: its
-  /// plastic strain before; memory: kHourglassItems, those of the layer.
-  void add_layer(const LayerConstants& layer, const Symmetric<T, D>& S, const T& kept, const T& p, double* memory, Keep keep) {
+  /// One step of a layer. S: the law's stress after the step, `kept` times that of the trial; yield: its
+  /// yield stress before; memory: kHourglassItems, those of the layer.
+  void add_layer(const LayerConstants& layer, const Symmetric<T, D>& S, const T& kept, const YieldStress<T>& yield, double* memory, Keep keep) {
     Strain ep = load_plastic(memory);
     if (layer.hardening.kind != HardeningCurve::elastic) {
-      const YieldStress<T> yield = yield_stress(layer.hardening, p);
       const T back = T(1) / kept;
       const Symmetric<T, D> trial = in_frame(S, back);
       const T Q0 = T(1.5) * contract(S, S) * back * back;
+      const T stiffness = T(1) / (T(3 * moduli_.mu) + yield.slope);
       bool changed = false;
-      for (int d = 0; d < D; ++d) changed |= flow(d, layer, yield, trial, Q0, ep.plane[d], memory, keep);
+      for (int d = 0; d < D; ++d) changed |= flow(d, layer, yield, stiffness, trial, Q0, ep.plane[d], memory, keep);
       if constexpr (D == 3)
         for (int d = 0; d < 3; ++d) changed |= relax(yield.value, kept, T(layer.weight), d, ep);
       if (changed && keep == Keep::yes) store_plastic(ep, memory);
@@ -167,8 +167,9 @@ template <class T, int D> class Hourglass {
     return sum;
   }
 
-  /// The two points of coordinate d (2D: of the strain along E_d); whether one of them yields.
-  bool flow(int d, const LayerConstants& layer, const YieldStress<T>& yield, const Symmetric<T, D>& S, const T& Q0, Plane<T>& ep, double* memory, Keep keep) {
+  /// The two points of coordinate d (2D: of the strain along E_d); whether one of them yields. stiffness: 1/(3 mu + H).
+  bool flow(int d, const LayerConstants& layer, const YieldStress<T>& yield, const T& stiffness, const Symmetric<T, D>& S, const T& Q0, Plane<T>& ep, double* memory,
+            Keep keep) {
     const int i = D == 2 ? d : (d + 1) % 3, j = D == 2 ? 2 : (d + 2) % 3;
     const Plane<T> in_plane{S[i], S[j], D == 2 ? T(0) : S[kPair<3>[i][j]]};
     const Plane<T> s = moduli_.stress(strain_.plane[d] - ep);
@@ -183,12 +184,11 @@ template <class T, int D> class Hourglass {
     const T limit[2] = {yield.value + harder, yield.value - harder};
     const T Q[2] = {even + odd, even - odd};
     if (!any(Q[0] > limit[0] * limit[0]) && !any(Q[1] > limit[1] * limit[1])) return false;
-    const T stiffness = T(1) / (T(3 * moduli_.mu) + yield.slope);
+    const T q[2] = {sqrt(larger(Q[0], T(1e-150))), sqrt(larger(Q[1], T(1e-150)))}, over = T(1) / (q[0] * q[1]);
     T dp[2], over_q[2];
     for (int k = 0; k < 2; ++k) {
-      const T q = sqrt(larger(Q[k], T(1e-300)));
-      dp[k] = larger((q - limit[k]) * stiffness, T(0));
-      over_q[k] = dp[k] / q;
+      dp[k] = larger((q[k] - limit[k]) * stiffness, T(0));
+      over_q[k] = dp[k] * q[1 - k] * over;
     }
     const T along = T(0.75 / h) * (over_q[0] - over_q[1]), across = T(0.75) * (over_q[0] + over_q[1]);
     const T mean = T(1.0 / 3) * (s.a + s.b);
@@ -203,7 +203,8 @@ template <class T, int D> class Hourglass {
   /// The last mode: it relaxes as the law's stress does and does not pass the yield stress.
   bool relax(const T& limit, const T& kept, const T& weight, int d, Strain& ep) {
     const T elastic = strain_.warp[d] - ep.warp[d], s = T(moduli_.E) * elastic;
-    const T left = smaller(kept, limit / larger(absolute(s), limit));
+    T left = kept;
+    if (any(absolute(s) > limit)) left = smaller(left, limit / larger(absolute(s), limit));
     if (!any(left < T(1))) return false;
     const T rate = (T(1) - left) * elastic;
     ep.warp[d] += rate;
@@ -245,10 +246,8 @@ PointResponse<T, D> step_with_hourglass(const SolidConstants& m, const Edges<T, 
   sum.dissipation = T(0);
   const T factor = m.law == Law::classical ? T(0) : stress_factor(m, J);
   for (int k = 0; k < m.layers; ++k) {
-    T p;
-    load(memory, size, p);
     const PointResponse<T, D> r = m.law == Law::classical ? classical_step(m, e, moved, J, memory, keep) : layer_step(m, k, factor, e, J, memory, keep);
-    hourglass.add_layer(m.layer[k], r.S, r.kept, p, hourglass_memory, keep);
+    hourglass.add_layer(m.layer[k], r.S, r.kept, r.yield, hourglass_memory, keep);
     const T w(m.layer[k].weight);
     for (int i = 0; i < size; ++i) sum.S[i] += w * r.S[i];
     sum.dissipation += w * r.dissipation;
