@@ -40,6 +40,9 @@ template <class T, int D> struct LayerResult {
   YieldStress<T> yield{};  ///< before the step; of an elastic layer nothing
 };
 
+/// Relative distance of q from sigma_s below which a point is on the yield surface: what stands still there keeps its memory.
+constexpr double kOnTheSurface = 1e-13;
+
 /// u = 1 - a of (1-u) q = sigma_s(p + u k): Newton inside a bracket, to round-off, from where the
 /// parabola at u = 0 has its root to second order; at: sigma_s at p.
 template <class T> T solve_correction(const HardeningCurve& h, const T& q, const T& p, const T& k, const YieldStress<T>& at) {
@@ -49,7 +52,7 @@ template <class T> T solve_correction(const HardeningCurve& h, const T& q, const
   for (int i = 0; i < 60; ++i) {
     const YieldStress<T> y = yield_stress_beyond(h, p, at, u * k);
     const T value = (T(1) - u) * q - y.value;
-    if (!any(absolute(value) > T(1e-13) * q)) break;
+    if (!any(absolute(value) > T(kOnTheSurface) * q)) break;
     low = select(value > T(0), u, low);
     high = select(value > T(0), high, u);
     T next = u + value / (q + k * y.slope);
@@ -77,7 +80,7 @@ LayerResult<T, D> update_layer(const HardeningCurve& hardening, T factor, const 
   if (hardening.kind != HardeningCurve::elastic) {
     const T Q = T(1.5) * contract(r.S, r.S) * factor * factor;  // q_S'^2: the root is needed only where something yields
     r.yield = yield_stress(hardening, p);
-    const auto yields = Q > r.yield.value * r.yield.value;
+    const auto yields = Q > r.yield.value * r.yield.value * T(1 + 2 * kOnTheSurface);
     if (any(yields)) {
       const Symmetric<T, D> cof = cofactor(B);
       const T over_det = T(1) / determinant(B, cof);
@@ -113,7 +116,7 @@ PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, 
   load(memory, size, p);
   const T before = p;
   const LayerResult<T, D> r = update_layer(m.layer[k].hardening, factor, push(G, e), J, p);  // (3.51)
-  if (keep == Keep::yes && any(p > before)) {  // what yields by round-off alone keeps its memory: element/stillness.h
+  if (keep == Keep::yes && any(p > before)) {
     const Symmetric<T, D> Gx = metric(e);
     for (int i = 0; i < size; ++i) store(memory, i, r.a * G[i] + (T(1) - r.a) * Gx[i]);  // (3.54)
     store(memory, size, p);
