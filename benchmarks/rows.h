@@ -63,6 +63,7 @@ struct Request {
 };
 
 std::vector<Row> costs(const Request&);    ///< ns per element and step of each stage
+std::vector<Row> speed(const Request&);    ///< every stage of a step beside what the machine could do; prints its own table
 std::vector<Row> speed_error(const Request&);  ///< error against wall time, of every choice; prints its own tables
 std::vector<Row> stability(const Request&);    ///< hard cases: bounded energy, no false inversion, the right error
 std::vector<Row> material(const Request&);   ///< a law at a point: a measured loop, or any history

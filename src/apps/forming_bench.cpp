@@ -20,7 +20,7 @@ struct Command {
 void printed_as_it_ran(const std::vector<Row>&) {}
 
 const std::map<std::string, Command> kCommands{{"calibrate", {calibrate, 3}}, {"contact", {contact, 1}}, {"costs", {costs, 0}},
-                                               {"material", {material, 2}},   {"paper", {paper, 1}},     {"speed-error", {speed_error, 16, printed_as_it_ran}},
+                                               {"material", {material, 2}},   {"paper", {paper, 1}},     {"speed", {speed, 1, printed_as_it_ran}}, {"speed-error", {speed_error, 16, printed_as_it_ran}},
                                                {"stability", {stability, 16}}};
 
 int usage(std::FILE* to) {
@@ -38,6 +38,9 @@ int usage(std::FILE* to) {
                "  paper [FIGURE]  the figures and claims of the paper: 3 to 11, 14 to 20, section-2.2, section-2.4,\n"
                "           section-3.1, section-3.3, or all of these (some minutes: 19 and 20 are forming\n"
                "           runs); and long-runs, a million steps by each method\n"
+               "  speed [large | short]  ns of every stage of a step an element, on 1 and 2 threads, by family, motion, layers\n"
+               "           and size; beside the bytes it moves and its operations, and this machine's bandwidth and\n"
+               "           arithmetic peak (some minutes); writes DIR/speed.csv and a plot too\n"
                "  speed-error [PROBLEM ...]  error against wall time of elements, meshes, time steps, mass scaling and\n"
                "           layers on problems whose answer is known, and of CalculiX (ccx) where it is installed:\n"
                "           bending, cook, taylor, cube, sphere, impact, flange, flange-time, layers, or all of these\n"

@@ -109,7 +109,6 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   nodal_bulk_.assign(nodes, 0.0);
   inertia_.assign(axisymmetric_ ? nodes : 0, 0.0);
   std::vector<double> simplex_mass(inertia_.size(), 0.0);
-  long records = 0;
   for (const BodyModel& body : bodies) {
     int first_element = body.first_element;
     for (const Cells& cells : body.mesh.cells) {
@@ -136,7 +135,6 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       may_sleep_ = may_sleep_ && g.pressure != PressureMode::node && g.solid.law != Law::classical && !viscous;
       g.first_element = first_element;
       first_element += g.cells * shape.simplices;
-      g.first_record = records;
       g.body = body.name;
       g.plastic.assign(g.blocks, 0.0);
       g.viscous.assign(g.blocks, 0.0);
@@ -193,39 +191,22 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
           }
         }
       }
-      records += static_cast<long>(g.blocks) * shape.nodes * kLanes;
       groups_.push_back(std::move(g));
     }
   }
   for (std::size_t n = 0; n < inertia_.size(); ++n)
     if (simplex_mass[n] > 0) inertia_[n] *= nodal_volume0_[n] / simplex_mass[n];
   record_size_ = D == 2 ? kRecord<2> : kRecord<3>;
-  record_storage_.resize(static_cast<std::size_t>(records) * record_size_ / kLanes);
-  records_ = record_storage_.empty() ? nullptr : record_storage_.data()->value;
+  lay_tiles(nodes);
   pressure_.assign(any_nodal_ ? nodes : 0, 0.0);
-
-  // simplices_ was filled block by block, lane by lane: that is cell by cell.
-  std::vector<int> count(nodes + 1, 0);
-  auto each_record = [&](auto&& visit) {
-    for (const Group& g : groups_)
-      for (int cell = 0; cell < g.cells; ++cell)
-        for (int a = 0; a < g.cell_nodes; ++a) {
-          const long r = (static_cast<long>(cell / kLanes) * g.cell_nodes + a) * kLanes + cell % kLanes;
-          visit(g.node_storage[r], g.first_record + r);
-        }
-  };
-  each_record([&](int node, long) { ++count[node + 1]; });
-  for (int n = 0; n < nodes; ++n) count[n + 1] += count[n];
-  record_start_ = count;
-  record_index_.resize(count[nodes]);
-  each_record([&](int node, long r) { record_index_[count[node]++] = static_cast<int>(r); });
 
   for (Group& g : groups_) {
     g.nodes = g.node_storage.data();
     g.memory = reinterpret_cast<double*>(g.memory_storage.data());
     g.constants = reinterpret_cast<double*>(g.constants_storage.data());
     g.hourglass = reinterpret_cast<double*>(g.hourglass_storage.data());
-    g.records = records_ + g.first_record * record_size_;
+    g.slots = g.slot_storage.data();
+    g.sums = slots_ + g.first_slot * record_size_;
     g.plastic_work = g.plastic.data();
     g.viscous_work = g.viscous.data();
     g.lowest_ratio = g.lowest.data();
@@ -235,75 +216,85 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
 
 /// A thread gets 512 packs or more: below that, waiting for each other costs more.
 long Elements::blocks_of_a_thread(const Group& g) { return 512 / g.cell_simplices; }
+long Elements::tiles_of_a_thread(const Group& g) { return std::max(1L, blocks_of_a_thread(g) / g.tile); }
 
-/// Calls work(group, first, last) over chunks of blocks, shared by the team.
-template <class Work> void Elements::over_blocks(Work&& work) const {
-  for (const Group& g : groups_) {
-    const int per_chunk = std::max(1, 64 / (g.cell_simplices * kLanes / 8));
-    team_->share(g.blocks, blocks_of_a_thread(g), [&](long begin, long end) {
-      for (long b = begin; b < end; b += per_chunk) work(g, static_cast<int>(b), static_cast<int>(std::min(end, b + per_chunk)));
+/// Calls work(group, tile) for all tiles, shared by the team.
+template <class Work> void Elements::over_tiles(Work&& work) const {
+  for (const Group& g : groups_)
+    team_->share(g.tiles, tiles_of_a_thread(g), [&](long begin, long end) {
+      for (long t = begin; t < end; ++t) work(g, t);
     });
-  }
 }
 
 void Elements::nodal_pressure(const NodalView& view) const {
-  over_blocks([&](const Group& g, int first, int last) {
+  over_tiles([&](const Group& g, long t) {
     CellGroup one_wide = g;
-    one_wide.records = records_ + g.first_record;
-    kernels_.volumes(one_wide, view, first, last);
+    one_wide.sums = slots_ + g.first_slot;
+    std::fill(one_wide.sums + g.tile_start[t], one_wide.sums + g.tile_start[t + 1], 0.0);
+    kernels_.volumes(one_wide, view, g.first_block(t), g.last_block(t));
   });
   team_->share(static_cast<long>(mass_.size()), kNodesOfAThread, [&](long first, long last) {
     for (long n = first; n < last; ++n) {
       double V = 0;
-      for (int k = record_start_[n]; k < record_start_[n + 1]; ++k) V += records_[record_index_[k]];
+      for (int k = slot_start_[n]; k < slot_start_[n + 1]; ++k) V += slots_[slot_index_[k]];
       pressure_[n] = nodal_volume0_[n] > 0 ? nodal_bulk_[n] * (V / nodal_volume0_[n] - 1) : 0;
     }
   });
 }
 
+void Elements::forces_of_tile(const CellGroup& cells, const Group& g, const NodalView& view, long t) const {
+  std::fill(g.sums + g.tile_start[t] * record_size_, g.sums + g.tile_start[t + 1] * record_size_, 0.0);
+  kernels_.forces(cells, view, g.first_block(t), g.last_block(t));
+}
+
 void Elements::forces_of_moved(Group& g, const NodalView& view) {
-  g.rest.resize(g.blocks, Group::changed);
-  const int nodes = static_cast<int>(g.node_storage.size()) / g.blocks;
-  team_->share(g.blocks, blocks_of_a_thread(g), [&](long begin, long end) {
-    for (int b = static_cast<int>(begin); b < end; ++b) {
-      const int* first = &g.node_storage[static_cast<std::size_t>(b) * nodes];
-      if (g.rest[b] != Group::changed && std::none_of(first, first + nodes, [&](int n) { return stillness_.moved(n); })) {
-        g.rest[b] = Group::passed_over;
+  g.rest.resize(g.tiles, Group::changed);
+  const long nodes = static_cast<long>(g.node_storage.size()) / g.blocks;
+  team_->share(g.tiles, tiles_of_a_thread(g), [&](long begin, long end) {
+    for (long t = begin; t < end; ++t) {
+      const int *first = &g.node_storage[g.first_block(t) * nodes], *last = first + (g.last_block(t) - g.first_block(t)) * nodes;
+      if (g.rest[t] != Group::changed && std::none_of(first, last, [&](int n) { return stillness_.moved(n); })) {
+        g.rest[t] = Group::passed_over;
         continue;
       }
-      const double before = g.plastic[b];
-      kernels_.forces(g, view, b, b + 1);
-      g.rest[b] = g.plastic[b] == before ? Group::kept : Group::changed;
+      const auto work = g.plastic.begin();
+      const std::vector<double> before(work + g.first_block(t), work + g.last_block(t));
+      forces_of_tile(g, g, view, t);
+      g.rest[t] = std::equal(before.begin(), before.end(), work + g.first_block(t)) ? Group::kept : Group::changed;
     }
   });
 }
 
 void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, double dt, NodeField& f) {
   if (axisymmetric_) check_axis(x);
+  StageClock clock(times_);
   NodalView view{x.data()->data(), v.data()->data(), nullptr, pressure_.data(), dt, last_dt};
   if (any_nodal_) nodal_pressure(view);
+  clock.ends(&StepTimes::pressure);
   if (may_sleep_) stillness_.look(x, *team_);
   if (stillness_.any()) {
     for (Group& g : groups_) forces_of_moved(g, view);
   } else {
     for (Group& g : groups_) g.rest.clear();
-    over_blocks([&](const Group& g, int first, int last) { kernels_.forces(g, view, first, last); });
+    over_tiles([&](const Group& g, long t) { forces_of_tile(g, g, view, t); });
   }
   for (const Group& g : groups_)
     for (double ratio : g.lowest)
       if (!(ratio > 0)) report_inversion(x);
-  sum_records(f);
+  clock.ends(&StepTimes::cells);
+  sum_slots(f);
+  clock.ends(&StepTimes::sum);
 }
 
-void Elements::sum_records(NodeField& f) const {
+void Elements::sum_slots(NodeField& f) const {
   const bool flat = dimension_ == 2;
   team_->share(static_cast<long>(mass_.size()), kNodesOfAThread, [&](long first, long last) {
     for (long n = first; n < last; ++n) {
       Node sum = Node::Zero();
-      for (int k = record_start_[n]; k < record_start_[n + 1]; ++k) {
-        const double* record = records_ + static_cast<std::size_t>(record_index_[k]) * record_size_;
-        if (flat) sum.head<2>() += Eigen::Map<const Eigen::Vector2d>(record);
-        else sum += Eigen::Map<const Node>(record);
+      for (int k = slot_start_[n]; k < slot_start_[n + 1]; ++k) {
+        const double* slot = slots_ + static_cast<std::size_t>(slot_index_[k]) * record_size_;
+        if (flat) sum.head<2>() += Eigen::Map<const Eigen::Vector2d>(slot);
+        else sum += Eigen::Map<const Node>(slot);
       }
       f[n] = sum;
     }

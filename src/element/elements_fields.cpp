@@ -17,8 +17,10 @@ std::vector<GroupPlan> Elements::plan() const {
     plan.cells = g.cells;
     plan.elements = static_cast<long>(g.cells) * g.cell_simplices;
     plan.memory_bytes = static_cast<double>((g.memory_storage.size() + g.constants_storage.size() + g.hourglass_storage.size()) * sizeof(Lane));
-    plan.force_bytes = static_cast<double>(g.node_storage.size()) * record_size_ * sizeof(double);
-    plan.index_bytes = static_cast<double>(g.node_storage.size()) * 2 * sizeof(int);  // of the cell's nodes, of the node's forces
+    plan.state_bytes = static_cast<double>((g.memory_storage.size() / g.items * (g.items - 1) + g.hourglass_storage.size()) * sizeof(Lane));  // V0 stays
+    const double slots = static_cast<double>(g.tile_start.back() - g.tiles);  // of nodes
+    plan.force_bytes = slots * record_size_ * sizeof(double);
+    plan.index_bytes = (static_cast<double>(g.node_storage.size() + g.slot_storage.size()) + slots) * sizeof(int);
     groups.push_back(plan);
   }
   return groups;
@@ -32,7 +34,9 @@ long Elements::blocks() const {
 
 long Elements::blocks_at_rest() const {
   long sum = 0;
-  for (const Group& g : groups_) sum += std::count(g.rest.begin(), g.rest.end(), Group::passed_over);
+  for (const Group& g : groups_)
+    for (std::size_t t = 0; t < g.rest.size(); ++t)
+      if (g.rest[t] == Group::passed_over) sum += g.last_block(static_cast<long>(t)) - g.first_block(static_cast<long>(t));
   return sum;
 }
 

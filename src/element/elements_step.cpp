@@ -48,11 +48,13 @@ CellLimit Elements::slowest_cell(const CellRates& rates) const {
 }
 
 void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const {
+  StageClock clock(times_);
   CellRates rates;
   find_rates(x, v, rates);
   const CellLimit limit = slowest_cell(rates);
   dt = limit.dt;
   element = limit.element;
+  clock.ends(&StepTimes::bound);
 }
 
 /// The masses M_c of element/step_bounds.h, [cell][node]: those to which element/time_step.h refers.
@@ -123,12 +125,12 @@ void Elements::elastic_forces(const NodeField& x, NodeField& f) {
     g.plastic_work = unused.data();
     g.viscous_work = g.plastic_work + g.blocks;
     g.lowest_ratio = g.viscous_work + g.blocks;
-    team_->share(g.blocks, blocks_of_a_thread(own), [&](long first, long last) {
-      kernels_.forces(g, view, static_cast<int>(first), static_cast<int>(last));
+    team_->share(own.tiles, tiles_of_a_thread(own), [&](long first, long last) {
+      for (long t = first; t < last; ++t) forces_of_tile(g, own, view, t);
     });
   }
-  stillness_.forget();  // the records are those of x now
-  sum_records(f);
+  stillness_.forget();  // the slots hold the forces at x now
+  sum_slots(f);
 }
 
 }  // namespace forming_sim

@@ -123,10 +123,15 @@ void classical_pressures(const CellGroup& g, const NodalView& view, long block, 
   }
 }
 
+/// J = V/V0 of every simplex of the block.
+template <class Cell> void volume_ratios(const CellGroup& g, long block, const Pack* V, Pack* J) {
+  for (int s = 0; s < Cell::simplices; ++s) J[s] = V[s] / initial_volume(g, memory_of<Cell>(g, block, s));
+}
+
 /// p of every simplex of the block: K (V/V0 - 1) of the cell (with a share of the
 /// element's own, see elements.cpp), of the element, or the mean of its nodes' pressures.
 template <class Cell>
-void pressures(const CellGroup& g, const NodalView& view, long block, const Pack* V, Pack* p) {
+void pressures(const CellGroup& g, const NodalView& view, long block, const Pack* V, const Pack* J, Pack* p) {
   constexpr int D = kD<Cell>;
   const Pack K(g.solid.K);
   if constexpr (!Cell::one_point)
@@ -134,9 +139,7 @@ void pressures(const CellGroup& g, const NodalView& view, long block, const Pack
       const int* nodes = g.nodes + block * Cell::nodes * kLanes;
       for (int s = 0; s < Cell::simplices; ++s) {
         Pack total(0.0);
-        for (int a = 0; a <= D; ++a)
-          for (int l = 0; l < kLanes; ++l)
-            total.v[l] += view.pressure[nodes[Cell::table[s][a] * kLanes + l]];
+        for (int a = 0; a <= D; ++a) total += gather_numbers(view.pressure, nodes + Cell::table[s][a] * kLanes);
         p[s] = total * Pack(1.0 / (D + 1));
       }
       return;
@@ -145,19 +148,18 @@ void pressures(const CellGroup& g, const NodalView& view, long block, const Pack
     for (int s = 0; s < Cell::simplices; ++s) load(memory_of<Cell>(g, block, s), kClassicalPressure<D>, p[s]);
     return;
   }
-  Pack sum_V(0.0), sum_V0(0.0), V0[Cell::simplices];
-  for (int s = 0; s < Cell::simplices; ++s) {
-    V0[s] = initial_volume(g, memory_of<Cell>(g, block, s));
-    sum_V += V[s];
-    sum_V0 += V0[s];
-  }
   if (g.pressure == PressureMode::element || Cell::simplices == 1) {
-    for (int s = 0; s < Cell::simplices; ++s) p[s] = K * (V[s] / V0[s] - Pack(1.0));
+    for (int s = 0; s < Cell::simplices; ++s) p[s] = K * (J[s] - Pack(1.0));
     return;
+  }
+  Pack sum_V(0.0), sum_V0(0.0);
+  for (int s = 0; s < Cell::simplices; ++s) {
+    sum_V += V[s];
+    sum_V0 += initial_volume(g, memory_of<Cell>(g, block, s));
   }
   const Pack theta(g.element_share);
   const Pack mean = (Pack(1.0) - theta) * K * (sum_V / sum_V0 - Pack(1.0));
-  for (int s = 0; s < Cell::simplices; ++s) p[s] = mean + theta * K * (V[s] / V0[s] - Pack(1.0));
+  for (int s = 0; s < Cell::simplices; ++s) p[s] = mean + theta * K * (J[s] - Pack(1.0));
 }
 
 /// V, dV/dt and extent (tensor.h) of the cell whose nodes stand at x and move with v.
@@ -206,16 +208,14 @@ template <class Cell, bool OneLayer>
   for (int a = 0; a < Cell::nodes; ++a)
     for (int i = 0; i < D; ++i) f[a][i] = Pack(0.0);
 
-  Pack V[Cell::simplices], p[Cell::simplices];
+  Pack V[Cell::simplices], J[Cell::simplices], p[Cell::simplices];
+  simplex_volumes<Cell>(constants, x, V);
+  volume_ratios<Cell>(g, block, V, J);
   Vector<Pack, D> v[Cell::nodes];  // only where something asks for velocities
   const bool classical = !OneLayer && g.solid.law == Law::classical, viscous = g.linear_viscosity > 0 || g.quadratic_viscosity > 0;
   if (classical || viscous) gather<Cell>(nodes, view.v, v);
-  if (classical) {
-    classical_pressures<Cell>(g, view, block, x, v, p);
-  } else {
-    simplex_volumes<Cell>(constants, x, V);
-    pressures<Cell>(g, view, block, V, p);
-  }
+  if (classical) classical_pressures<Cell>(g, view, block, x, v, p);
+  else pressures<Cell>(g, view, block, V, J, p);
   const int in_use = block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes;
   if (viscous) {
     Pack q;
@@ -228,38 +228,38 @@ template <class Cell, bool OneLayer>
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
     edges_of<Cell>(constants, x, s, e.x);
-    find_reciprocal(e);
+    if (Cell::one_point || classical) find_reciprocal(e);
+    else find_areas(e);
     double* memory = memory_of<Cell>(g, block, s);
     const Pack V0 = initial_volume(g, memory);
-    const Pack J = e.volume / V0;
-    lowest = smaller(lowest, J);
+    lowest = smaller(lowest, J[s]);
     Vector<Pack, D> w[kE<Cell>], force[D];
     if (classical) moved_edges<Cell>(view, constants, v, s, w);
     PointResponse<Pack, D> point;
     if constexpr (Cell::one_point) {
       Hourglass<Pack, D, Cell::ring> hourglass(g.solid, constants, e, x);
-      point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J, memory, hourglass, hourglass_of<Cell>(g, block));
+      point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J[s], memory, hourglass, hourglass_of<Cell>(g, block));
       for (int m = 0; m < D; ++m)
         for (int i = 0; i < D; ++i) force[m][i] = Pack(0.0);
       hourglass.add_forces(V0, force, f);
     } else if constexpr (OneLayer) {
-      point = layer_step(g.solid, 0, stress_factor(g.solid, J), e, J, memory, Keep::yes);
+      point = layer_step(g.solid, 0, stress_factor(g.solid, J[s]), e, J[s], memory, Keep::yes);
     } else {
-      point = point_step(g.solid, e, classical ? w : nullptr, J, memory, Keep::yes);
+      point = point_step(g.solid, e, classical ? w : nullptr, J[s], memory, Keep::yes);
     }
     dissipated += point.dissipation * V0;
     for (int i = 0; i < 3; ++i) point.S[i] += p[s];  // sigma = p I + S (3.4)
     for (int m = 0; m < D; ++m) {
-      const Vector<Pack, D> of_mean = -e.volume * (point.S * e.up[m]);  // -V sigma . x^m
+      const Vector<Pack, D> of_mean = point.S * (Pack(-1.0) * e.area[m]);  // -V sigma . x^m
       if constexpr (Cell::one_point) force[m] += of_mean;
       else force[m] = of_mean;
     }
     spread<Cell>(constants, s, force, f);
     if constexpr (Cell::ring && Cell::one_point) {  // the hoop: -V sigma . x^3, through the weights of x_3
-      const Pack hoop = e.volume * e.up[2][0] * point.S[2];
+      const Pack hoop = e.area[2][0] * point.S[2];
       for (int a = 0; a < Cell::nodes; ++a) f[a][0] -= weight(constants, OnePoint<D, true>::hoop + a) * hoop;
     } else if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
-      const Pack hoop = e.volume * e.up[2][0] * point.S[2] * Pack(1.0 / 3);
+      const Pack hoop = e.area[2][0] * point.S[2] * Pack(1.0 / 3);
       for (int a = 0; a <= D; ++a) f[Cell::table[s][a]][0] -= hoop;
     }
   }
@@ -268,10 +268,10 @@ template <class Cell, bool OneLayer>
   for (int l = 0; l < kLanes; ++l) low = lowest[l] > low ? low : lowest[l];  // keeps a NaN
   g.lowest_ratio[block] = low;
 
-  double* out = g.records + block * Cell::nodes * kLanes * kRecord<D>;
+  const int* slots = g.slots + block * Cell::nodes * kLanes;
   for (int a = 0; a < Cell::nodes; ++a) {
-    if constexpr (D == 2) store_pairs(f[a][0], f[a][1], out + a * kLanes * kRecord<D>);
-    else store_quads(f[a][0], f[a][1], f[a][2], out + a * kLanes * kRecord<D>);
+    if constexpr (D == 2) add_pairs(f[a][0], f[a][1], slots + a * kLanes, g.sums);
+    else add_quads(f[a][0], f[a][1], f[a][2], slots + a * kLanes, g.sums);
   }
 }
 
@@ -290,8 +290,8 @@ template <class Cell> void volumes_of_block(const CellGroup& g, const NodalView&
     if constexpr (!Cell::one_point)  // which has a pressure of its own
       for (int a = 0; a <= D; ++a) share[Cell::table[s][a]] += part;
   }
-  double* out = g.records + block * Cell::nodes * kLanes;
-  for (int a = 0; a < Cell::nodes; ++a) share[a].store(out + a * kLanes);
+  const int* slots = g.slots + block * Cell::nodes * kLanes;
+  for (int a = 0; a < Cell::nodes; ++a) add_numbers(share[a], slots + a * kLanes, g.sums);
 }
 
 template <class Cell>
@@ -308,7 +308,7 @@ template <class Cell>
   Vector<Pack, D> inertia[Cell::nodes];  // rings only
   if constexpr (Cell::ring)
     for (int a = 0; a < Cell::nodes; ++a) {
-      for (int l = 0; l < kLanes; ++l) inertia[a][1].v[l] = view.inertia[nodes[a * kLanes + l]];
+      inertia[a][1] = gather_numbers(view.inertia, nodes + a * kLanes);
       inertia[a][0] = select(x[a][0] > Pack(0.0), inertia[a][1], Pack(0.0));  // no radial motion on the axis
     }
   CellBound<Cell> bound(g, inertia);
@@ -342,9 +342,10 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   Vector<Pack, D> x[Cell::nodes];
   gather<Cell>(nodes, view.x, x);
-  Pack V[Cell::simplices], p[Cell::simplices];
+  Pack V[Cell::simplices], J[Cell::simplices], p[Cell::simplices];
   simplex_volumes<Cell>(constants, x, V);
-  pressures<Cell>(g, view, block, V, p);
+  volume_ratios<Cell>(g, block, V, J);
+  pressures<Cell>(g, view, block, V, J, p);
   Pack stored(0.0), cell_V(0.0), cell_V0(0.0);
   const double own = g.pressure == PressureMode::element ? 1 : g.element_share;
   const bool classical = g.solid.law == Law::classical;
@@ -354,22 +355,21 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
     find_reciprocal(e);
     double* memory = memory_of<Cell>(g, block, s);
     const Pack V0 = initial_volume(g, memory);
-    const Pack J = e.volume / V0;
-    stored += V0 * point_energy(g.solid, e, J, memory);
+    stored += V0 * point_energy(g.solid, e, J[s], memory);
     if constexpr (Cell::one_point) stored += V0 * Hourglass<Pack, D, Cell::ring>(g.solid, constants, e, x).energy(g.solid, hourglass_of<Cell>(g, block));
     if (classical) stored += e.volume * p[s] * p[s] * Pack(0.5 / g.solid.K);
-    else if (g.pressure != PressureMode::node) stored += Pack(0.5 * g.solid.K * own) * V0 * (J - Pack(1.0)) * (J - Pack(1.0));
+    else if (g.pressure != PressureMode::node) stored += Pack(0.5 * g.solid.K * own) * V0 * (J[s] - Pack(1.0)) * (J[s] - Pack(1.0));
     cell_V += e.volume;
     cell_V0 += V0;
     const Vector<Pack, D>* at_rest = nullptr;
-    const PointResponse<Pack, D> point = point_step(g.solid, e, at_rest, J, memory, Keep::no);
+    const PointResponse<Pack, D> point = point_step(g.solid, e, at_rest, J[s], memory, Keep::no);
     double* to = stress + (block * Cell::simplices + s) * 6 * kLanes;
     for (int i = 0; i < 6; ++i) {
       Pack component = i < Symmetric<Pack, D>::size ? point.S[i] : Pack(0.0);
       if (i < 3) component += p[s];
       component.store(to + i * kLanes);
     }
-    J.store(ratio + (block * Cell::simplices + s) * kLanes);
+    J[s].store(ratio + (block * Cell::simplices + s) * kLanes);
   }
   if (g.pressure == PressureMode::cell && !classical) {
     const Pack strain = cell_V / cell_V0 - Pack(1.0);

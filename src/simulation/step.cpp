@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "forming_sim/loads/gravity.h"
+#include "forming_sim/element/nodes.h"
 #include "simulation/impl.h"
 
 namespace forming_sim {
@@ -13,18 +14,12 @@ constexpr double kForceMeanSteps = 50;  ///< tool forces and contact pressures a
 }
 
 void Simulation::Impl::predict(double step_dt, NodeField& v_star) const {
-  const double kick = 0.5 * (previous_dt + step_dt);
-  const double a = 0.5 * damping_rate() * kick;
-  const std::vector<double>& mass = elements.nodal_mass();
-  elements.team().share(static_cast<long>(v.size()), kNodesOfAThread, [&](long first, long last) {
-    for (long i = first; i < last; ++i) v_star[i] = ((1 - a) * v_before[i] + kick / mass[i] * f[i]) / (1 + a);
-  });
+  kick_nodes(elements.team(), v_before, f, elements.nodal_mass(), 0.5 * (previous_dt + step_dt), damping_rate(), v_star);
   boundaries.apply_velocity(time + 0.5 * step_dt, v_star);
 }
 
 void Simulation::Impl::take_step() {
   const bool loaded = !pressures.empty() || !plan.gravity.isZero();
-  v_before = v;
   choose_dt();
   --control.until_next;
   if (control.longer) ++longer_steps;
@@ -38,14 +33,16 @@ void Simulation::Impl::take_step() {
   }
   if (stages.settling()) watch_settling();
   if (contact) {
+    v_before = v;
     const ContactStep done = contact->advance(
         time, dt, x, v, [&](double step_dt, NodeField& v_star) { predict(step_dt, v_star); },
         [&](double step_dt) { return tool_motions(time, time + step_dt); });
     dt = done.dt;
     book(done);
   } else {
+    v.swap(v_before);
     predict(dt, v);
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += dt * v[i];
+    move_nodes(elements.team(), dt, v, x);
   }
   book_loads(external);
   if (stages.settling()) see_rest();

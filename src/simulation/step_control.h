@@ -3,6 +3,7 @@
 // fast, seldom while it does not.
 #include <algorithm>
 
+#include "forming_sim/simulation/config.h"
 #include "forming_sim/simulation/observer.h"
 
 namespace forming_sim {
@@ -20,10 +21,10 @@ struct StepControl {
   void update(double dt, bool close) {
     const double ratio = bound > 0 ? dt / bound : 1, fall = std::max(0.0, 1 - ratio) / interval;
     if (ratio < 0.99) interval = std::max(1, interval / 4);
-    else if (ratio > 0.998) interval = std::min(64, interval * 2);
+    else if (ratio > 0.998) interval = std::min(kLongestBoundInterval, interval * 2);
     bound = stable_dt = dt;
     if (close) {
-      interval = std::min(interval, 32);
+      interval = std::min(interval, kLongestBoundInterval / 2);
       while (interval > 1 && fall * interval > 0.01) interval /= 2;
       stable_dt = dt * std::max(0.9, 1 - fall * interval);
     }

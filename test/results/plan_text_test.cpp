@@ -30,8 +30,9 @@ TEST(Plan, BytesAreThoseOfTheArrays) {
   ASSERT_EQ(groups.size(), 1u);
   // Four blocks of eight cells. Per element: four components of G, the plastic strain, V0.
   EXPECT_EQ(groups[0].memory_bytes, 128 * 6 * 8);
-  EXPECT_EQ(groups[0].force_bytes, 32 * 5 * 2 * 8);  // two components at five nodes a cell
-  EXPECT_EQ(groups[0].index_bytes, 32 * 5 * 2 * 4);
+  // All cells are one tile: two components at each of 17 x 3 corners and 32 centres.
+  EXPECT_EQ(groups[0].force_bytes, (17 * 3 + 32) * 2 * 8);
+  EXPECT_EQ(groups[0].index_bytes, (32 * 5 * 2 + 17 * 3 + 32) * 4);
 }
 
 TEST(Plan, EverythingThatIsAskedFor) {

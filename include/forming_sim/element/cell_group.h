@@ -3,6 +3,11 @@
 // that run over them. Arrays are structures of arrays within a block:
 // [block][item][lane]. The last block is filled up with copies of its last cell;
 // the copies are computed and never read.
+//
+// Blocks that follow each other make a tile. The forces of its cells are added up by node in the
+// tile's own slots, one a node that its cells have, which the cache of a core holds;
+// then a node adds up its slots of all tiles. Tiles depend on nothing but the
+// cells, so the order of every sum is the same on any number of threads.
 #include "forming_sim/material/constants.h"
 #include "forming_sim/tensor/isa.h"
 #include "forming_sim/tensor/tensor.h"
@@ -12,7 +17,7 @@ namespace forming_sim {
 /// Over what the pressure p = K (V/V0 - 1) is averaged.
 enum class PressureMode { cell, element, node };
 
-/// Doubles of a force record: the last of a record in 3D is zero.
+/// Doubles of a slot: the force on a node; the last in 3D is zero.
 template <int D> constexpr int kRecord = D == 2 ? 2 : 4;
 
 /// One item of kLanes elements, aligned for the widest kernels.
@@ -28,6 +33,7 @@ struct CellGroup {
   bool ring = false;        ///< axisymmetric: the triangles are turned about the y axis
   int cell_nodes = 0, cell_simplices = 0;  ///< simplices: elements with a memory, 1 in a one-point cell
   int cells = 0, blocks = 0;
+  int tile = 1, tiles = 0;         ///< blocks of a tile (the last may have fewer); number of tiles
   PressureMode pressure = PressureMode::cell;
   double element_share = 0;        ///< theta: share of the element's own volume in a cell's pressure
   SolidConstants solid;
@@ -40,7 +46,8 @@ struct CellGroup {
   const double* constants = nullptr;  ///< one-point cells: [block][OnePoint::items][lane]
   double* hourglass = nullptr;        ///< likewise: [block][hourglass_items][lane], memory
   int hourglass_items = 0;
-  double* records = nullptr;       ///< [block][cell node][lane][kRecord]: forces, N; or volumes for nodal pressure
+  const int* slots = nullptr;      ///< [block][cell node][lane] slot that the node has in the tile; of a copy one that no node reads
+  double* sums = nullptr;          ///< [slot][kRecord] forces, N; or [slot] volumes for nodal pressure
   double* plastic_work = nullptr;  ///< [block] dissipated so far, J
   double* viscous_work = nullptr;  ///< [block] dissipated so far by bulk viscosity, J
   double* lowest_ratio = nullptr;  ///< [block] smallest V/V0 of the last force pass
@@ -65,9 +72,9 @@ struct BlockRates {
 /// The kernels of one vector width, for blocks [first, last) of a group.
 struct Kernels {
   const char* name;
-  /// Stress, plastic flow, nodal forces into `records`.
+  /// Stress, plastic flow; nodal forces are added to `sums`.
   void (*forces)(const CellGroup&, const NodalView&, int first, int last);
-  /// Share of the current volume of each cell node into `records` ([block][cell node][lane]).
+  /// Shares of the current volume of the cell nodes, likewise.
   void (*volumes)(const CellGroup&, const NodalView&, int first, int last);
   /// The bounds of element/time_step.h, [block].
   void (*rates)(const CellGroup&, const NodalView&, int first, int last, BlockRates* out);

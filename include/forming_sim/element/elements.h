@@ -11,6 +11,7 @@
 #include "forming_sim/config/fault.h"
 #include "forming_sim/element/body.h"
 #include "forming_sim/element/step_bounds.h"
+#include "forming_sim/element/step_times.h"
 #include "forming_sim/element/stillness.h"
 #include "forming_sim/parallel/team.h"
 #include "forming_sim/tensor/vec.h"
@@ -33,8 +34,9 @@ struct GroupPlan {
   int layers = 1;            ///< of the law
   long cells = 0, elements = 0;
   double memory_bytes = 0;   ///< state of the law, of all elements; of one-point cells their constants too
-  double force_bytes = 0;    ///< forces on the cells' nodes before they are summed
-  double index_bytes = 0;    ///< which nodes the cells have
+  double state_bytes = 0;    ///< the part of it that plastic flow writes
+  double force_bytes = 0;    ///< sums of the cells' forces, one a node of each tile (element/cell_group.h)
+  double index_bytes = 0;    ///< which nodes the cells have, in which slot of a tile they add to them, and which slots a node has
 };
 
 struct ElementOptions {
@@ -56,6 +58,8 @@ class Elements {
   const std::vector<std::array<int, 4>>& simplices() const { return simplices_; }
   const std::vector<double>& nodal_mass() const { return mass_; }  ///< kg, scaled
   std::vector<GroupPlan> plan() const;
+  /// From now on the stages of every call are booked there; null: no more. Not owned.
+  void time_stages(StepTimes* times) { times_ = times; }
 
   /// f = internal forces at x (N); updates the memory of what yields.
   /// v: the velocities that led to x in last_dt (0: nothing has moved yet), for Law::classical
@@ -81,7 +85,7 @@ class Elements {
   void elastic_forces(const NodeField& x, NodeField& f);
 
   long blocks() const;           ///< of cells, over all groups
-  long blocks_at_rest() const;   ///< of those, passed over by the last forces(): see element/stillness.h
+  long blocks_at_rest() const;   ///< of those, passed over with their tile by the last forces(): see element/stillness.h
   double plastic_work() const;   ///< dissipated so far, J
   double viscous_work() const;   ///< dissipated so far by bulk viscosity, J
   std::vector<double> plastic_strain() const;
@@ -102,11 +106,17 @@ class Elements {
   void check_axis(const NodeField& x) const;
   void nodal_pressure(const NodalView& view) const;
   void keep_shares(const NodeField& X);
-  void sum_records(NodeField& f) const;
-  /// Those of the blocks whose nodes moved, or whose memory the last evaluation changed.
+  /// Cuts the groups into tiles, gives every node of each tile a slot, and tells the nodes theirs.
+  void lay_tiles(int nodes);
+  /// cells: the group, or what differs from it in its law only.
+  void forces_of_tile(const CellGroup& cells, const Group& group, const NodalView& view, long tile) const;
+  /// f = sum of the slots of each node.
+  void sum_slots(NodeField& f) const;
+  /// Those of the tiles whose nodes moved, or whose memory the last evaluation changed.
   void forces_of_moved(Group& g, const NodalView& view);
   static long blocks_of_a_thread(const Group& group);
-  template <class Work> void over_blocks(Work&& work) const;
+  static long tiles_of_a_thread(const Group& group);
+  template <class Work> void over_tiles(Work&& work) const;
 
   const Kernels& kernels_;
   int dimension_;
@@ -116,14 +126,15 @@ class Elements {
   std::vector<std::array<int, 4>> simplices_;
   std::vector<double> mass_;
   std::vector<double> inertia_;                      ///< axisymmetric only: NodalView::inertia
-  std::vector<int> record_start_, record_index_;     ///< records of a node
-  std::vector<Lane> record_storage_;
-  double* records_ = nullptr;                        ///< [record][kRecord]
+  std::vector<int> slot_start_, slot_index_;         ///< slots of a node
+  std::vector<Lane> slot_storage_;
+  double* slots_ = nullptr;                          ///< [slot][kRecord]
   int record_size_ = 0;
   mutable std::vector<double> pressure_, nodal_volume0_, nodal_bulk_;  ///< nodal pressure only
   bool any_nodal_ = false;
   bool may_sleep_ = true;                            ///< forces follow from positions and memory alone
   Stillness stillness_;
+  StepTimes* times_ = nullptr;
 };
 
 }  // namespace forming_sim

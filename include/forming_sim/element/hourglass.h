@@ -340,7 +340,8 @@ template <class T, int D, bool Ring = false> class Hourglass {
   /// The last mode: it relaxes as a stress does that is not along the flow, and does not pass the yield stress.
   bool relax(const T& limit, const T& kept, const T& weight, int d, Strain& ep) {
     const T elastic = strain_.warp[d] - ep.warp[d], s = T(moduli_.E) * elastic;
-    const T left = smaller(kept, limit / larger(absolute(s), limit));
+    T left = kept;
+    if (any(absolute(s) > limit)) left = smaller(left, limit / larger(absolute(s), limit));
     if (!any(left < T(1))) return false;
     const T rate = (T(1) - left) * elastic;
     ep.warp[d] += rate;

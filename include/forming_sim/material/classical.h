@@ -81,11 +81,12 @@ template <class T, int D, bool Ring>
   load(memory, size, p);
   const HardeningCurve& h = m.layer[0].hardening;
   if (h.kind != HardeningCurve::elastic) {
-    const T q = mises(r.S), sigma = yield_stress(h, p).value;
-    const auto yields = q > sigma;
+    const T q = mises(r.S);
+    r.yield = yield_stress(h, p);
+    const auto yields = q > r.yield.value;
     if (any(yields)) {
       const T k = q * T(1 / (3 * m.mu));
-      const T u = select(yields, solve_correction(h, select(yields, q, sigma), p, k, sigma), T(0));
+      const T u = select(yields, solve_correction(h, select(yields, q, r.yield.value), p, k, r.yield), T(0));
       p += u * k;
       for (int i = 0; i < size; ++i) r.S[i] *= T(1) - u;  // (2.15)
       r.dissipation = J * (T(1) - u) * q * u * k;         // q_S dp

@@ -13,9 +13,9 @@ struct HardeningCurve {
   int points = 0;
 };
 
-/// sigma_s and d sigma_s / d p at p.
+/// sigma_s at p, and its first and second derivative with p.
 template <class T> struct YieldStress {
-  T value, slope;
+  T value, slope, bend;
 };
 
 inline double table_value(const HardeningCurve& h, double p, bool slope) {
@@ -28,22 +28,44 @@ inline double table_value(const HardeningCurve& h, double p, bool slope) {
 
 template <class T> YieldStress<T> yield_stress(const HardeningCurve& h, const T& p) {
   switch (h.kind) {
-    case HardeningCurve::perfect: return {T(h.a), T(0)};
-    case HardeningCurve::linear: return {T(h.a) + T(h.d) * p, T(h.d)};
+    case HardeningCurve::perfect: return {T(h.a), T(0), T(0)};
+    case HardeningCurve::linear: return {T(h.a) + T(h.d) * p, T(h.d), T(0)};
     case HardeningCurve::voce: {
       const T fall = T(h.b) * exp(T(-h.c) * p);
-      return {T(h.a) - fall + T(h.d) * p, T(h.c) * fall + T(h.d)};
+      return {T(h.a) - fall + T(h.d) * p, T(h.c) * fall + T(h.d), T(-h.c * h.c) * fall};
     }
     case HardeningCurve::swift: {
       const T sigma = T(h.a) * lanewise([&](double q) { return std::pow(h.b + q, h.c); }, p);
-      return {sigma, T(h.c) * sigma / (T(h.b) + p)};
+      const T over = T(1) / (T(h.b) + p), slope = T(h.c) * sigma * over;
+      return {sigma, slope, T(h.c - 1) * slope * over};
     }
     case HardeningCurve::table:
       return {lanewise([&](double q) { return table_value(h, q, false); }, p),
-              lanewise([&](double q) { return table_value(h, q, true); }, p)};
+              lanewise([&](double q) { return table_value(h, q, true); }, p), T(0)};
     case HardeningCurve::elastic: break;
   }
-  return {T(1e300), T(0)};
+  return {T(1e300), T(0), T(0)};
+}
+
+/// (1 - e^-s)/s for |s| <= kShortWay, by its Taylor polynomial, to round-off.
+constexpr double kShortWay = 1.0 / 64;
+template <class T> T mean_decay(const T& s) {
+  const T s2 = s * s, s4 = s2 * s2;
+  return (T(1) - T(1.0 / 2) * s) + s2 * (T(1.0 / 6) - T(1.0 / 24) * s) + s4 * (T(1.0 / 120) - T(1.0 / 720) * s + s2 * T(1.0 / 5040));
+}
+
+/// sigma_s at p + dp, given what it is at p: after the short way of one step the exponential of
+/// Voce's curve is known without another one.
+template <class T> YieldStress<T> yield_stress_beyond(const HardeningCurve& h, const T& p, const YieldStress<T>& at, const T& dp) {
+  if (h.kind == HardeningCurve::voce) {
+    const T s = T(h.c) * dp;
+    if (!any(absolute(s) > T(kShortWay))) {
+      const T lost = (at.slope - T(h.d)) * dp * mean_decay(s);  // fall(p) - fall(p + dp), fall = b exp(-c p)
+      const T slope = at.slope - T(h.c) * lost;
+      return {at.value + lost + T(h.d) * dp, slope, T(-h.c) * (slope - T(h.d))};
+    }
+  }
+  return yield_stress(h, p + dp);
 }
 
 }  // namespace forming_sim

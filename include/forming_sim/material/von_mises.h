@@ -24,6 +24,7 @@ template <class T, int D> struct PointResponse {
   Symmetric<T, D> S;  ///< Cauchy stress beside the pressure, Pa
   T dissipation;      ///< plastic work of the step per initial volume, J/m3
   T kept = T(1);      ///< of a single layer: S over that of the trial, 1: elastic
+  YieldStress<T> yield{};  ///< of a single layer: before the step
 };
 
 /// Numbers of memory of one layer: G^X and p.
@@ -36,20 +37,25 @@ template <class T, int D> struct LayerResult {
   Symmetric<T, D> S;  ///< of the layer, as if the body were made of it, Pa
   T a;                ///< 1: elastic
   T dissipation;      ///< J/m3, likewise
+  YieldStress<T> yield{};  ///< before the step; of an elastic layer nothing
 };
 
-/// u = 1 - a of (1-u) q = sigma_s(p + u k): Newton inside a bracket, to round-off.
-template <class T> T solve_correction(const HardeningCurve& h, T q, T p, T k, T sigma) {
-  T u(0), low(0), high(1);
-  T value = q - sigma, slope = q;
+/// Relative distance of q from sigma_s below which a point is on the yield surface: what stands still there keeps its memory.
+constexpr double kOnTheSurface = 1e-13;
+
+/// u = 1 - a of (1-u) q = sigma_s(p + u k): Newton inside a bracket, to round-off, from where the
+/// parabola at u = 0 has its root to second order; at: sigma_s at p.
+template <class T> T solve_correction(const HardeningCurve& h, const T& q, const T& p, const T& k, const YieldStress<T>& at) {
+  const T over_slope = T(1) / (q + k * at.slope), first = (q - at.value) * over_slope;
+  T u = smaller(first * (T(1) - T(0.5) * k * k * at.bend * first * over_slope), T(1));
+  T low(0), high(1);
   for (int i = 0; i < 60; ++i) {
-    const YieldStress<T> y = yield_stress(h, p + u * k);
-    value = (T(1) - u) * q - y.value;
-    slope = q + k * y.slope;
+    const YieldStress<T> y = yield_stress_beyond(h, p, at, u * k);
+    const T value = (T(1) - u) * q - y.value;
+    if (!any(absolute(value) > T(kOnTheSurface) * q)) break;
     low = select(value > T(0), u, low);
     high = select(value > T(0), high, u);
-    if (!any(absolute(value) > T(1e-13) * q)) break;
-    T next = u + value / slope;
+    T next = u + value / (q + k * y.slope);
     next = select(next > high, T(0.5) * (low + high), next);
     u = select(next < low, T(0.5) * (low + high), next);
   }
@@ -72,21 +78,20 @@ LayerResult<T, D> update_layer(const HardeningCurve& hardening, T factor, const 
   r.a = T(1);
   r.dissipation = T(0);
   if (hardening.kind != HardeningCurve::elastic) {
-    const T q = factor * mises(r.S);
-    const T sigma = yield_stress(hardening, p).value;
-    const auto yields = q > sigma;
+    const T Q = T(1.5) * contract(r.S, r.S) * factor * factor;  // q_S'^2: the root is needed only where something yields
+    r.yield = yield_stress(hardening, p);
+    const auto yields = Q > r.yield.value * r.yield.value * T(1 + 2 * kOnTheSurface);
     if (any(yields)) {
       const Symmetric<T, D> cof = cofactor(B);
-      const T det = determinant(B, cof);
-      const T q_inverse = mises(deviator(cof)) / det;
-      const T k = q_inverse * T(1.0 / 3);
-      const T safe_q = select(yields, q, sigma);  // lanes that do not yield solve to u = 0
-      const T u = select(yields, solve_correction(hardening, safe_q, p, k, sigma), T(0));
+      const T over_det = T(1) / determinant(B, cof);
+      const T k = mises(deviator(cof)) * over_det * T(1.0 / 3);
+      const T safe_q = select(yields, sqrt(Q), r.yield.value);  // lanes that do not yield solve to u = 0
+      const T u = select(yields, solve_correction(hardening, safe_q, p, k, r.yield), T(0));
       r.a = T(1) - u;
       p += u * k;
       // J S : D_p with the stress after the correction, which is the one that moves the nodes;
       // B_D : dev(B^-1) = 3 - tr B tr B^-1 / 3
-      const T minus_contraction = trace(B) * trace(cof) / (T(3) * det) - T(3);
+      const T minus_contraction = trace(B) * trace(cof) * over_det * T(1.0 / 3) - T(3);
       r.dissipation = factor * r.a * J * T(0.5) * u * minus_contraction;
     }
   }
@@ -116,7 +121,7 @@ PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, 
     for (int i = 0; i < size; ++i) store(memory, i, r.a * G[i] + (T(1) - r.a) * Gx[i]);  // (3.54)
     store(memory, size, p);
   }
-  return {r.S, r.dissipation, r.a};
+  return {r.S, r.dissipation, r.a, r.yield};
 }
 
 /// One step of all layers.

@@ -8,6 +8,8 @@
 
 namespace forming_sim {
 
+constexpr int kLongestBoundInterval = 64;  ///< steps after which the elements' stable step is found again at the latest
+
 struct TimeStepConfig {
   double safety = 0.9;
   double maximum = 0;

@@ -83,6 +83,15 @@ inline double sum(Pack a) {
   return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
 }
 
+/// Numbers anywhere in memory.
+inline Pack gather_numbers(const double* from, const int index[kLanes]) {
+  return Pack(Lanes{from[index[0]], from[index[1]], from[index[2]], from[index[3]], from[index[4]], from[index[5]], from[index[6]], from[index[7]]});
+}
+/// Adds to numbers anywhere in memory; lanes may have one in common.
+inline void add_numbers(Pack a, const int index[kLanes], double* to) {
+  for (int l = 0; l < kLanes; ++l) to[index[l]] += a[l];
+}
+
 /// Four doubles anywhere in memory: a nodal record.
 typedef double Quad __attribute__((vector_size(32), aligned(8)));
 
@@ -107,23 +116,33 @@ inline void gather_records(const double* const from[kLanes], Pack& x, Pack& y, P
   gather_records(from, x, y, z, unused);
 }
 
-/// Stores kLanes records of two doubles, one after the other.
-inline void store_pairs(Pack x, Pack y, double* to) {
-  *reinterpret_cast<Lanes*>(to) = __builtin_shufflevector(x.v, y.v, 0, 8, 1, 9, 2, 10, 3, 11);
-  *reinterpret_cast<Lanes*>(to + kLanes) = __builtin_shufflevector(x.v, y.v, 4, 12, 5, 13, 6, 14, 7, 15);
+typedef double Pair __attribute__((vector_size(16), aligned(8)));
+
+/// Adds kLanes pairs to slots of two doubles; lanes may have a slot in common.
+inline void add_pairs(Pack x, Pack y, const int slot[kLanes], double* to) {
+  const Lanes pairs[2] = {__builtin_shufflevector(x.v, y.v, 0, 8, 1, 9, 2, 10, 3, 11), __builtin_shufflevector(x.v, y.v, 4, 12, 5, 13, 6, 14, 7, 15)};
+  const auto add = [&](int lane, Pair pair) { *reinterpret_cast<Pair*>(to + 2 * static_cast<long>(slot[lane])) += pair; };
+  for (int k = 0; k < 2; ++k) {
+    add(4 * k, __builtin_shufflevector(pairs[k], pairs[k], 0, 1));
+    add(4 * k + 1, __builtin_shufflevector(pairs[k], pairs[k], 2, 3));
+    add(4 * k + 2, __builtin_shufflevector(pairs[k], pairs[k], 4, 5));
+    add(4 * k + 3, __builtin_shufflevector(pairs[k], pairs[k], 6, 7));
+  }
 }
-/// Stores kLanes records of four doubles, the last of each zero.
-inline void store_quads(Pack x, Pack y, Pack z, double* to) {
+/// Adds kLanes vectors to slots of four doubles, nothing to the last of each; lanes may have a slot in common.
+inline void add_quads(Pack x, Pack y, Pack z, const int slot[kLanes], double* to) {
   const Lanes zero = {0, 0, 0, 0, 0, 0, 0, 0};
   const Lanes xy0 = __builtin_shufflevector(x.v, y.v, 0, 8, 1, 9, 2, 10, 3, 11);
   const Lanes xy1 = __builtin_shufflevector(x.v, y.v, 4, 12, 5, 13, 6, 14, 7, 15);
   const Lanes z0 = __builtin_shufflevector(z.v, zero, 0, 8, 1, 9, 2, 10, 3, 11);
   const Lanes z1 = __builtin_shufflevector(z.v, zero, 4, 12, 5, 13, 6, 14, 7, 15);
-  Lanes* out = reinterpret_cast<Lanes*>(to);
-  out[0] = __builtin_shufflevector(xy0, z0, 0, 1, 8, 9, 2, 3, 10, 11);
-  out[1] = __builtin_shufflevector(xy0, z0, 4, 5, 12, 13, 6, 7, 14, 15);
-  out[2] = __builtin_shufflevector(xy1, z1, 0, 1, 8, 9, 2, 3, 10, 11);
-  out[3] = __builtin_shufflevector(xy1, z1, 4, 5, 12, 13, 6, 7, 14, 15);
+  const Lanes quads[4] = {__builtin_shufflevector(xy0, z0, 0, 1, 8, 9, 2, 3, 10, 11), __builtin_shufflevector(xy0, z0, 4, 5, 12, 13, 6, 7, 14, 15),
+                          __builtin_shufflevector(xy1, z1, 0, 1, 8, 9, 2, 3, 10, 11), __builtin_shufflevector(xy1, z1, 4, 5, 12, 13, 6, 7, 14, 15)};
+  const auto add = [&](int lane, Quad quad) { *reinterpret_cast<Quad*>(to + 4 * static_cast<long>(slot[lane])) += quad; };
+  for (int k = 0; k < 4; ++k) {
+    add(2 * k, __builtin_shufflevector(quads[k], quads[k], 0, 1, 2, 3));
+    add(2 * k + 1, __builtin_shufflevector(quads[k], quads[k], 4, 5, 6, 7));
+  }
 }
 
 template <class F> Pack lanewise(F&& f, Pack a) {
@@ -138,18 +157,18 @@ inline Pack sqrt(Pack a) {
 }
 
 /// e^x to 2 units in the last place for |x| < 700, clamped beyond: x = n ln 2 + r,
-/// |r| <= ln 2 / 2, e^r by its Taylor polynomial of degree 13.
+/// |r| <= ln 2 / 2, e^r by its Taylor polynomial of degree 13, in pairs of terms that do not wait for each other.
 inline Pack exp(Pack x) {
   const double round_magic = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to an integer
   x = smaller(larger(x, Pack(-700.0)), Pack(700.0));
   const Lanes shifted = x.v * 1.4426950408889634 + round_magic;
   const Pack n(shifted - round_magic);
   const Pack r = (x - n * Pack(6.93145751953125e-1)) - n * Pack(1.42860682030941723212e-6);
-  Pack e(1.0 / 6227020800.0);
-  const double coefficient[] = {1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800, 1.0 / 362880, 1.0 / 40320,
-                                1.0 / 5040,      1.0 / 720,      1.0 / 120,     1.0 / 24,     1.0 / 6,
-                                0.5,             1.0,            1.0};
-  for (double c : coefficient) e = e * r + Pack(c);
+  const auto pair = [&](double c, double next) { return Pack(c) + Pack(next) * r; };
+  const Pack r2 = r * r, r4 = r2 * r2, r8 = r4 * r4;
+  const Pack low = (pair(1.0, 1.0) + r2 * pair(0.5, 1.0 / 6)) + r4 * (pair(1.0 / 24, 1.0 / 120) + r2 * pair(1.0 / 720, 1.0 / 5040));
+  const Pack high = (pair(1.0 / 40320, 1.0 / 362880) + r2 * pair(1.0 / 3628800, 1.0 / 39916800)) + r4 * pair(1.0 / 479001600, 1.0 / 6227020800.0);
+  const Pack e = low + r8 * high;
   return Pack((Lanes)(((Bits)shifted << 52) + (Bits)e.v));  // the low bits of `shifted` hold n
 }
 
@@ -157,14 +176,18 @@ inline Pack exp(Pack x) {
 
 template <> constexpr int lanes_of<FORMING_SIM_ISA::Pack> = kLanes;
 
-/// J^(-1/3) for J > 0, by Newton's method on y^-3 = J from the tangent at J = 1,
+/// J^(-1/3) for J > 0. For |J - 1| <= 0.2 from its Taylor polynomial y of degree 4 about J = 1, which is
+/// right to 5e-5, by J^(-1/3) = y (1 - r)^(-1/3), r = 1 - J y^3, to the third power of r: to
+/// round-off. Farther away by Newton's method on y^-3 = J from the tangent at J = 1,
 /// which never lies above the root: the iteration rises to it without overshoot.
-/// Four steps reach round-off for |J - 1| < 0.2; farther away it goes on.
-template <class T> T inverse_cube_root(T J) {
-  T y = larger((T(4) - J) * T(1.0 / 3), T(0.3));
-  for (int i = 0; i < 4; ++i) y = y * (T(4) - J * y * y * y) * T(1.0 / 3);
-  if (any(absolute(J - T(1)) > T(0.2))) {
-    for (int i = 0; i < 60; ++i) {
+template <class T> T inverse_cube_root(const T& J) {
+  const T d = J - T(1), d2 = d * d;
+  T y = (T(1) - T(1.0 / 3) * d) + d2 * (T(2.0 / 9) - T(14.0 / 81) * d + T(35.0 / 243) * d2);
+  const T r = T(1) - (J * y) * (y * y), yr = y * r;
+  y += yr * (T(1.0 / 3) + r * (T(2.0 / 9) + T(14.0 / 81) * r));
+  if (any(absolute(d) > T(0.2))) {
+    y = larger((T(4) - J) * T(1.0 / 3), T(0.3));
+    for (int i = 0; i < 64; ++i) {
       const T next = y * (T(4) - J * y * y * y) * T(1.0 / 3);
       const T change = next - y;
       y = next;

@@ -107,7 +107,8 @@ constexpr double kTwoPi = 6.28318530717958647692;
 /// x^3 = e_3 / r as up[2] = (1/r, 0); V = 2 pi r A, the whole circle.
 template <class T, int D, bool Ring = false> struct Edges {
   Vector<T, D> x[kEdges<D, Ring>];   ///< x_m
-  Vector<T, D> up[kEdges<D, Ring>];  ///< x^m
+  Vector<T, D> area[kEdges<D, Ring>];  ///< V x^m
+  Vector<T, D> up[kEdges<D, Ring>];  ///< x^m, only where find_reciprocal was asked
   T volume;
 };
 
@@ -118,26 +119,29 @@ template <class T, int D, bool Ring = false> T simplex_volume(const Vector<T, D>
   else return T(1.0 / 6) * dot(x[0], cross(x[1], x[2]));
 }
 
-template <class T, int D, bool Ring> void find_reciprocal(Edges<T, D, Ring>& e) {
+/// V and V x^m, products of the edges without a division.
+template <class T, int D, bool Ring> void find_areas(Edges<T, D, Ring>& e) {
   if constexpr (D == 2) {
-    const T twice = e.x[0][0] * e.x[1][1] - e.x[0][1] * e.x[1][0];
-    const T inverse = T(1) / twice;
-    e.up[0] = {{e.x[1][1] * inverse, -(e.x[1][0] * inverse)}};
-    e.up[1] = {{-(e.x[0][1] * inverse), e.x[0][0] * inverse}};
-    e.volume = T(0.5) * twice;
+    T half(0.5);
     if constexpr (Ring) {
-      e.up[2] = {{T(1) / e.x[2][0], T(0)}};
-      e.volume *= T(kTwoPi) * e.x[2][0];
+      const T section = T(0.5) * (e.x[0][0] * e.x[1][1] - e.x[0][1] * e.x[1][0]);
+      e.area[2] = {{T(kTwoPi) * section, T(0)}};
+      half = T(0.5 * kTwoPi) * e.x[2][0];
     }
+    e.area[0] = {{half * e.x[1][1], -(half * e.x[1][0])}};
+    e.area[1] = {{-(half * e.x[0][1]), half * e.x[0][0]}};
   } else {
-    const Vector<T, 3> c = cross(e.x[1], e.x[2]);
-    const T six = dot(e.x[0], c);
-    const T inverse = T(1) / six;
-    e.up[0] = inverse * c;
-    e.up[1] = inverse * cross(e.x[2], e.x[0]);
-    e.up[2] = inverse * cross(e.x[0], e.x[1]);
-    e.volume = six * T(1.0 / 6);
+    e.area[0] = T(1.0 / 6) * cross(e.x[1], e.x[2]);
+    e.area[1] = T(1.0 / 6) * cross(e.x[2], e.x[0]);
+    e.area[2] = T(1.0 / 6) * cross(e.x[0], e.x[1]);
   }
+  e.volume = dot(e.x[0], e.area[0]);
+}
+
+template <class T, int D, bool Ring> void find_reciprocal(Edges<T, D, Ring>& e) {
+  find_areas(e);
+  const T inverse = T(1) / e.volume;
+  for (int m = 0; m < kEdges<D, Ring>; ++m) e.up[m] = inverse * e.area[m];
 }
 
 /// What the length of an element follows from: its volume; in a ring, too, the area of its section.
@@ -174,17 +178,19 @@ template <class T, int D, bool Ring> Symmetric<T, D> push(const Symmetric<T, D>&
 
 /// G^x: components x^m . x^k; plane strain: G^33 = 1, ring: 1/r^2.
 template <class T, int D, bool Ring> Symmetric<T, D> metric(const Edges<T, D, Ring>& e) {
+  const T inverse = T(1) / e.volume, square = inverse * inverse;
+  const auto product = [&](int m, int k) { return square * dot(e.area[m], e.area[k]); };
   Symmetric<T, D> G;
-  G[0] = dot(e.up[0], e.up[0]);
-  G[1] = dot(e.up[1], e.up[1]);
-  G[3] = dot(e.up[0], e.up[1]);
+  G[0] = product(0, 0);
+  G[1] = product(1, 1);
+  G[3] = product(0, 1);
   if constexpr (D == 2) {
-    if constexpr (Ring) G[2] = e.up[2][0] * e.up[2][0];
+    if constexpr (Ring) G[2] = square * (e.area[2][0] * e.area[2][0]);
     else G[2] = T(1);
   } else {
-    G[2] = dot(e.up[2], e.up[2]);
-    G[4] = dot(e.up[1], e.up[2]);
-    G[5] = dot(e.up[2], e.up[0]);
+    G[2] = product(2, 2);
+    G[4] = product(1, 2);
+    G[5] = product(2, 0);
   }
   return G;
 }

@@ -1,0 +1,59 @@
+// Which cells add up their forces together: element/cell_group.h.
+#include <algorithm>
+
+#include "element/group.h"
+
+namespace forming_sim {
+namespace {
+
+/// Blocks of a tile: simplices of 512 packs, whose nodes a core's cache holds, or an eighth of a small
+/// group, so that there is something to share among threads; 64 packs at least.
+int blocks_of_a_tile(int blocks, int simplices_of_a_cell) {
+  const auto of_packs = [&](int packs) { return std::max(1, packs / simplices_of_a_cell); };
+  return std::clamp((blocks + 7) / 8, of_packs(64), of_packs(512));
+}
+
+}  // namespace
+
+void Elements::lay_tiles(int nodes) {
+  std::vector<int> count(nodes + 1, 0), slot(nodes), seen(nodes, -1);
+  std::vector<int> node_of_slot;  // -1: of the copies of a last cell
+  int tile_number = 0;
+  for (Group& g : groups_) {
+    g.first_slot = static_cast<long>(node_of_slot.size());
+    g.tile = blocks_of_a_tile(g.blocks, g.parts);
+    g.tiles = (g.blocks + g.tile - 1) / g.tile;
+    g.slot_storage.resize(g.node_storage.size());
+    const long in_a_block = static_cast<long>(g.cell_nodes) * kLanes;
+    for (int t = 0; t < g.tiles; ++t, ++tile_number) {
+      g.tile_start.push_back(static_cast<long>(node_of_slot.size()) - g.first_slot);
+      std::vector<long> copies;
+      for (long at = g.first_block(t) * in_a_block; at < g.last_block(t) * in_a_block; ++at) {
+        if (at / in_a_block * kLanes + at % kLanes >= g.cells) {
+          copies.push_back(at);
+          continue;
+        }
+        const int node = g.node_storage[at];
+        if (seen[node] != tile_number) {
+          seen[node] = tile_number;
+          slot[node] = static_cast<int>(node_of_slot.size() - g.first_slot);
+          node_of_slot.push_back(node);
+          ++count[node + 1];
+        }
+        g.slot_storage[at] = slot[node];
+      }
+      for (long at : copies) g.slot_storage[at] = static_cast<int>(node_of_slot.size() - g.first_slot);
+      node_of_slot.push_back(-1);
+    }
+    g.tile_start.push_back(static_cast<long>(node_of_slot.size()) - g.first_slot);
+  }
+  for (int n = 0; n < nodes; ++n) count[n + 1] += count[n];
+  slot_start_ = count;
+  slot_index_.resize(count[nodes]);
+  for (std::size_t s = 0; s < node_of_slot.size(); ++s)
+    if (node_of_slot[s] >= 0) slot_index_[count[node_of_slot[s]]++] = static_cast<int>(s);
+  slot_storage_.resize((node_of_slot.size() * record_size_ + kLanes - 1) / kLanes);
+  slots_ = slot_storage_.empty() ? nullptr : slot_storage_.data()->value;
+}
+
+}  // namespace forming_sim
