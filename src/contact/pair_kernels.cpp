@@ -35,8 +35,10 @@ inline Triple relative(const Movers& movers, const PairPack& p, Pack (&factor)[4
 
 /// v_k += b_k / m_k P_k j.
 inline void push(const Movers& movers, const PairPack& p, const Pack (&factor)[4], const Triple& j) {
-  alignas(64) double impulse[4 * kLanes], share[kLanes];
-  store_quads(j.x, j.y, j.z, impulse);
+  Lanes quads[4];
+  to_quads(j.x, j.y, j.z, quads);
+  const double* impulse = reinterpret_cast<const double*>(quads);
+  alignas(64) double share[kLanes];
   for (int k = 0; k < p.nodes; ++k) {
     factor[k].store(share);
     for (int l = 0; l < kLanes; ++l) {

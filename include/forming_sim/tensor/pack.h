@@ -129,15 +129,22 @@ inline void add_pairs(Pack x, Pack y, const int slot[kLanes], double* to) {
     add(4 * k + 3, __builtin_shufflevector(pairs[k], pairs[k], 6, 7));
   }
 }
-/// Adds kLanes vectors to slots of four doubles, nothing to the last of each; lanes may have a slot in common.
-inline void add_quads(Pack x, Pack y, Pack z, const int slot[kLanes], double* to) {
+/// kLanes vectors as records of four doubles, the last of each zero, two records after each other in each of `quads`.
+inline void to_quads(Pack x, Pack y, Pack z, Lanes quads[4]) {
   const Lanes zero = {0, 0, 0, 0, 0, 0, 0, 0};
   const Lanes xy0 = __builtin_shufflevector(x.v, y.v, 0, 8, 1, 9, 2, 10, 3, 11);
   const Lanes xy1 = __builtin_shufflevector(x.v, y.v, 4, 12, 5, 13, 6, 14, 7, 15);
   const Lanes z0 = __builtin_shufflevector(z.v, zero, 0, 8, 1, 9, 2, 10, 3, 11);
   const Lanes z1 = __builtin_shufflevector(z.v, zero, 4, 12, 5, 13, 6, 14, 7, 15);
-  const Lanes quads[4] = {__builtin_shufflevector(xy0, z0, 0, 1, 8, 9, 2, 3, 10, 11), __builtin_shufflevector(xy0, z0, 4, 5, 12, 13, 6, 7, 14, 15),
-                          __builtin_shufflevector(xy1, z1, 0, 1, 8, 9, 2, 3, 10, 11), __builtin_shufflevector(xy1, z1, 4, 5, 12, 13, 6, 7, 14, 15)};
+  quads[0] = __builtin_shufflevector(xy0, z0, 0, 1, 8, 9, 2, 3, 10, 11);
+  quads[1] = __builtin_shufflevector(xy0, z0, 4, 5, 12, 13, 6, 7, 14, 15);
+  quads[2] = __builtin_shufflevector(xy1, z1, 0, 1, 8, 9, 2, 3, 10, 11);
+  quads[3] = __builtin_shufflevector(xy1, z1, 4, 5, 12, 13, 6, 7, 14, 15);
+}
+/// Adds kLanes vectors to slots of four doubles, nothing to the last of each; lanes may have a slot in common.
+inline void add_quads(Pack x, Pack y, Pack z, const int slot[kLanes], double* to) {
+  Lanes quads[4];
+  to_quads(x, y, z, quads);
   const auto add = [&](int lane, Quad quad) { *reinterpret_cast<Quad*>(to + 4 * static_cast<long>(slot[lane])) += quad; };
   for (int k = 0; k < 4; ++k) {
     add(2 * k, __builtin_shufflevector(quads[k], quads[k], 0, 1, 2, 3));
