@@ -36,7 +36,8 @@ TEST(Bending, PerfectlyPlasticSheet) {
   for (const ExactBend& exact : kPerfectBends) expect_bend(2, exact, material);
 }
 
-// One-point cells, as long as they are high and several times longer, in 2D and 3D alike.
+// One-point cells, as long as they are high and several times longer, in 2D and 3D alike. Chords of long cells stand for
+// the arc: 8 times longer, a cell turns by 11 degrees.
 TEST(Bending, HardeningSheetOfOnePointCells) {
   struct Case {
     int cells;
@@ -44,7 +45,7 @@ TEST(Bending, HardeningSheetOfOnePointCells) {
   };
   const ExactBend& exact = kVoceBends[1];
   for (int dimension : {2, 3})
-    for (const Case& c : {Case{2, 1, 0.02, 0.0025}, {4, 1, 0.03, 0.001}, {8, 1, 0.006, 0.0002}, {4, 4, 0.02, 0.0005}, {8, 4, 0.004, 0.0002}, {8, 8, 0.006, 0.0004}}) {
+    for (const Case& c : {Case{2, 1, 0.035, 0.0015}, {4, 1, 0.015, 0.0003}, {8, 1, 0.007, 0.0002}, {4, 4, 0.025, 0.0006}, {8, 4, 0.01, 0.0004}, {8, 8, 0.02, 0.001}}) {
       const Bend b = bend(dimension, exact.kt, c.cells, c.aspect, aluminium(true), "one_point");
       std::printf("  %dD, %d cells, %g times longer: M %+.2f %%, k_after/k %+.5f\n", dimension, c.cells, c.aspect, 100 * (b.moment / exact.moment - 1), b.after - exact.after);
       EXPECT_NEAR(b.moment, exact.moment, c.moment * exact.moment);
