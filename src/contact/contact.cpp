@@ -65,11 +65,17 @@ ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v,
   return step;
 }
 
+void Contact::take_before(NodeField& v_before) { v_before.swap(impl_->v_star); }
+
 void Contact::Impl::move(double dt, NodeField& x, NodeField& v) {
   if (!near.pairs.empty() || !tie_pairs.empty())
     for (int i = 0; i < work.body_entries; ++i) v_star[work.vertex[i]] = work.v[i];
   v.swap(v_star);
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] += dt * v[i];
+  auto some = [&](long first, long last) {
+    for (long i = first; i < last; ++i) x[i] += dt * v[i];
+  };
+  const long nodes = static_cast<long>(x.size());
+  near.team ? near.team->share(nodes, kNodesOfAThread, some) : some(0, nodes);
 }
 
 Books Contact::Impl::open_books(ContactStep& step) {

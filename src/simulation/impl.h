@@ -84,7 +84,7 @@ struct Simulation::Impl {
 
   // step.cpp
   /// v* = v + (dt_previous + dt)/2 f/m with damping and prescribed motion; f is complete.
-  void predict(double step_dt, NodeField& v_star) const;
+  void predict(double step_dt, const NodeField& from, NodeField& v_star) const;
   void take_step();
   void book(const ContactStep& done);
   /// Work of prescribed motion, pressure, gravity and damping over the kick.

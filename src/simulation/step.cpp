@@ -13,8 +13,8 @@ namespace {
 constexpr double kForceMeanSteps = 50;  ///< tool forces and contact pressures are running means over about this many steps
 }
 
-void Simulation::Impl::predict(double step_dt, NodeField& v_star) const {
-  kick_nodes(elements.team(), v_before, f, elements.nodal_mass(), 0.5 * (previous_dt + step_dt), damping_rate(), v_star);
+void Simulation::Impl::predict(double step_dt, const NodeField& from, NodeField& v_star) const {
+  kick_nodes(elements.team(), from, f, elements.nodal_mass(), 0.5 * (previous_dt + step_dt), damping_rate(), v_star);
   boundaries.apply_velocity(time + 0.5 * step_dt, v_star);
 }
 
@@ -33,15 +33,15 @@ void Simulation::Impl::take_step() {
   }
   if (stages.settling()) watch_settling();
   if (contact) {
-    v_before = v;
     const ContactStep done = contact->advance(
-        time, dt, x, v, [&](double step_dt, NodeField& v_star) { predict(step_dt, v_star); },
+        time, dt, x, v, [&](double step_dt, NodeField& v_star) { predict(step_dt, v, v_star); },
         [&](double step_dt) { return tool_motions(time, time + step_dt); });
     dt = done.dt;
+    contact->take_before(v_before);
     book(done);
   } else {
     v.swap(v_before);
-    predict(dt, v);
+    predict(dt, v_before, v);
     move_nodes(elements.team(), dt, v, x);
   }
   book_loads(external);
@@ -108,7 +108,7 @@ void Simulation::Impl::book_loads(const NodeField& external) {
   for (std::size_t i = 0; i < external.size(); ++i) work += 0.5 * kick * external[i].dot(v_before[i] + v[i]);
   if (alpha > 0) {
     NodeField v_star(v.size());
-    predict(dt, v_star);
+    predict(dt, v_before, v_star);
     double lost = 0;
     for (std::size_t i = 0; i < v.size(); ++i) {
       const Node drag = alpha * kick * 0.5 * mass[i] * (v_before[i] + v_star[i]);

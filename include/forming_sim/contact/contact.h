@@ -137,6 +137,8 @@ class Contact {
   /// would cross. Throws Error(contact_error) naming the pair when that does
   /// not help, or when a node that nothing can move is run over.
   ContactStep advance(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools);
+  /// Once after each step, for who wants it without a copy: the velocities that the step was given.
+  void take_before(NodeField& v_before);
 
   /// Independent check: edges of one surface that pierce facets of another
   /// (2D: crossing segments), nodes behind a plane, and parts wholly inside.
