@@ -31,15 +31,7 @@ Mesh mesh_with_slivers(const std::string& pattern, double thin) {
 
 OneBody pulled(const std::string& pattern, double thin) {
   OneBody run(body_of(mesh_with_slivers(pattern, thin), aluminium(true)), 2e-4);
-  BoundaryConfig left, right;
-  left.set = "left";
-  left.kind = "fixed";
-  right.set = "right";
-  right.kind = "velocity";
-  right.axes = {"x"};
-  right.times = {0, 5e-5, 1.5e-4, 2e-4};
-  right.velocities = {Vec3::Zero(), Vec3(10, 0, 0), Vec3(10, 0, 0), Vec3::Zero()};
-  run.plan.bodies[0].boundaries = {left, right};
+  pull_right(run, {0, 5e-5, 1.5e-4, 2e-4}, {Vec3::Zero(), Vec3(10, 0, 0), Vec3(10, 0, 0), Vec3::Zero()});
   return run;
 }
 

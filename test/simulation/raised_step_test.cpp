@@ -87,16 +87,7 @@ TEST(RaisedStep, TooMuchMassIsRefusedWithTheStepThatWouldDo) {
 // The weight of a body is that of its own mass: it hangs as heavily with and without.
 TEST(RaisedStep, GravityDoesNotSeeIt) {
   OneBody run = strip_with_a_sliver(20);
-  BoundaryConfig clamp;
-  clamp.set = "left";
-  clamp.kind = "fixed";
-  run.plan.bodies[0].boundaries = {clamp};
-  run.plan.gravity = Vec3(0, -1e4, 0);
-  StageConfig settle;
-  settle.name = settle.kind = "settle";
-  settle.limit = 20e-3;
-  settle.kinetic_fraction = 1e-6;
-  run.plan.stages.push_back(settle);
+  hang_from_left(run);
   double tip[2];
   for (bool raised : {false, true}) {
     run.plan.time_step.raise_to = raised ? 1.2e-7 : 0;

@@ -110,16 +110,8 @@ TEST(Simulation, TheSwingingCubeConvergesToSecondOrder) {  // reference value 16
 
 TEST(Simulation, WorkOfAPulledStripIsBooked) {
   OneBody run(body_of(generate_blank(strip_of(20e-3, 2e-3, 20, 2)), aluminium(true)), 2e-4);
-  BoundaryConfig left, right;
-  left.set = "left";
-  left.kind = "fixed";
-  right.set = "right";
-  right.kind = "velocity";
-  right.axes = {"x"};
-  right.times = {0, 1e-4};
-  right.velocities = {Vec3::Zero(), Vec3(8, 0, 0)};
-  right.profile = "smooth";
-  run.plan.bodies[0].boundaries = {left, right};
+  pull_right(run, {0, 1e-4}, {Vec3::Zero(), Vec3(8, 0, 0)});
+  run.plan.bodies[0].boundaries[1].profile = "smooth";
   auto sim = run.start();
   ASSERT_EQ(sim->run(kNoCancel).code, Code::success);
   EXPECT_GT(sim->energies().plastic, 0.5 * sim->energies().work);
@@ -159,16 +151,7 @@ TEST(Simulation, MassScalingLengthensTheStepByItsRoot) {
 
 TEST(Simulation, ASettlingCantileverComesToRest) {
   OneBody run(body_of(generate_blank(strip_of(20e-3, 1e-3, 40, 2)), aluminium()), 1e-5);
-  BoundaryConfig clamp;
-  clamp.set = "left";
-  clamp.kind = "fixed";
-  run.plan.bodies[0].boundaries = {clamp};
-  run.plan.gravity = Vec3(0, -1e4, 0);
-  StageConfig settle;
-  settle.name = settle.kind = "settle";
-  settle.limit = 20e-3;
-  settle.kinetic_fraction = 1e-6;
-  run.plan.stages.push_back(settle);
+  hang_from_left(run);
   auto sim = run.start();
   const Outcome outcome = sim->run(kNoCancel);
   ASSERT_EQ(outcome.code, Code::success) << outcome.message;

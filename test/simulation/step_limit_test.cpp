@@ -277,15 +277,7 @@ TEST(StepLimit, FollowsABodyThatIsSqueezedFast) {
 // one and two threads and across a checkpoint.
 OneBody pulled_strip() {
   OneBody run(body_of(generate_blank(strip_of(20e-3, 1e-3, 40, 3)), aluminium(true)), 4e-5);
-  BoundaryConfig left, right;
-  left.set = "left";
-  left.kind = "fixed";
-  right.set = "right";
-  right.kind = "velocity";
-  right.axes = {"x"};
-  right.times = {0, 1e-5};
-  right.velocities = {Vec3::Zero(), Vec3(60, 0, 0)};
-  run.plan.bodies[0].boundaries = {left, right};
+  pull_right(run, {0, 1e-5}, {Vec3::Zero(), Vec3(60, 0, 0)});
   run.plan.time_step.limit = "global";
   return run;
 }

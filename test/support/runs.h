@@ -37,6 +37,35 @@ inline BlankConfig strip_of(double length, double thickness, int along, int thro
   return blank;
 }
 
+/// Holds the set `left` of the body of a run.
+inline void clamp_left(OneBody& run) {
+  BoundaryConfig left;
+  left.set = "left";
+  left.kind = "fixed";
+  run.plan.bodies[0].boundaries = {left};
+}
+/// Holds it, and drives the set `right` along x.
+inline void pull_right(OneBody& run, const std::vector<double>& times, const std::vector<Vec3>& velocities) {
+  clamp_left(run);
+  BoundaryConfig right;
+  right.set = "right";
+  right.kind = "velocity";
+  right.axes = {"x"};
+  right.times = times;
+  right.velocities = velocities;
+  run.plan.bodies[0].boundaries.push_back(right);
+}
+/// A cantilever under a weight of 1000 g that settles.
+inline void hang_from_left(OneBody& run) {
+  clamp_left(run);
+  run.plan.gravity = Vec3(0, -1e4, 0);
+  StageConfig settle;
+  settle.name = settle.kind = "settle";
+  settle.limit = 20e-3;
+  settle.kinetic_fraction = 1e-6;
+  run.plan.stages.push_back(settle);
+}
+
 /// Puts a body that flies with `velocity` behind those of the model.
 inline BodyLoads& add_flying(Model& model, RunPlan& plan, BodyModel body, const std::string& name, const Vec3& velocity) {
   body.name = name;
