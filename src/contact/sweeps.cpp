@@ -178,12 +178,11 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
                           std::vector<Rub>& rubs) {
   paint(work, pairs);
   fill(work, pairs, rubs);
-  std::vector<const double*>& projector = projector_;
-  projector.resize(work.projector.size());
-  for (std::size_t i = 0; i < projector.size(); ++i) projector[i] = work.projector[i] ? work.projector[i]->data() : nullptr;
+  projector_.resize(work.projector.size());
+  for (std::size_t i = 0; i < projector_.size(); ++i) projector_[i] = work.projector[i] ? work.projector[i]->data() : nullptr;
   // While the sweeps last, a node's inverse mass stands beside its velocity.
   for (std::size_t i = 0; i < work.v.size(); ++i) work.v[i][3] = work.inverse_mass[i];
-  const Movers movers{work.v.front().data(), projector.data()};
+  const Movers movers{work.v.front().data(), projector_.data()};
   start(dt, movers, pairs);
   SweepResult result;
   const auto begin = std::chrono::steady_clock::now();

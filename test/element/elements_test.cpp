@@ -18,12 +18,7 @@ MaterialConfig material_of(const std::string& law, bool plastic) {
     if (plastic) m.layers[1].hardening->yield_stress = 300e6;
     m.hardening.reset();
   } else if (law == "rubber") {
-    m = MaterialConfig();
-    m.law = "hyperelastic";
-    m.density = 1100;
-    m.h1 = 10e6;
-    m.h2 = 5e6;
-    m.bulk_modulus = 100e6;
+    m = rubber(100e6);
   } else if (law == "classical") {
     m.law = law;
   }

@@ -23,12 +23,7 @@ MaterialConfig material_of(const std::string& law, bool plastic) {
     m.layers = {{0.6, m.hardening}, {0.4, {}}};
     m.hardening.reset();
   } else if (law == "hyperelastic") {
-    m = MaterialConfig();
-    m.law = law;
-    m.density = 1100;
-    m.h1 = 10e6;
-    m.h2 = 5e6;
-    m.bulk_modulus = 100e6;
+    m = rubber(100e6);
   }
   return m;
 }

@@ -89,13 +89,7 @@ TEST_P(EveryFamily, AfterPlasticFlow) {
 }
 
 TEST_P(EveryFamily, StretchedRubber) {
-  MaterialConfig m;
-  m.law = "hyperelastic";
-  m.density = 1100;
-  m.h1 = 10e6;
-  m.h2 = 5e6;
-  m.bulk_modulus = 500e6;
-  check(m, 0.02, "rubber", [](Elements&, NodeField& x) {
+  check(rubber(500e6), 0.02, "rubber", [](Elements&, NodeField& x) {
     for (Node& n : x) n[0] *= 1.6, n[1] /= 1.6, n[0] += 0.3 * n[1];
   });
 }
@@ -232,14 +226,8 @@ TEST(StepLimit, ALongSwingAtTheGlobalLimitKeepsItsEnergy) {
 TEST(StepLimit, FollowsABodyThatIsSqueezedFast) {
   for (CellKind kind : {CellKind::crossed, CellKind::quad1, CellKind::hex1}) {
     const int D = shape_of(kind).dimension;
-    MaterialConfig m;
-    m.law = "hyperelastic";
-    m.density = 1100;
-    m.h1 = 10e6;
-    m.h2 = 5e6;
-    m.bulk_modulus = 500e6;
     const Mesh mesh = block_of(kind, D == 2 ? 5 : 2);
-    OneBody run(body_of(mesh, m), 1);
+    OneBody run(body_of(mesh, rubber(500e6)), 1);
     run.plan.time_step.limit = "global";
     const double duration = 500 * run.start()->dt(), height = 0.8;
     run.plan.stages[0].duration = duration;

@@ -25,6 +25,16 @@ inline MaterialConfig aluminium(bool plastic = false) {
   return m;
 }
 
+inline MaterialConfig rubber(double bulk_modulus) {
+  MaterialConfig m;
+  m.law = "hyperelastic";
+  m.density = 1100;
+  m.h1 = 10e6;
+  m.h2 = 5e6;
+  m.bulk_modulus = bulk_modulus;
+  return m;
+}
+
 /// A small block of cells of a kind.
 inline Mesh block_of(CellKind kind, int n = 2) {
   const CellShape& shape = shape_of(kind);

@@ -283,8 +283,8 @@ template <class T, int D, bool Ring = false> class Hourglass {
         store(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise[d]);
       }
       flow_of_mean(mean);
+      take_mean_flow(m, factor, J, axes.spatial(mean.strain), mean.p, point, memory);
     }
-    if (together) take_mean_flow(m, factor, J, axes.spatial(mean.strain), mean.p, point, memory);
     const T left = smaller(point.kept * mean.sigma / larger(mean.sigma + T(3) * T(moduli_.mu) * mean.p, T(0.5) * mean.sigma), T(1));
     return relax_all(layer, mean.sigma, left, ep) || together;
   }

@@ -82,11 +82,11 @@ template <class T, int D, bool Ring>
   const HardeningCurve& h = m.layer[0].hardening;
   if (h.kind != HardeningCurve::elastic) {
     const T q = mises(r.S);
-    r.yield = yield_stress(h, p);
-    const auto yields = q > r.yield.value;
+    const YieldStress<T> yield = yield_stress(h, p);
+    const auto yields = q > yield.value;
     if (any(yields)) {
       const T k = q * T(1 / (3 * m.mu));
-      const T u = select(yields, solve_correction(h, select(yields, q, r.yield.value), p, k, r.yield), T(0));
+      const T u = select(yields, solve_correction(h, select(yields, q, yield.value), p, k, yield), T(0));
       p += u * k;
       for (int i = 0; i < size; ++i) r.S[i] *= T(1) - u;  // (2.15)
       r.dissipation = J * (T(1) - u) * q * u * k;         // q_S dp

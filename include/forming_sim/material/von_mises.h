@@ -24,7 +24,6 @@ template <class T, int D> struct PointResponse {
   Symmetric<T, D> S;  ///< Cauchy stress beside the pressure, Pa
   T dissipation;      ///< plastic work of the step per initial volume, J/m3
   T kept = T(1);      ///< of a single layer: S over that of the trial, 1: elastic
-  YieldStress<T> yield{};  ///< of a single layer: before the step
 };
 
 /// Numbers of memory of one layer: G^X and p.
@@ -37,7 +36,6 @@ template <class T, int D> struct LayerResult {
   Symmetric<T, D> S;  ///< of the layer, as if the body were made of it, Pa
   T a;                ///< 1: elastic
   T dissipation;      ///< J/m3, likewise
-  YieldStress<T> yield{};  ///< before the step; of an elastic layer nothing
 };
 
 /// Relative distance of q from sigma_s below which a point is on the yield surface: what stands still there keeps its memory.
@@ -79,14 +77,14 @@ LayerResult<T, D> update_layer(const HardeningCurve& hardening, T factor, const 
   r.dissipation = T(0);
   if (hardening.kind != HardeningCurve::elastic) {
     const T Q = T(1.5) * contract(r.S, r.S) * factor * factor;  // q_S'^2: the root is needed only where something yields
-    r.yield = yield_stress(hardening, p);
-    const auto yields = Q > r.yield.value * r.yield.value * T(1 + 2 * kOnTheSurface);
+    const YieldStress<T> yield = yield_stress(hardening, p);
+    const auto yields = Q > yield.value * yield.value * T(1 + 2 * kOnTheSurface);
     if (any(yields)) {
       const Symmetric<T, D> cof = cofactor(B);
       const T over_det = T(1) / determinant(B, cof);
       const T k = mises(deviator(cof)) * over_det * T(1.0 / 3);
-      const T safe_q = select(yields, sqrt(Q), r.yield.value);  // lanes that do not yield solve to u = 0
-      const T u = select(yields, solve_correction(hardening, safe_q, p, k, r.yield), T(0));
+      const T safe_q = select(yields, sqrt(Q), yield.value);  // lanes that do not yield solve to u = 0
+      const T u = select(yields, solve_correction(hardening, safe_q, p, k, yield), T(0));
       r.a = T(1) - u;
       p += u * k;
       // J S : D_p with the stress after the correction, which is the one that moves the nodes;
@@ -121,7 +119,7 @@ PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, 
     for (int i = 0; i < size; ++i) store(memory, i, r.a * G[i] + (T(1) - r.a) * Gx[i]);  // (3.54)
     store(memory, size, p);
   }
-  return {r.S, r.dissipation, r.a, r.yield};
+  return {r.S, r.dissipation, r.a};
 }
 
 /// One step of all layers.
