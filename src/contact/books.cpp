@@ -35,6 +35,20 @@ Node Books::book(const Link& link, int tool, const Node& impulse) {
 
 void Books::add(const TiePair& tie) { normal_ += dot3(tie.impulse, book(tie, tie.tool, tie.impulse)); }
 
+void Books::add(const Books& share) {
+  normal_ += share.normal_;
+  const ContactStep& more = share.step_;
+  step_.active += more.active;
+  step_.layer = std::max(step_.layer, more.layer);
+  step_.friction_work += more.friction_work;
+  step_.tool_work += more.tool_work;
+  step_.held_work += more.held_work;
+  for (std::size_t t = 0; t < more.tool_impulse.size(); ++t) {
+    step_.tool_impulse[t] += more.tool_impulse[t];
+    step_.tool_angular_impulse[t] += more.tool_angular_impulse[t];
+  }
+}
+
 void Books::add(const ContactPair& pair) {
   if (pair.impulse == 0) return;
   ++step_.active;

@@ -5,6 +5,7 @@
 
 #include "contact/impl.h"
 #include "forming_sim/contact/crossing.h"
+#include "forming_sim/element/nodes.h"
 
 namespace forming_sim {
 
@@ -71,16 +72,12 @@ void Contact::Impl::move(double dt, NodeField& x, NodeField& v) {
   if (!near.pairs.empty() || !tie_pairs.empty())
     for (int i = 0; i < work.body_entries; ++i) v_star[work.vertex[i]] = work.v[i];
   v.swap(v_star);
-  auto some = [&](long first, long last) {
-    for (long i = first; i < last; ++i) x[i] += dt * v[i];
-  };
-  const long nodes = static_cast<long>(x.size());
-  near.team ? near.team->share(nodes, kNodesOfAThread, some) : some(0, nodes);
+  move_nodes(team, dt, v, x);
 }
 
 Books Contact::Impl::open_books(ContactStep& step) {
   add_slip(step.dt);
-  Books books(work, near.rubs, static_cast<int>(tools.names.size()), layer, step);
+  Books books = empty_books(step);
   for (const TiePair& tie : tie_pairs) books.add(tie);
   return books;
 }
@@ -121,20 +118,20 @@ const std::vector<Vec3>& Contact::body_shifts() const { return impl_->body_shift
 const std::vector<std::string>& Contact::warnings() const { return impl_->warnings; }
 
 namespace {
-constexpr std::uint64_t kMagic = 0x36746361746e6f43u;  // "Contact6"
+constexpr std::uint64_t kMagic = 0x37746361746e6f43u;  // "Contact7"
 struct SavedHeader {
-  std::uint64_t magic, vertices, facets, records, kept, tools, slip;
+  std::uint64_t magic, vertices, facets, records, tools, slip;
   double potential, previous_dt;
 
   std::size_t size() const;
 };
-static_assert(std::is_trivially_copyable<LayerRecord>::value && std::is_trivially_copyable<Sweeps::Kept>::value, "saved byte by byte");
+static_assert(std::is_trivially_copyable<PairRecord>::value, "saved byte by byte");
 
 /// Position and rotation of a tool as twelve numbers.
 constexpr std::size_t kPose = 12;
 
 std::size_t SavedHeader::size() const {
-  return sizeof *this + records * sizeof(LayerRecord) + kept * sizeof(Sweeps::Kept) + (tools * kPose + slip) * sizeof(double);
+  return sizeof *this + records * sizeof(PairRecord) + (tools * kPose + slip) * sizeof(double);
 }
 
 template <class Item> void append(const std::vector<Item>& items, std::vector<char>& data) {
@@ -151,9 +148,7 @@ template <class Item> std::vector<Item> take(std::size_t count, const char*& fro
 
 std::vector<char> Contact::save() const {
   const Impl& m = *impl_;
-  const std::vector<Sweeps::Kept>& kept = m.sweeps.kept();
-  const SavedHeader header{kMagic, static_cast<std::uint64_t>(m.features.vertex_count), m.features.facets.size(), m.records.size(), kept.size(), m.previous_motion.size(),
-                           m.slip.size(), m.potential, m.previous_dt};
+  const SavedHeader header{kMagic, static_cast<std::uint64_t>(m.features.vertex_count), m.features.facets.size(), m.records.size(), m.previous_motion.size(), m.slip.size(), m.potential, m.previous_dt};
   std::vector<double> poses;
   for (const ToolMotion& tool : m.previous_motion) {
     poses.insert(poses.end(), tool.position0.data(), tool.position0.data() + 3);
@@ -163,7 +158,6 @@ std::vector<char> Contact::save() const {
   data.reserve(header.size());
   append(std::vector<SavedHeader>{header}, data);
   append(m.records, data);
-  append(kept, data);
   append(poses, data);
   append(m.slip, data);
   return data;
@@ -177,8 +171,7 @@ void Contact::restore(const std::vector<char>& data) {
   if (header.vertices != static_cast<std::uint64_t>(m.features.vertex_count) || header.facets != m.features.facets.size() || header.slip != m.slip.size())
     throw Error(Code::resume_error, "the saved contact has other surfaces than this scene: resume with the scene that was saved");
   const char* from = data.data() + sizeof header;
-  m.records = take<LayerRecord>(header.records, from);
-  m.sweeps.start_from(take<Sweeps::Kept>(header.kept, from));
+  m.records = take<PairRecord>(header.records, from);
   const std::vector<double> poses = take<double>(header.tools * kPose, from);
   m.previous_motion.assign(header.tools, ToolMotion());
   for (std::size_t t = 0; t < header.tools; ++t) {

@@ -18,9 +18,11 @@
 namespace forming_sim {
 
 struct Contact::Impl {
-  explicit Impl(Team* team) : sweeps(team) { near.team = team; }
+  explicit Impl(Team* given) : alone(1), team(given ? *given : alone), sweeps(team) {}
 
   enum class Method { implicit, explicit_mild, geometric };
+  Team alone;               ///< where none is given
+  Team& team;
   // ---- what does not change
   ContactConfig config;
   Method method = Method::implicit;
@@ -40,7 +42,7 @@ struct Contact::Impl {
   std::vector<HeldNode> held;
   std::vector<int> held_of;
   // ---- what the next step depends on
-  std::vector<LayerRecord> records;
+  std::vector<PairRecord> records;
   double potential = 0;
   std::vector<double> slip; ///< of the bodies' nodes, m; empty where nothing rubs
   double previous_dt = 0;   ///< of the step before, s; 0 at the start
@@ -62,7 +64,6 @@ struct Contact::Impl {
   Narrow near;
   Sweeps sweeps;
   std::vector<double> moved;
-  std::vector<LayerRecord> next_records;
   std::vector<double> sum, weighted, total;  ///< per entry of the workspace
 
   template <class Each> void each_body_vertex(Each&& each) const {
@@ -88,6 +89,7 @@ struct Contact::Impl {
   /// Adds the slip of the step (step.dt: the step taken) to the nodes', and books the ties; the
   /// caller adds the pairs.
   Books open_books(ContactStep& step);
+  Books empty_books(ContactStep& step) const { return Books(work, near.rubs, static_cast<int>(tools.names.size()), layer, step); }
 
   // surface_fields.cpp
   /// Adds to the slip of every node that rubs what its pairs slid in the step,
@@ -109,6 +111,9 @@ struct Contact::Impl {
   void put_back(ContactPair pair);
 
   // implicit.cpp
+  /// Books the pairs of a step that was taken, lets their layers grow, keeps their records.
+  void close_books(ContactStep& step);
+  bool touches(double dt, const ClosePair& close) const;
   int first_touch(double dt);
   std::string name_of_vertex(int v) const;
   std::string name_of_entry(int entry) const;

@@ -1,6 +1,9 @@
 // The package's own method: the mild law at the end of the step, swept over the
 // pairs; a continuous check, and halving of the step where that finds a touch.
+#include <atomic>
 #include <chrono>
+#include <deque>
+#include <limits>
 #include <sstream>
 
 #include "contact/impl.h"
@@ -30,36 +33,50 @@ class Laps {
 };
 }  // namespace
 
+// Do the features of a close pair touch on their way? moved: the way of every node, m.
+bool Contact::Impl::touches(double dt, const ClosePair& close) const {
+  int n[4], count = 4, split = 2;
+  if (close.group >= 0) {
+    const NearList::FacetEntry& e = list.facets[close.entry];
+    n[0] = list.groups[close.group].node;
+    for (int k = 0; k < features.corners(); ++k) n[1 + k] = e.node[k];
+    count = 1 + features.corners();
+    split = 1;
+  } else {
+    for (int k = 0; k < 4; ++k) n[k] = list.edges[close.entry].node[k];
+  }
+  double most[2] = {0, 0};
+  for (int k = 0; k < count; ++k) most[k >= split] = std::max(most[k >= split], moved[n[k]]);
+  if (most[0] + most[1] < 0.999 * close.distance) return false;
+  Node x[4], d[4];
+  for (int k = 0; k < count; ++k) {
+    d[k] = dt * work.v[n[k]];
+    x[k] = work.x[n[k]];
+  }
+  const double least = 1e-3 * std::min(close.distance, layer);
+  return close.group >= 0 ? point_meets_facet(features.corners(), x, d, least) : edges_meet(x, d, least);
+}
+
 // The first close pair that touches on the way, -1: none.
 int Contact::Impl::first_touch(double dt) {
   moved.resize(work.v.size());
-  for (size_t i = 0; i < moved.size(); ++i) moved[i] = dt * std::sqrt(dot3(work.v[i], work.v[i]));
-  Node x[4], d[4];
-  for (size_t c = 0; c < near.close.size(); ++c) {
-    const ClosePair& close = near.close[c];
-    int n[4], count, split;
-    if (close.group >= 0) {
-      const NearList::FacetEntry& e = list.facets[close.entry];
-      n[0] = list.groups[close.group].node;
-      for (int k = 0; k < features.corners(); ++k) n[1 + k] = e.node[k];
-      count = 1 + features.corners();
-      split = 1;
-    } else {
-      for (int k = 0; k < 4; ++k) n[k] = list.edges[close.entry].node[k];
-      count = 4;
-      split = 2;
-    }
-    double most[2] = {0, 0};
-    for (int k = 0; k < count; ++k) most[k >= split] = std::max(most[k >= split], moved[n[k]]);
-    if (most[0] + most[1] < 0.999 * close.distance) continue;
-    for (int k = 0; k < count; ++k) {
-      d[k] = dt * work.v[n[k]];
-      x[k] = work.x[n[k]];
-    }
-    const double least = 1e-3 * std::min(close.distance, layer);
-    if (close.group >= 0 ? point_meets_facet(features.corners(), x, d, least) : edges_meet(x, d, least)) return static_cast<int>(c);
+  double farthest[2] = {0, 0};  // of nodes of bodies, of tools
+  for (size_t i = 0; i < moved.size(); ++i) {
+    moved[i] = dt * std::sqrt(dot3(work.v[i], work.v[i]));
+    double& most = farthest[static_cast<int>(i) >= work.body_entries];
+    most = std::max(most, moved[i]);
   }
-  return -1;
+  const double far_apart = farthest[0] + std::max(farthest[0], farthest[1]);  // no pair closes by more
+  constexpr long kNone = std::numeric_limits<long>::max();
+  std::atomic<long> found{kNone};
+  team.share(static_cast<long>(near.close.size()), kPairsOfAThread, [&](long first, long last) {
+    for (long c = first; c < last && c < found; ++c)
+      if (near.close[c].distance * 0.999 <= far_apart && touches(dt, near.close[c])) {
+        for (long other = found; c < other && !found.compare_exchange_weak(other, c);) {}
+        return;
+      }
+  });
+  return found == kNone ? -1 : static_cast<int>(found);
 }
 
 std::string Contact::Impl::name_of_vertex(int v) const {
@@ -115,6 +132,50 @@ void Contact::Impl::check_unmovable(double time) const {
   throw Error(Code::contact_error, text.str());
 }
 
+// Chunk by chunk, shared by the threads, then joined in the order of the pairs: the sums do not depend on the threads.
+void Contact::Impl::close_books(ContactStep& step) {
+  struct Chunk {
+    ContactStep step;
+    Books books;
+    RelaxedPotential end;
+    double start = 0;
+    std::vector<PairRecord> records;
+    explicit Chunk(const Impl& m) : books(m.empty_books(step)) {}
+  };
+  std::deque<Chunk> chunks;
+  const long count = static_cast<long>(near.pairs.size());
+  for (long i = 0; i < count; i += kPairsOfAThread) chunks.emplace_back(*this);
+  team.share(static_cast<long>(chunks.size()), 1, [&](long first, long last) {
+    for (long c = first; c < last; ++c) {
+      Chunk& chunk = chunks[c];
+      for (long i = c * kPairsOfAThread; i < std::min(count, (c + 1) * kPairsOfAThread); ++i) {
+        ContactPair& pair = near.pairs[i];
+        chunk.books.add(pair);
+        chunk.start += mild_potential(pair.gap, pair.layer, pair.stiffness);
+        chunk.step.min_gap_over_layer = std::min(chunk.step.min_gap_over_layer, pair.end_gap / layer);
+        relax_layer(step.dt, push_speed * step.dt, near.rubs, pair, chunk.end, chunk.records);
+      }
+    }
+  });
+  Books books = open_books(step);
+  RelaxedPotential end;
+  double start = 0;
+  records.clear();
+  for (const Chunk& chunk : chunks) {
+    books.add(chunk.books);
+    start += chunk.start;
+    end.before += chunk.end.before;
+    end.after += chunk.end.after;
+    step.min_gap_over_layer = std::min(step.min_gap_over_layer, chunk.step.min_gap_over_layer);
+    records.insert(records.end(), chunk.records.begin(), chunk.records.end());
+  }
+  step.soft_start_work = end.after - end.before;
+  step.potential = end.after;
+  // Potential that comes or goes with the change of features counts as dissipation, of either sign.
+  step.dissipated = -books.normal_work() - (end.before - start) - (start - potential);
+  potential = step.potential;
+}
+
 ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at) {
   ContactStep step;
   Laps laps(times);
@@ -126,7 +187,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
     const double tool_way = step_way(motion, x);
     double bound = 2 * (both * fastest(v_star) * dt + tool_way);
     double thickest = layer;
-    for (const LayerRecord& r : records) thickest = std::max(thickest, r.layer);
+    for (const PairRecord& r : records) thickest = std::max(thickest, r.layer);
     const std::vector<PlanePose> planes = tools.planes(motion);
     SweepResult swept;
     double way = 0;
@@ -138,17 +199,14 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
       near.close.clear();
       way = bound / 2;
       laps.done(&ContactTimes::list);
-      if (list.size() == 0) {
-        sweeps.start_from({});
-        break;
-      }
+      if (list.size() == 0) break;
       gather(x, v, dt, motion, planes);
-      narrow_phase(constants(), planes, all, reach, travel, list, near);
-      assign_layers(records, work, dt, layer, ceiling, near.pairs);
+      narrow_phase(constants(), planes, all, reach, travel, team, list, near);
+      assign_layers(records, work, dt, layer, ceiling, team, near.pairs, near.rubs);
       laps.done(&ContactTimes::narrow);
       swept = SweepResult();
-      if (near.pairs.empty() && tie_pairs.empty()) sweeps.start_from({});
-      else swept = sweeps.solve(dt, kTolerance * layer, config.max_sweeps, work, tie_pairs, near.pairs, near.rubs);
+      if (!near.pairs.empty() || !tie_pairs.empty())
+        swept = sweeps.solve(dt, kTolerance * layer, config.max_sweeps, work, tie_pairs, near.pairs, near.rubs);
       laps.done(&ContactTimes::lanes);
       times.lanes -= swept.seconds;
       times.sweeps += swept.seconds;
@@ -178,22 +236,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
   move(dt, x, v);
 
   laps.start();
-  Books books = open_books(step);
-  RelaxedPotential end;
-  double start = 0;
-  next_records.clear();
-  for (ContactPair& pair : near.pairs) {
-    books.add(pair);
-    start += mild_potential(pair.gap, pair.layer, pair.stiffness);
-    step.min_gap_over_layer = std::min(step.min_gap_over_layer, pair.end_gap / layer);
-    relax_layer(push_speed * dt, pair, end, next_records);
-  }
-  step.soft_start_work = end.after - end.before;
-  step.potential = end.after;
-  records.swap(next_records);
-  // Potential that comes or goes with the change of features counts as dissipation, of either sign.
-  step.dissipated = -books.normal_work() - (end.before - start) - (start - potential);
-  potential = step.potential;
+  close_books(step);
   laps.done(&ContactTimes::books);
   return step;
 }

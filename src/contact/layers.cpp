@@ -1,7 +1,7 @@
 #include "forming_sim/contact/layers.h"
 
 #include <algorithm>
-#include <memory>
+#include <mutex>
 
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/law.h"
@@ -36,9 +36,9 @@ template <class PairOrRecord> int meetings(const PairOrRecord& pair, Meeting (&a
 /// The records whose pairs are gone, by their meetings; each may be taken once.
 class Left {
  public:
-  Left(const std::vector<LayerRecord>& before, const std::vector<ContactPair>& pairs) {
+  Left(const std::vector<PairRecord>& before, const std::vector<ContactPair>& pairs) {
     size_t p = 0;
-    for (const LayerRecord& record : before) {
+    for (const PairRecord& record : before) {
       while (p < pairs.size() && pairs[p].key < record.key) ++p;
       if (p < pairs.size() && pairs[p].key == record.key) continue;
       Meeting all[2];
@@ -53,11 +53,11 @@ class Left {
   void inherit(ContactPair& pair) {
     Meeting all[2];
     const int count = meetings(pair, all);
-    const LayerRecord** taken = nullptr;
+    const PairRecord** taken = nullptr;
     for (int k = 0; k < count; ++k) {
       auto e = std::lower_bound(entries_.begin(), entries_.end(), all[k], [](const Entry& a, const Meeting& m) { return a.meeting < m; });
       for (; e != entries_.end() && !(all[k] < e->meeting); ++e) {
-        const LayerRecord*& parent = records_[e->record];
+        const PairRecord*& parent = records_[e->record];
         if (!parent) continue;
         const double layer = std::min(parent->layer, pair.gap * std::max(1.0, parent->layer / parent->gap));
         if (layer <= pair.layer) continue;
@@ -73,37 +73,54 @@ class Left {
     Meeting meeting;
     int record;
   };
-  std::vector<const LayerRecord*> records_;
+  std::vector<const PairRecord*> records_;
   std::vector<Entry> entries_;
 };
 
 }  // namespace
 
-void assign_layers(const std::vector<LayerRecord>& before, const Workspace& work, double dt, double full, double ceiling,
-                   std::vector<ContactPair>& pairs) {
-  std::unique_ptr<Left> left;
-  size_t r = 0;
-  for (ContactPair& pair : pairs) {
-    while (r < before.size() && before[r].key < pair.key) ++r;
-    if (r < before.size() && before[r].key == pair.key) {
-      pair.layer = pair.base < full ? std::min(before[r].layer, pair.base) : before[r].layer;
-    } else if (pair.gap >= pair.base) {
-      const double raised = std::min(ceiling, 0.1 * closing_speed(pair, work) * dt);
-      pair.layer = std::max(pair.base, std::min(pair.gap, raised));
-    } else {
-      pair.layer = pair.gap;
-      if (!left) left = std::make_unique<Left>(before, pairs);
-      left->inherit(pair);
+void assign_layers(const std::vector<PairRecord>& before, const Workspace& work, double dt, double full, double ceiling, Team& team,
+                   std::vector<ContactPair>& pairs, std::vector<Rub>& rubs) {
+  std::mutex one;
+  std::vector<long> born;  // inside their layer
+  const auto rising = [](const PairRecord& r, const PairKey& key) { return r.key < key; };
+  team.share(static_cast<long>(pairs.size()), kPairsOfAThread, [&](long first, long last) {
+    auto r = std::lower_bound(before.begin(), before.end(), pairs[first].key, rising);
+    std::vector<long> inside;
+    for (long i = first; i < last; ++i) {
+      ContactPair& pair = pairs[i];
+      while (r != before.end() && r->key < pair.key) ++r;
+      pair.impulse = 0;
+      if (r != before.end() && r->key == pair.key) {
+        pair.layer = pair.base < full ? std::min(r->layer, pair.base) : r->layer;
+        if (pair.w == 0) continue;
+        pair.impulse = dt * r->force;
+        if (pair.rub >= 0) rubs[pair.rub].slip = dt * Node(r->drag[0], r->drag[1], r->drag[2], 0);
+      } else if (pair.gap >= pair.base) {
+        const double raised = std::min(ceiling, 0.1 * closing_speed(pair, work) * dt);
+        pair.layer = std::max(pair.base, std::min(pair.gap, raised));
+      } else {
+        pair.layer = pair.gap;
+        inside.push_back(i);
+      }
     }
-  }
+    const std::lock_guard<std::mutex> lock(one);
+    born.insert(born.end(), inside.begin(), inside.end());
+  });
+  if (born.empty()) return;
+  std::sort(born.begin(), born.end());
+  Left left(before, pairs);
+  for (long i : born) left.inherit(pairs[i]);
 }
 
-void relax_layer(double growth, ContactPair& pair, RelaxedPotential& potential, std::vector<LayerRecord>& after) {
+void relax_layer(double dt, double growth, const std::vector<Rub>& rubs, ContactPair& pair, RelaxedPotential& potential, std::vector<PairRecord>& after) {
   const double old = pair.layer, before = mild_potential(pair.end_gap, old, pair.stiffness);
   pair.layer = old < pair.base ? std::min(pair.base, old + growth) : std::max(pair.base, old - growth);
   potential.before += before;
   potential.after += pair.layer == old ? before : mild_potential(pair.end_gap, pair.layer, pair.stiffness);
-  if (pair.end_gap < std::max(pair.layer, pair.base)) after.push_back({pair.key, pair.own, pair.surface, pair.layer, pair.end_gap});
+  if (!(pair.end_gap < std::max(pair.layer, pair.base))) return;
+  const Node drag = pair.rub >= 0 ? Node(rubs[pair.rub].slip / dt) : Node(Node::Zero());
+  after.push_back({pair.key, pair.own, pair.surface, pair.layer, pair.end_gap, pair.impulse / dt, {drag[0], drag[1], drag[2]}});
 }
 
 }  // namespace forming_sim

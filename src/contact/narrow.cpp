@@ -259,14 +259,14 @@ void join(const Narrow& share, Narrow& result) {
 
 /// Calls work(share, into, first, last) for every thread's share of `count` things, then joins what
 /// they found in the order of the things. together(i): i belongs to the share of i - 1.
-template <class Together, class Work> void share_out(long count, long least, Together&& together, Narrow& result, Work&& work) {
-  const long shares = result.team ? std::max(1L, std::min<long>(result.team->size(), count / least)) : 1;
+template <class Together, class Work> void share_out(Team& team, long count, long least, Together&& together, Narrow& result, Work&& work) {
+  const long shares = std::max(1L, std::min<long>(team.size(), count / least));
   if (shares == 1) return work(0, result, 0, count);
   result.shares.resize(shares - 1);
   std::vector<long> start(shares + 1, count);
   for (long s = 0; s < shares; ++s)
     for (start[s] = s * count / shares; start[s] > 0 && start[s] < count && together(start[s]);) ++start[s];
-  result.team->share(shares, 1, [&](long first, long last) {
+  team.share(shares, 1, [&](long first, long last) {
     for (long s = first; s < last; ++s) {
       if (s > 0) result.shares[s - 1].pairs.clear(), result.shares[s - 1].rubs.clear(), result.shares[s - 1].close.clear();
       work(static_cast<int>(s), s == 0 ? result : result.shares[s - 1], start[s], start[s + 1]);
@@ -277,8 +277,8 @@ template <class Together, class Work> void share_out(long count, long least, Tog
 
 }  // namespace
 
-void narrow_phase(const PairConstants& constants, const std::vector<PlanePose>& planes, bool all, double reach, double travel, NearList& list,
-                  Narrow& result) {
+void narrow_phase(const PairConstants& constants, const std::vector<PlanePose>& planes, bool all, double reach, double travel, Team& team,
+                  NearList& list, Narrow& result) {
   result.pairs.clear();
   result.rubs.clear();
   result.close.clear();
@@ -286,9 +286,9 @@ void narrow_phase(const PairConstants& constants, const std::vector<PlanePose>& 
   for (ContactPair& pair : result.pairs) constants.set(pair, result.rubs);
   // Distances are computed to rounding; the factor keeps the bound on its safe side.
   const double awake = (travel + reach) * (1 + 1e-12);
-  std::vector<std::vector<ContactPair>> corners(result.team ? result.team->size() : 1);
+  std::vector<std::vector<ContactPair>> corners(team.size());
   const auto same_vertex = [&](long i) { return list.groups[i].vertex == list.groups[i - 1].vertex; };
-  share_out(static_cast<long>(list.groups.size()), kGroupsOfAThread, same_vertex, result, [&](int share, Narrow& into, long first, long last) {
+  share_out(team, static_cast<long>(list.groups.size()), kGroupsOfAThread, same_vertex, result, [&](int share, Narrow& into, long first, long last) {
     Phase phase(constants, all, into);
     for (long i = first; i < last; ++i)
       if (list.groups[i].wake <= awake) phase.group(list, static_cast<int>(i), reach, travel, awake);
@@ -297,7 +297,7 @@ void narrow_phase(const PairConstants& constants, const std::vector<PlanePose>& 
   });
   for (std::size_t s = 1; s < corners.size(); ++s) corners[0].insert(corners[0].end(), corners[s].begin(), corners[s].end());
   Phase(constants, all, result).finish_corners(corners[0]);
-  share_out(static_cast<long>(list.edges.size()), kEdgesOfAThread, [](long) { return false; }, result, [&](int, Narrow& into, long first, long last) {
+  share_out(team, static_cast<long>(list.edges.size()), kEdgesOfAThread, [](long) { return false; }, result, [&](int, Narrow& into, long first, long last) {
     Phase phase(constants, all, into);
     for (long i = first; i < last; ++i)
       if (list.edges[i].wake <= awake) list.edges[i].wake = travel + phase.edges(list, static_cast<int>(i), reach);

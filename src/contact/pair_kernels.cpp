@@ -93,7 +93,8 @@ void start(const Movers& movers, const PairPack* packs, const RubPack* rubs, lon
   for (long i = 0; i < count; ++i) {
     const PairPack& p = packs[i];
     Pack factor[4];
-    relative(movers, p, factor);
+    for (int k = 0; k < p.nodes; ++k)
+      for (int l = 0; l < kLanes; ++l) factor[k].v[l] = p.weight[k][l] * movers.v[4 * static_cast<long>(p.node[k][l]) + 3];
     Triple impulse = Pack::load(p.impulse) * load3(p.normal);
     if (rubs) impulse = impulse + load3(rubs[i].slip);
     push(movers, p, factor, impulse);

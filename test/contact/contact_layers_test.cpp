@@ -25,10 +25,12 @@ PairKey on_vertex(int vertex, int other) { return PairKey::make(PairKey::vertex_
 PairKey on_edge(int edge, int other) { return PairKey::make(PairKey::edge_edge, edge, 0, other); }
 
 /// The layers that `pairs` get after a step that ended with `before`, in the order of their keys.
-std::vector<double> layers(std::vector<LayerRecord> before, std::vector<ContactPair> pairs) {
-  std::sort(before.begin(), before.end(), [](const LayerRecord& a, const LayerRecord& b) { return a.key < b.key; });
+std::vector<double> layers(std::vector<PairRecord> before, std::vector<ContactPair> pairs) {
+  std::sort(before.begin(), before.end(), [](const PairRecord& a, const PairRecord& b) { return a.key < b.key; });
   std::sort(pairs.begin(), pairs.end(), [](const ContactPair& a, const ContactPair& b) { return a.key < b.key; });
-  assign_layers(before, Workspace(), 1e-6, h0, h0, pairs);
+  Team team(1);
+  std::vector<Rub> rubs;
+  assign_layers(before, Workspace(), 1e-6, h0, h0, team, pairs, rubs);
   std::vector<double> found;
   for (const ContactPair& pair : pairs) found.push_back(pair.layer);
   return found;
@@ -47,7 +49,7 @@ TEST(ContactLayers, BornOutsideWholeBornInsideWithoutForce) {
 TEST(ContactLayers, GoesOverAroundAVertex) {
   for (const auto& [vertex, corner] : {std::pair{7, 3}, std::pair{3, 7}}) {
     const int own = vertex < corner ? 0 : 1;  // the surface of the first feature of the pair of vertices
-    const LayerRecord facet{on_facet(vertex, 20), 0, 1, h0, .8 * h0}, round{on_vertex(vertex, corner), own, 1 - own, h0, .8 * h0};
+    const PairRecord facet{on_facet(vertex, 20), 0, 1, h0, .8 * h0}, round{on_vertex(vertex, corner), own, 1 - own, h0, .8 * h0};
     EXPECT_EQ(layers({facet}, {pair_of(on_vertex(vertex, corner), own, 1 - own, .8 * h0)})[0], h0) << vertex;
     EXPECT_EQ(layers({round}, {pair_of(on_facet(vertex, 21), 0, 1, .8 * h0)})[0], h0) << vertex;
     // A facet of another surface has nothing to do with it.
@@ -57,7 +59,7 @@ TEST(ContactLayers, GoesOverAroundAVertex) {
 
 // Either of two edges may be the one that goes on.
 TEST(ContactLayers, GoesOverFromEdgeToEdge) {
-  const LayerRecord before{on_edge(4, 40), 0, 1, h0, .9 * h0};
+  const PairRecord before{on_edge(4, 40), 0, 1, h0, .9 * h0};
   EXPECT_EQ(layers({before}, {pair_of(on_edge(4, 41), 0, 1, .9 * h0)})[0], h0);
   EXPECT_EQ(layers({before}, {pair_of(on_edge(5, 40), 0, 1, .9 * h0)})[0], h0);
   EXPECT_EQ(layers({before}, {pair_of(on_edge(5, 41), 0, 1, .9 * h0)})[0], .9 * h0);
@@ -65,7 +67,7 @@ TEST(ContactLayers, GoesOverFromEdgeToEdge) {
 
 // A pair that lives keeps its layer; one that is gone gives it once: the potential does not rise.
 TEST(ContactLayers, IsGivenOnceAndNoPotentialWithIt) {
-  const LayerRecord before{on_facet(7, 20), 0, 1, h0, .5 * h0};
+  const PairRecord before{on_facet(7, 20), 0, 1, h0, .5 * h0};
   EXPECT_EQ(layers({before}, {pair_of(on_facet(7, 20), 0, 1, .5 * h0), pair_of(on_facet(7, 21), 0, 1, .6 * h0)})[1], .6 * h0);
   const std::vector<double> two = layers({before}, {pair_of(on_facet(7, 21), 0, 1, .4 * h0), pair_of(on_facet(7, 22), 0, 1, .6 * h0)});
   EXPECT_NEAR(two[0], .8 * h0, 1e-12 * h0);  // as deep in its layer as the one before

@@ -46,13 +46,13 @@ class Reduced {
       work_.v[i] = rigid ? Node((end[v - features_.body_nodes] - work_.x[i]) / dt) : world.v[v];
       work_.inverse_mass[i] = rigid ? 0 : 1 / world.mass[v];
     }
-    narrow_phase({features_, work_, world.modulus, layer_}, planes, true, reach, 0, list, near_);
+    narrow_phase({features_, work_, world.modulus, layer_}, planes, true, reach, 0, team_, list, near_);
     if (reduce_) reduce_(work_, near_.pairs);
-    assign_layers(records_, work_, dt, layer_, layer_, near_.pairs);
+    assign_layers(records_, work_, dt, layer_, layer_, team_, near_.pairs, near_.rubs);
     sweeps_.solve(dt, 1e-3 * layer_, 50, work_, ties_, near_.pairs, near_.rubs);
     RelaxedPotential potential;
     records_.clear();
-    for (ContactPair& pair : near_.pairs) relax_layer(.1 * dt, pair, potential, records_);
+    for (ContactPair& pair : near_.pairs) relax_layer(dt, .1 * dt, near_.rubs, pair, potential, records_);
     for (int i = 0; i < work_.body_entries; ++i) world.v[work_.vertex[i]] = work_.v[i];
     for (size_t i = 0; i < world.x.size(); ++i) world.x[i] += dt * world.v[i];
     world.time += dt;
@@ -76,9 +76,10 @@ class Reduced {
   Features features_;
   Workspace work_;
   Narrow near_;
-  Sweeps sweeps_;
+  Team team_{1};
+  Sweeps sweeps_{team_};
   std::vector<TiePair> ties_;
-  std::vector<LayerRecord> records_;
+  std::vector<PairRecord> records_;
 };
 
 // ---- reductions

@@ -12,6 +12,8 @@ class Books {
   Books(const Workspace& work, const std::vector<Rub>& rubs, int tools, double layer, ContactStep& step);
   void add(const TiePair& tie);
   void add(const ContactPair& pair);
+  /// What another thread has booked of the same step.
+  void add(const Books& share);
   /// Of the impulses along the normals, and of ties, on the relative motion, J.
   double normal_work() const { return normal_; }
 

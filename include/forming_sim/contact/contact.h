@@ -64,7 +64,7 @@ struct ContactSetup {
   double softest_modulus = 0;            ///< E of the softest body, Pa
   double thinnest = 0;                   ///< thickness of the thinnest body, m
   double wave_speed = 0;                 ///< of the slowest body, m/s
-  Team* team = nullptr;                  ///< the threads, for as long as the contact lasts; null: one. They change no result
+  Team* team = nullptr;                  ///< the threads, for as long as the contact lasts; null: one of its own. They change no result
 };
 
 /// What one step of contact did. Energies in J (J/m in plane strain), of this step.

@@ -4,26 +4,30 @@
 #include <vector>
 
 #include "forming_sim/contact/pair.h"
+#include "forming_sim/parallel/team.h"
 
 namespace forming_sim {
 
 /// Kept of a pair that ended a step inside its layer.
-struct LayerRecord {
+struct PairRecord {
   PairKey key;
   std::int32_t own, surface;  ///< surfaces of the first and of the second feature
   double layer;  ///< h0 of the pair, m
   double gap;    ///< h at the end of the step, m
+  double force = 0;             ///< mean of the step along the normal, N
+  double drag[3] = {0, 0, 0};   ///< of friction, N
 };
 
-/// Sets `layer` of all pairs; both lists in the order of the keys.
+/// Sets `layer` of all pairs, and impulse and slip of known ones to those of the step before, from which
+/// the sweeps start; both lists in the order of the keys.
 ///  known            as it was; never more than half a layer for edges out of their wedge
 ///  new, h >= base   base, or .1 of the closing motion of the step where that is more, but not above h or `ceiling`
 ///  new, h < base    h: no force at first. Where the vertex or edge of either side has just left another
 ///                   feature of the other surface, that pair's layer goes over, to one new pair, so that
 ///                   the potential, a function of h/h0, does not rise.
 /// dt: of the step; work.v: predicted velocities. full: h0.
-void assign_layers(const std::vector<LayerRecord>& before, const Workspace& work, double dt, double full, double ceiling,
-                   std::vector<ContactPair>& pairs);
+void assign_layers(const std::vector<PairRecord>& before, const Workspace& work, double dt, double full, double ceiling, Team& team,
+                   std::vector<ContactPair>& pairs, std::vector<Rub>& rubs);
 
 /// Potential of pairs at their end gaps, J, before and after relax_layer;
 /// the difference is the work of the layers' growth.
@@ -31,7 +35,7 @@ struct RelaxedPotential {
   double before = 0, after = 0;
 };
 /// Lets the layer of a pair grow (or shrink) to its base by at most `growth`, adds its
-/// potential, and keeps the pair in `after` where it is inside.
-void relax_layer(double growth, ContactPair& pair, RelaxedPotential& potential, std::vector<LayerRecord>& after);
+/// potential, and keeps the pair in `after` where it is inside. dt: of the step that ends.
+void relax_layer(double dt, double growth, const std::vector<Rub>& rubs, ContactPair& pair, RelaxedPotential& potential, std::vector<PairRecord>& after);
 
 }  // namespace forming_sim

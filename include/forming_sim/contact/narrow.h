@@ -26,9 +26,7 @@ struct Narrow {
   std::vector<ContactPair> pairs;  ///< in the order of their keys, each once
   std::vector<Rub> rubs;           ///< of those that rub
   std::vector<ClosePair> close;    ///< for the continuous check
-
-  Team* team = nullptr;            ///< the threads; null: one. They change no result
-  std::vector<Narrow> shares;      ///< what the other threads find, before it is joined to the above
+  std::vector<Narrow> shares;      ///< what the other threads of a team find, before it is joined to the above
 };
 
 /// All pairs nearer than `reach`. Entries that were farther than reach + the
@@ -40,8 +38,8 @@ struct Narrow {
 /// held. It counts only once it is inside its layer: where a fast step would end
 /// along a frozen, askew normal says little. `all`: without this restriction
 /// (for a step that met something). The pairs have geometry, key and constants.
-void narrow_phase(const PairConstants& constants, const std::vector<PlanePose>& planes, bool all, double reach, double travel, NearList& list,
-                  Narrow& result);
+void narrow_phase(const PairConstants& constants, const std::vector<PlanePose>& planes, bool all, double reach, double travel, Team& team,
+                  NearList& list, Narrow& result);
 
 /// Adds the pairs of vertices with the planes that they are nearer to than `reach`, or behind;
 /// geometry and key only.

@@ -35,7 +35,7 @@ struct Link {
 
 /// Friction of a pair that rubs.
 struct Rub {
-  Node slip = Node::Zero();    ///< friction impulse, N s
+  Node slip = Node::Zero();    ///< friction impulse, N s; before the sweeps: to start from
   double friction = 0;
   double w = 0;                ///< inverse mass of the pair, 1/kg
 };
@@ -50,10 +50,12 @@ struct ContactPair : Link {
   double base = 0;             ///< h0 it tends to
   double stiffness = 0;        ///< c, N m
   double w = 0;                ///< inverse mass along the normal, held directions removed, 1/kg
-  double impulse = 0;          ///< along the normal, N s
+  double impulse = 0;          ///< along the normal, N s; before the sweeps: to start from
   double end_gap = 0;          ///< h at the end of the step, m
   PairKey key;
 };
+
+constexpr long kPairsOfAThread = 256;  ///< fewer are not worth another thread
 
 /// A vertex that is tied; see ties.h.
 struct Tie {

@@ -7,9 +7,11 @@
 // the factor that is best for the rate at which they shrank; in the second half of the
 // allowed number they are plain again, which cannot fail to approach.
 //
-// The pairs are visited colour by colour. Pairs of a colour share no node that can
-// move, so that within a colour the order does not matter: they are visited eight at
-// a time (pair_pack.h) and by all threads, and the result is that of one thread.
+// The pairs are visited tile by tile: a tile is a run of pairs in the order of their keys,
+// which lie near each other, so that their nodes stay in cache. Within a tile eight pairs that
+// share no node that can move are visited at a time (pair_pack.h). Tiles have colours: those of
+// one colour share no node that can move either, so that their order does not matter: the
+// threads share them, and the result is that of one thread.
 #include <cstdint>
 #include <vector>
 
@@ -25,52 +27,40 @@ struct SweepResult {
   double seconds = 0;     ///< that the sweeps took, without what comes before and after them
 };
 
-/// Keeps its memory from step to step.
 class Sweeps {
  public:
-  /// team: the threads; null: one. kernels: see choose_isa.
-  explicit Sweeps(Team* team = nullptr, const char* kernels = nullptr);
+  /// kernels: see choose_isa.
+  explicit Sweeps(Team& team, const char* kernels = nullptr);
 
-  /// Pairs in the order of their keys. Sweeps until every pair ends with a gap > 0 and nothing changes by more than
-  /// `tolerance`, at most `most` times; in each sweep ties come before pairs. Changes
+  /// From the impulses and slips that the pairs come with, sweeps until every pair ends with a gap > 0 and nothing changes
+  /// by more than `tolerance`, at most `most` times; in each sweep ties come before pairs. Changes
   /// work.v, the impulses and end_gap of the pairs, the slip of the rubs.
   SweepResult solve(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, std::vector<ContactPair>& pairs,
                     std::vector<Rub>& rubs);
 
-  /// Forces of pairs of the last step, N: all that the next step takes from this one.
-  struct Kept {
-    PairKey key;
-    double force;      ///< along the normal
-    double drag[3];    ///< of friction
-  };
-  const std::vector<Kept>& kept() const { return kept_; }
-  void start_from(std::vector<Kept> kept) { kept_ = std::move(kept); }
-
  private:
-  /// Packs of one colour; all of them rub, or none does.
-  struct Colour {
-    long first, last;
-    bool rub;
+  struct Tile {
+    long first, last;             ///< of the pairs
+    std::vector<PairPack> packs;
+    std::vector<RubPack> rubs;    ///< one per pack; empty: none of the pairs rubs
+    const RubPack* rub() const { return rubs.empty() ? nullptr : rubs.data(); }
+    RubPack* rub() { return rubs.empty() ? nullptr : rubs.data(); }
   };
-  void paint(const Workspace& work, const std::vector<ContactPair>& pairs);
-  void fill(const Workspace& work, const std::vector<ContactPair>& pairs, const std::vector<Rub>& rubs);
-  template <class Work> void share(const Colour& colour, Work&& work) const;
-  RubPack* rubs_of(const Colour& colour, long pack);
-  double sweep(double dt, double omega, const Movers& movers);
-  bool end_gaps(double dt, const Movers& movers);
-  void start(double dt, const Movers& movers, const std::vector<ContactPair>& pairs);
-  void give_back(double dt, std::vector<ContactPair>& pairs, std::vector<Rub>& rubs);
+  void cut(const Workspace& work, const std::vector<ContactPair>& pairs);
+  void pack(Tile& tile, const Workspace& work, const std::vector<ContactPair>& pairs, const std::vector<Rub>& rubs);
+  void take_back(const Tile& tile, std::vector<ContactPair>& pairs, std::vector<Rub>& rubs) const;
+  /// Calls work(tile) for all tiles, colour by colour; tiles of a colour by all threads.
+  template <class Work> void each_tile(Work&& work);
 
-  Team* team_;
+  Team& team_;
   const PairKernels& kernels_;
-  std::vector<std::uint64_t> taken_;   ///< per node: the colours of its pairs, one bit each
-  std::vector<int> place_;             ///< per pair: its lane, counted through all packs
-  std::vector<Colour> colours_;
-  std::vector<PairPack> packs_;
-  std::vector<RubPack> rub_packs_;     ///< of the last packs
-  long first_rub_ = 0;                 ///< the pack of the first
+  std::vector<Tile> tiles_;            ///< the first tile_count_ are in use; the others keep their memory
+  long tile_count_ = 0, tiles_of_a_thread_ = 1;
+  std::vector<long> order_;            ///< of the tiles, by colour
+  std::vector<long> colour_ends_;      ///< places in order_
+  std::vector<std::uint64_t> taken_;   ///< per node: colours of its tiles, then packs of its pairs; one bit each
+  std::vector<long> place_;            ///< per pair: its lane, counted through the packs of its tile
   std::vector<const double*> projector_;
-  std::vector<Kept> kept_;             ///< in the order of their keys
 };
 
 }  // namespace forming_sim
