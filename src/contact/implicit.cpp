@@ -140,7 +140,7 @@ void Contact::Impl::close_books(ContactStep& step) {
     RelaxedPotential end;
     double start = 0;
     std::vector<PairRecord> records;
-    explicit Chunk(const Impl& m) : books(m.empty_books(step)) {}
+    explicit Chunk(const Impl& m) : books(m.empty_books(step)) { records.reserve(kPairsOfAThread); }
   };
   std::deque<Chunk> chunks;
   const long count = static_cast<long>(near.pairs.size());

@@ -81,7 +81,8 @@ class Builder {
         if (f_.tied(relation, p, q)) return;
         if (closest_on_edges(p0, p1, at(q[0]), at(q[1])).squared > radius_ * radius_) return;
         const auto &op = f_.edges[e].opposite, &oq = f_.edges[other].opposite;
-        list.edges.push_back({e, other, {p[0], p[1], q[0], q[1]}, {op[0], op[1], oq[0], oq[1]}, kAwake});
+        list.edges.push_back({e, other, a, b.surface, {p[0], p[1], q[0], q[1]}, {op[0], op[1], oq[0], oq[1]}});
+        list.edge_wake.push_back(kAwake);
       });
     }
   }
@@ -109,10 +110,14 @@ class Builder {
     for (const auto& t : list.ties)
       for (int n : t.node)
         if (n >= 0) used.push_back(n);
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
     std::vector<int> place(f_.vertex_count, -1);
-    for (size_t i = 0; i < used.size(); ++i) place[used[i]] = static_cast<int>(i);
+    for (int v : used) place[v] = 0;
+    used.clear();
+    for (int v = 0; v < f_.vertex_count; ++v)
+      if (place[v] == 0) {
+        place[v] = static_cast<int>(used.size());
+        used.push_back(v);
+      }
     work.body_entries = static_cast<int>(std::lower_bound(used.begin(), used.end(), f_.body_nodes) - used.begin());
     for (auto& g : list.groups) g.node = place[g.node];
     for (int& n : list.neighbours) n = place[n];

@@ -38,7 +38,7 @@ class Phase {
         e.wake = travel + distance;
         if (c.squared <= reach2) {
           hits_.push_back({c, i, feature_of(c, e.facet), false});
-          out_.close.push_back({i, index, distance});
+          out_.close.emplace_back(i, index, distance);
         }
       }
       g.wake = std::min(g.wake, e.wake);
@@ -73,23 +73,19 @@ class Phase {
     const ClosestEdges c = closest_on_edges(a0, a1, b0, b1);
     const double distance = std::sqrt(c.squared);
     if (distance > reach) return distance;
-    out_.close.push_back({index, -1, distance});
+    out_.close.emplace_back(index, -1, distance);
     if (!c.crossing || !(distance > 0)) return distance;
-    ContactPair pair;
-    pair.key = PairKey::make(PairKey::edge_edge, e.first, 0, e.second);
-    pair.own = f_.edges[e.first].surface;
-    pair.surface = f_.edges[e.second].surface;
+    const Node normal = c.apart / distance;
+    const double base = outside(a0, a1, e.opposite, -normal) && outside(b0, b1, e.opposite + 2, normal) ? layer_ : layer_ / 2;
+    if (!offered(base, distance)) return distance;
+    ContactPair& pair = out_.pairs.emplace_back(PairKey::make(PairKey::edge_edge, e.first, 0, e.second), e.own, e.surface, distance, base);
     pair.nodes = 4;
-    const double weight[4] = {1 - c.s, c.s, c.t - 1, -c.t};
-    for (int k = 0; k < 4; ++k) {
-      pair.node[k] = e.node[k];
-      pair.weight[k] = weight[k];
-    }
-    pair.gap = distance;
-    pair.normal = c.apart / distance;
-    const bool nearest = outside(a0, a1, e.opposite, -pair.normal) && outside(b0, b1, e.opposite + 2, pair.normal);
-    pair.base = nearest ? layer_ : layer_ / 2;
-    offer(pair, out_.pairs);
+    pair.weight[0] = 1 - c.s;
+    pair.weight[1] = c.s;
+    pair.weight[2] = c.t - 1;
+    pair.weight[3] = -c.t;
+    for (int k = 0; k < 4; ++k) pair.node[k] = e.node[k];
+    pair.normal = normal;
     finish();
     return distance;
   }
@@ -138,23 +134,18 @@ class Phase {
   void add(const NearList& list, const NearList::VertexGroup& g, const Hit& hit) {
     const NearList::FacetEntry& e = list.facets[hit.entry];
     const Closest& c = hit.closest;
-    ContactPair pair;
-    pair.base = layer_;
-    pair.own = f_.vertex_surface[g.vertex];
-    pair.surface = g.surface;
-    pair.node[0] = g.node;
-    pair.weight[0] = 1;
-    pair.nodes = 1;
-    const auto with = [&](int corner, double weight) {
-      pair.node[pair.nodes] = e.node[corner];
-      pair.weight[pair.nodes++] = -weight;
+    int own = f_.vertex_surface[g.vertex], surface = g.surface;
+    Link link{{1, 0, 0, 0}, {g.node, -1, -1, -1}, 1};
+    const auto with = [&](int corner, double share) {
+      link.node[link.nodes] = e.node[corner];
+      link.weight[link.nodes++] = -share;
     };
     if (c.feature == Closest::corner) {
       with(c.which, 1);
     } else if (c.feature == Closest::edge) {
-      const int k = c.which, l = (k + 1) % 3;
-      with(std::min(k, l), c.weight[std::min(k, l)]);
-      with(std::max(k, l), c.weight[std::max(k, l)]);
+      const int i = c.which == 2 ? 0 : c.which, j = c.which == 2 ? 2 : c.which + 1;
+      with(i, c.weight[i]);
+      with(j, c.weight[j]);
     } else {
       for (int k = 0; k < f_.corners(); ++k) with(k, c.weight[k]);
     }
@@ -162,30 +153,32 @@ class Phase {
     const bool corners = c.feature == Closest::corner;
     if (corners && second < first) {  // the same pair is found from both sides
       std::swap(first, second);
-      std::swap(pair.node[0], pair.node[1]);
-      std::swap(pair.own, pair.surface);
+      std::swap(link.node[0], link.node[1]);
+      std::swap(own, surface);
     }
-    pair.key = corners ? PairKey::make(PairKey::vertex_vertex, first, 0, second) : PairKey::make(PairKey::vertex_facet, first, c.feature, second);
     Node d = c.apart;
-    if (pair.node[0] != g.node) d = -d;
-    if (corners) d = work_.x[pair.node[0]] - work_.x[pair.node[1]];  // the same bits from both sides
-    pair.gap = std::sqrt(dot3(d, d));
-    if (!(pair.gap > 0)) return;  // no direction; the start check and the continuous check exclude it
-    pair.normal = d / pair.gap;
+    if (link.node[0] != g.node) d = -d;
+    if (corners) d = work_.x[link.node[0]] - work_.x[link.node[1]];  // the same bits from both sides
+    const double gap = std::sqrt(dot3(d, d));
+    if (!(gap > 0)) return;  // no direction; the start check and the continuous check exclude it
+    const Node normal = d / gap;
+    double base = layer_;
     // Seen from the vertex, is the other feature's point the nearest too?
     const Node& from = work_.x[g.node];
-    const double sense = pair.node[0] == g.node ? 1 : -1;
+    const double sense = link.node[0] == g.node ? 1 : -1;
     for (int i = g.near_first; i < g.near_last; ++i) {
       const Node along = work_.x[list.neighbours[i]] - from;
-      const double nearer = -sense * dot3(pair.normal, along) - layer_;
-      if (nearer > 0 && nearer * nearer > kWedge * kWedge * dot3(along, along)) pair.base = layer_ / 2;
+      const double nearer = -sense * dot3(normal, along) - layer_;
+      if (nearer > 0 && nearer * nearer > kWedge * kWedge * dot3(along, along)) base = layer_ / 2;
     }
-    offer(pair, corners ? corners_ : out_.pairs);
+    if (!offered(base, gap)) return;
+    (corners ? corners_ : out_.pairs)
+        .emplace_back(corners ? PairKey::make(PairKey::vertex_vertex, first, 0, second) : PairKey::make(PairKey::vertex_facet, first, c.feature, second), own,
+                      surface, gap, base)
+        .lies(link, normal);
   }
 
-  void offer(const ContactPair& pair, std::vector<ContactPair>& to) {
-    if (all_ || pair.base == layer_ || pair.gap < pair.base) to.push_back(pair);
-  }
+  bool offered(double base, double gap) const { return all_ || base == layer_ || gap < base; }
 
   // Does `away` from the edge ab, across it, point out of the slab of every facet at the edge?
   // `inward`, across the edge too, has the length |r x u| / |u|.
@@ -226,19 +219,8 @@ void add_plane_pairs(const Features& features, const Workspace& work, const std:
     const PlanePose& plane = planes[p.tool];
     const double gap = dot3(work.x[p.node] - plane.point, plane.normal);
     if (gap > reach) continue;
-    ContactPair pair;
-    pair.key = PairKey::make(PairKey::plane, p.vertex, 0, p.tool);
-    pair.own = features.vertex_surface[p.vertex];
-    pair.surface = features.bodies + p.tool;
-    pair.nodes = 2;
-    pair.node[0] = p.node;
-    pair.node[1] = p.foot;
-    pair.weight[0] = 1;
-    pair.weight[1] = -1;
-    pair.gap = gap;
-    pair.base = layer;
-    pair.normal = plane.normal;
-    pairs.push_back(pair);
+    pairs.emplace_back(PairKey::make(PairKey::plane, p.vertex, 0, p.tool), features.vertex_surface[p.vertex], features.bodies + p.tool, gap, layer)
+        .lies({{1, -1, 0, 0}, {p.node, p.foot, -1, -1}, 2}, plane.normal);
   }
 }
 
@@ -300,7 +282,7 @@ void narrow_phase(const PairConstants& constants, const std::vector<PlanePose>& 
   share_out(team, static_cast<long>(list.edges.size()), kEdgesOfAThread, [](long) { return false; }, result, [&](int, Narrow& into, long first, long last) {
     Phase phase(constants, all, into);
     for (long i = first; i < last; ++i)
-      if (list.edges[i].wake <= awake) list.edges[i].wake = travel + phase.edges(list, static_cast<int>(i), reach);
+      if (list.edge_wake[i] <= awake) list.edge_wake[i] = travel + phase.edges(list, static_cast<int>(i), reach);
   });
 }
 

@@ -177,10 +177,11 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
     kernels_.start(movers, tile.packs.data(), tile.rub(), static_cast<long>(tile.packs.size()));
   });
   SweepResult result;
-  const auto begin = std::chrono::steady_clock::now();
+  using Clock = std::chrono::steady_clock;
   double omega = 1, before = 0;
   std::mutex one;
   for (;;) {
+    const Clock::time_point begin = Clock::now();
     double change = 0;
     for (TiePair& tie : ties) change = std::max(change, sweep_tie(dt, work, tie));
     each_tile([&](Tile& tile) {
@@ -188,6 +189,7 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
       const std::lock_guard<std::mutex> lock(one);
       if (!(most_of_tile <= change)) change = most_of_tile;
     });
+    result.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
     ++result.sweeps;
     if (result.sweeps == kPlainSweeps && change < before) omega = over_relaxation(change / before);
     if (result.sweeps == most / 2) omega = 1;
@@ -200,7 +202,6 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
     result.open = open;
     if (result.open || result.sweeps >= most) break;
   }
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   each_tile([&](Tile& tile) { take_back(tile, pairs, rubs); });
   for (Node& v : work.v) v[3] = 0;
   return result;

@@ -26,9 +26,9 @@ struct NearList {
   };
   struct EdgePair {
     int first, second;         ///< edges
+    int own, surface;          ///< theirs
     int node[4];
     int opposite[4];           ///< third corners of the first two facets at either edge, -1: none
-    double wake;
   };
   struct PlanePair {
     int vertex, node, foot;    ///< foot: place in the workspace of the plane's nearest point
@@ -43,6 +43,7 @@ struct NearList {
   std::vector<int> neighbours; ///< of the groups' vertices, in the workspace
   std::vector<VertexGroup> groups;
   std::vector<EdgePair> edges;
+  std::vector<double> edge_wake;   ///< of each of them, as of facets
   std::vector<PlanePair> planes;
   std::vector<TieEntry> ties;
   double radius = 0;           ///< every pair of features not in here was farther apart, m

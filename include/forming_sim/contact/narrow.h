@@ -20,6 +20,8 @@ struct ClosePair {
   int entry;        ///< index in NearList::facets or edges
   int group;        ///< index in NearList::groups; -1: edges
   double distance;  ///< now, m
+
+  ClosePair(int entry_of_list, int group_of_list, double now) : entry(entry_of_list), group(group_of_list), distance(now) {}
 };
 
 struct Narrow {

@@ -53,6 +53,13 @@ struct ContactPair : Link {
   double impulse = 0;          ///< along the normal, N s; before the sweeps: to start from
   double end_gap = 0;          ///< h at the end of the step, m
   PairKey key;
+
+  ContactPair() = default;
+  ContactPair(const PairKey& name, int own_surface, int other_surface, double h, double h0) : own(own_surface), surface(other_surface), gap(h), base(h0), key(name) {}
+  void lies(const Link& link, const Node& along) {
+    static_cast<Link&>(*this) = link;
+    normal = along;
+  }
 };
 
 constexpr long kPairsOfAThread = 256;  ///< fewer are not worth another thread
