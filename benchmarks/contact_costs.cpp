@@ -107,7 +107,7 @@ void pair_costs(double gap, int threads, const std::string& name, std::vector<Ro
   rows.push_back(at_most(name, "search, ns a listed pair", per(search, listed), 20, clock.seconds()));
   rows.push_back(just(name, "  of this closest points, layers", per(least.narrow, listed), clock.seconds()));
   rows.push_back(just(name, "  of this the continuous check", per(least.check, listed), clock.seconds()));
-  rows.push_back(just(name, "into colours and lanes and back, ns an active pair", per(least.lanes, active), clock.seconds()));
+  rows.push_back(just(name, "into tiles and lanes and back, ns an active pair", per(least.lanes, active), clock.seconds()));
   rows.push_back(at_most(name, "sweeps, ns an active pair and sweep", per(least.sweeps, active * step.sweeps), 45, clock.seconds()));
   rows.push_back(just(name, "energies and forces, ns an active pair", per(least.books, active), clock.seconds()));
 }

@@ -24,6 +24,8 @@ class Deck {
   void material(const MaterialConfig& material);
   /// The dead load of a traction (Pa) along an axis (1 to 3) on the faces of a set; inside a *STEP.
   void traction(const std::string& set, int axis, double value);
+  /// Names the faces whose nodes are all of a set a surface; comes into `steps`.
+  void surface(const std::string& name, const std::string& set);
   /// Adds a point (m); its number.
   int point(const Vec3& x);
   void node_set(const std::string& name, const std::vector<int>& numbers);
@@ -41,6 +43,8 @@ class Deck {
 
  private:
   int between(int a, int b);
+  /// Calls each(brick, face, its four corners) for the faces whose corners are all of a set.
+  template <class Each> void each_face(const std::string& set, Each&& each) const;
   std::vector<Vec3> nodes_;                       ///< mm
   std::vector<std::vector<int>> bricks_;          ///< numbers, from 1
   std::map<std::pair<int, int>, int> middle_;     ///< of edges

@@ -90,22 +90,32 @@ void Deck::material(const MaterialConfig& m) {
   material_ = out.str();
 }
 
-void Deck::traction(const std::string& name, int axis, double value) {
-  std::vector<int> members = sets_.at(name);
+template <class Each> void Deck::each_face(const std::string& set, Each&& each) const {
+  std::vector<int> members = sets_.at(set);
   std::sort(members.begin(), members.end());
-  std::map<int, double> load;  // N
-  for (const std::vector<int>& brick : bricks_)
-    for (const auto& face : kHexFaces) {
+  for (std::size_t brick = 0; brick < bricks_.size(); ++brick)
+    for (int face = 0; face < 6; ++face) {
       int n[4];
-      for (int a = 0; a < 4; ++a) n[a] = brick[face[a]];
-      if (!std::all_of(n, n + 4, [&](int number) { return std::binary_search(members.begin(), members.end(), number); })) continue;
-      const double whole = 1e-6 * value * 0.5 * (place(n[2]) - place(n[0])).cross(place(n[3]) - place(n[1])).norm();
-      // A quarter to each corner; quadratic faces: -1/12 to each corner, 1/3 to each middle.
-      for (int a = 0; a < 4; ++a) {
-        load[n[a]] += middle_.empty() ? whole / 4 : -whole / 12;
-        if (!middle_.empty()) load[middle_.at(std::minmax(n[a], n[(a + 1) % 4]))] += whole / 3;
-      }
+      for (int a = 0; a < 4; ++a) n[a] = bricks_[brick][kHexFaces[face][a]];
+      if (std::all_of(n, n + 4, [&](int number) { return std::binary_search(members.begin(), members.end(), number); })) each(brick, face, n);
     }
+}
+
+void Deck::surface(const std::string& name, const std::string& set) {
+  steps += "*SURFACE, NAME=" + name + ", TYPE=ELEMENT\n";
+  each_face(set, [&](std::size_t brick, int face, const int*) { steps += std::to_string(brick + 1) + ", S" + std::to_string(face + 1) + "\n"; });
+}
+
+void Deck::traction(const std::string& name, int axis, double value) {
+  std::map<int, double> load;  // N
+  each_face(name, [&](std::size_t, int, const int* n) {
+    const double whole = 1e-6 * value * 0.5 * (place(n[2]) - place(n[0])).cross(place(n[3]) - place(n[1])).norm();
+    // A quarter to each corner; quadratic faces: -1/12 to each corner, 1/3 to each middle.
+    for (int a = 0; a < 4; ++a) {
+      load[n[a]] += middle_.empty() ? whole / 4 : -whole / 12;
+      if (!middle_.empty()) load[middle_.at(std::minmax(n[a], n[(a + 1) % 4]))] += whole / 3;
+    }
+  });
   std::ostringstream out;
   out.precision(12);
   out << "*CLOAD\n";

@@ -6,6 +6,7 @@
 
 #include "shipped_scene.h"
 #include "speed_error/families.h"
+#include "speed_error/peers.h"
 
 namespace forming_sim::bench {
 namespace {
@@ -104,6 +105,7 @@ void flange_problem(Report& report) {
     scene.bodies[0].blank->cells_along /= 2;
     add_flange(report, std::string(kFamilies[0].name) + ", twice as long as high", std::to_string(through) + " through", flange(scene), finest);
   }
+  flange_by_calculix(report, finest);
 }
 
 }  // namespace forming_sim::bench

@@ -140,6 +140,7 @@ BoundarySet::Group BoundarySet::merge(const std::vector<int>& members,
       }
     }
   }
+  for (const Direction& fixed : group.directions) group.driven = group.driven || !fixed.terms.empty();
   for (const Direction& fixed : group.directions) group.projector -= fixed.axis * fixed.axis.transpose();
   // All directions fixed: nothing is left, not even rounding.
   if (group.directions.size() == 3) group.projector.setZero();
@@ -195,6 +196,7 @@ double BoundarySet::work(const NodeField& force, const std::vector<double>& mass
                          const NodeField& v_after, double dt) const {
   double sum = 0;
   for (size_t k = 0; k < nodes_.size(); ++k) {
+    if (!groups_[group_[k]].driven) continue;
     const int i = nodes_[k];
     sum += work(static_cast<int>(k), vec3(force[i]), mass[i], vec3(v_before[i]), vec3(v_after[i]), dt);
   }

@@ -103,7 +103,7 @@ struct SurfacePair {
 struct ContactTimes {
   double list = 0;    ///< bounds on the motion, and which features are near
   double narrow = 0;  ///< from listed features to pairs: places, closest points, constants, layers
-  double lanes = 0;   ///< pairs into colours and lanes, and back
+  double lanes = 0;   ///< pairs into tiles and lanes, and back
   double sweeps = 0;
   double check = 0;   ///< the continuous check
   double books = 0;   ///< energies, tool forces, layers that grow

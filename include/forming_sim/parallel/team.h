@@ -9,7 +9,7 @@
 
 namespace forming_sim {
 
-constexpr long kNodesOfAThread = 2000;  ///< fewer are not worth another thread
+constexpr long kNodesOfAThread = 1000;  ///< fewer are not worth another thread
 
 class Team {
  public:
