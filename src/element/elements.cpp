@@ -138,7 +138,8 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.body = body.name;
       g.plastic.assign(g.blocks, 0.0);
       g.viscous.assign(g.blocks, 0.0);
-      g.lowest.assign(g.blocks, 1.0);
+      g.upright_storage = std::make_unique<bool[]>(g.blocks);
+      std::fill_n(g.upright_storage.get(), g.blocks, true);
       g.node_storage.resize(static_cast<std::size_t>(g.blocks) * shape.nodes * kLanes);
       g.memory_storage.resize(static_cast<std::size_t>(g.blocks) * shape.points * g.items);
       if (is_one_point(cells.kind)) {
@@ -209,7 +210,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
     g.sums = slots_ + g.first_slot * record_size_;
     g.plastic_work = g.plastic.data();
     g.viscous_work = g.viscous.data();
-    g.lowest_ratio = g.lowest.data();
+    g.upright = g.upright_storage.get();
   }
   if (options.shares) keep_shares(x);
 }
@@ -279,8 +280,7 @@ void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, do
     over_tiles([&](const Group& g, long t) { forces_of_tile(g, g, view, t); });
   }
   for (const Group& g : groups_)
-    for (double ratio : g.lowest)
-      if (!(ratio > 0)) report_inversion(x);
+    if (!std::all_of(g.upright, g.upright + g.blocks, [](bool upright) { return upright; })) report_inversion(x);
   clock.ends(&StepTimes::cells);
   sum_slots(f);
   clock.ends(&StepTimes::sum);

@@ -29,6 +29,21 @@ void gather(const int* nodes, const double* field, Vector<Pack, kD<Cell>>* out) 
   }
 }
 
+/// The node that all simplices of a cell have in common (mesh/cell_tables.h).
+template <class Cell> constexpr int kApex = Cell::table[0][0];
+
+/// From where the nodes of a cell of simplices are to the ways from the apex to the others; the apex stays where it
+/// is. One-point cells have no apex, and keep all their nodes.
+template <class Cell> void refer_to_apex(Vector<Pack, kD<Cell>>* x) {
+  if constexpr (!Cell::one_point)
+    for (int a = 0; a < Cell::nodes; ++a)
+      if (a != kApex<Cell>) x[a] = x[a] - x[kApex<Cell>];
+}
+template <class Cell> void gather_ways(const int* nodes, const double* field, Vector<Pack, kD<Cell>>* out) {
+  gather<Cell>(nodes, field, out);
+  refer_to_apex<Cell>(out);
+}
+
 /// Constants of a block of one-point cells; null elsewhere.
 template <class Cell> const double* constants_of(const CellGroup& g, long block) {
   if constexpr (Cell::one_point) return g.constants + block * OnePoint<kD<Cell>, Cell::ring>::items * kLanes;
@@ -39,6 +54,7 @@ template <class Cell> double* hourglass_of(const CellGroup& g, long block) { ret
 /// w_ma of a one-point cell.
 inline Pack weight(const double* constants, int item) { return Pack::load(constants + item * kLanes); }
 
+/// Edges of simplex s from what gather_ways() gives.
 template <class Cell>
 void edges_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s, Vector<Pack, kD<Cell>>* edge) {
   constexpr int D = kD<Cell>;
@@ -52,28 +68,17 @@ void edges_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s, V
       for (int a = 0; a < Cell::nodes; ++a) edge[2][0] += weight(constants, OnePoint<D, true>::hoop + a) * x[a][0];
     }
   } else {
-    const auto& corner = Cell::table[s];
-    for (int m = 0; m < D; ++m) edge[m] = x[corner[m + 1]] - x[corner[0]];
-    if constexpr (Cell::ring) edge[2] = {{Pack(1.0 / 3) * (x[corner[0]][0] + x[corner[1]][0] + x[corner[2]][0]), Pack(0.0)}};
+    for (int m = 0; m < D; ++m) edge[m] = x[Cell::table[s][m + 1]];
+    if constexpr (Cell::ring) edge[2] = {{x[kApex<Cell>][0] + Pack(1.0 / 3) * (edge[0][0] + edge[1][0]), Pack(0.0)}};
   }
 }
 
-/// Hands the forces on the edges to the nodes, through the weights by which they make the edges.
+/// Hands the forces on the edges of a one-point cell to its nodes, through the weights by which they make the edges.
 template <class Cell>
-void spread(const double* constants, int s, const Vector<Pack, kD<Cell>>* force, Vector<Pack, kD<Cell>>* f) {
+void spread(const double* constants, const Vector<Pack, kD<Cell>>* force, Vector<Pack, kD<Cell>>* f) {
   constexpr int D = kD<Cell>;
-  if constexpr (Cell::one_point) {
-    for (int a = 0; a < Cell::nodes; ++a)
-      for (int m = 0; m < D; ++m) f[a] += weight(constants, a * D + m) * force[m];
-  } else {
-    const auto& corner = Cell::table[s];
-    Vector<Pack, D> rest = force[0];
-    for (int m = 0; m < D; ++m) {
-      f[corner[m + 1]] += force[m];
-      if (m > 0) rest += force[m];
-    }
-    for (int i = 0; i < D; ++i) f[corner[0]][i] -= rest[i];
-  }
+  for (int a = 0; a < Cell::nodes; ++a)
+    for (int m = 0; m < D; ++m) f[a] += weight(constants, a * D + m) * force[m];
 }
 
 template <class Cell> void simplex_volumes(const double* constants, const Vector<Pack, kD<Cell>>* x, Pack* V) {
@@ -204,7 +209,7 @@ template <class Cell, bool OneLayer>
   const double* constants = constants_of<Cell>(g, block);
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   Vector<Pack, D> x[Cell::nodes], f[Cell::nodes];
-  gather<Cell>(nodes, view.x, x);
+  gather_ways<Cell>(nodes, view.x, x);
   for (int a = 0; a < Cell::nodes; ++a)
     for (int i = 0; i < D; ++i) f[a][i] = Pack(0.0);
 
@@ -213,7 +218,7 @@ template <class Cell, bool OneLayer>
   volume_ratios<Cell>(g, block, V, J);
   Vector<Pack, D> v[Cell::nodes];  // only where something asks for velocities
   const bool classical = !OneLayer && g.solid.law == Law::classical, viscous = g.linear_viscosity > 0 || g.quadratic_viscosity > 0;
-  if (classical || viscous) gather<Cell>(nodes, view.v, v);
+  if (classical || viscous) gather_ways<Cell>(nodes, view.v, v);
   if (classical) classical_pressures<Cell>(g, view, block, x, v, p);
   else pressures<Cell>(g, view, block, V, J, p);
   const int in_use = block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes;
@@ -221,10 +226,11 @@ template <class Cell, bool OneLayer>
     Pack q;
     const Pack power = viscous_pressure<Cell>(g, constants, x, v, q);
     for (int s = 0; s < Cell::simplices; ++s) p[s] += q;
-    for (int l = 0; l < in_use; ++l) g.viscous_work[block] += power[l] * view.dt;
+    g.viscous_work[block] += sum_of_first(power, in_use) * view.dt;
   }
 
-  Pack dissipated(0.0), lowest(1e300);
+  Pack dissipated(0.0), hoops(0.0);
+  Mask upright = J[0] > Pack(0.0);
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
     edges_of<Cell>(constants, x, s, e.x);
@@ -232,7 +238,7 @@ template <class Cell, bool OneLayer>
     else find_areas(e);
     double* memory = memory_of<Cell>(g, block, s);
     const Pack V0 = initial_volume(g, memory);
-    lowest = smaller(lowest, J[s]);
+    upright = upright & (J[s] > Pack(0.0));
     Vector<Pack, D> w[kE<Cell>], force[D];
     if (classical) moved_edges<Cell>(view, constants, v, s, w);
     PointResponse<Pack, D> point;
@@ -249,24 +255,30 @@ template <class Cell, bool OneLayer>
     }
     dissipated += point.dissipation * V0;
     for (int i = 0; i < 3; ++i) point.S[i] += p[s];  // sigma = p I + S (3.4)
-    for (int m = 0; m < D; ++m) {
-      const Vector<Pack, D> of_mean = point.S * (Pack(-1.0) * e.area[m]);  // -V sigma . x^m
-      if constexpr (Cell::one_point) force[m] += of_mean;
-      else force[m] = of_mean;
-    }
-    spread<Cell>(constants, s, force, f);
-    if constexpr (Cell::ring && Cell::one_point) {  // the hoop: -V sigma . x^3, through the weights of x_3
-      const Pack hoop = e.area[2][0] * point.S[2];
-      for (int a = 0; a < Cell::nodes; ++a) f[a][0] -= weight(constants, OnePoint<D, true>::hoop + a) * hoop;
-    } else if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
-      const Pack hoop = e.area[2][0] * point.S[2] * Pack(1.0 / 3);
-      for (int a = 0; a <= D; ++a) f[Cell::table[s][a]][0] -= hoop;
+    // The force on edge m is -V sigma . x^m, that of the hoop of a ring -V sigma . x^3.
+    if constexpr (Cell::one_point) {
+      for (int m = 0; m < D; ++m) force[m] += point.S * (Pack(-1.0) * e.area[m]);
+      spread<Cell>(constants, force, f);
+      if constexpr (Cell::ring) {  // through the weights of x_3
+        const Pack hoop = e.area[2][0] * point.S[2];
+        for (int a = 0; a < Cell::nodes; ++a) f[a][0] -= weight(constants, OnePoint<D, true>::hoop + a) * hoop;
+      }
+    } else {
+      for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]] -= point.S * e.area[m];
+      if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
+        const Pack hoop = e.area[2][0] * point.S[2] * Pack(1.0 / 3);
+        for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]][0] -= hoop;
+        hoops += hoop;
+      }
     }
   }
-  for (int l = 0; l < in_use; ++l) g.plastic_work[block] += dissipated[l];
-  double low = 1e300;
-  for (int l = 0; l < kLanes; ++l) low = lowest[l] > low ? low : lowest[l];  // keeps a NaN
-  g.lowest_ratio[block] = low;
+  if constexpr (!Cell::one_point) {  // the forces on edges are in balance with those on the apex, where all of them start
+    for (int a = 0; a < Cell::nodes; ++a)
+      if (a != kApex<Cell>) f[kApex<Cell>] -= f[a];
+    if constexpr (Cell::ring) f[kApex<Cell>][0] -= Pack(3.0) * hoops;
+  }
+  g.plastic_work[block] += sum_of_first(dissipated, in_use);
+  g.upright[block] = all(upright);
 
   const int* slots = g.slots + block * Cell::nodes * kLanes;
   for (int a = 0; a < Cell::nodes; ++a) {
@@ -280,7 +292,7 @@ template <class Cell> void volumes_of_block(const CellGroup& g, const NodalView&
   const double* constants = constants_of<Cell>(g, block);
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   Vector<Pack, D> x[Cell::nodes];
-  gather<Cell>(nodes, view.x, x);
+  gather_ways<Cell>(nodes, view.x, x);
   Pack share[Cell::nodes];
   for (int a = 0; a < Cell::nodes; ++a) share[a] = Pack(0.0);
   Pack V[Cell::simplices];
@@ -311,6 +323,7 @@ template <class Cell>
       inertia[a][1] = gather_numbers(view.inertia, nodes + a * kLanes);
       inertia[a][0] = select(x[a][0] > Pack(0.0), inertia[a][1], Pack(0.0));  // no radial motion on the axis
     }
+  refer_to_apex<Cell>(x);
   CellBound<Cell> bound(g, inertia);
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
@@ -324,7 +337,7 @@ template <class Cell>
   Pack rate(0.0);
   if (g.quadratic_viscosity > 0) {
     Vector<Pack, D> v[Cell::nodes];
-    gather<Cell>(nodes, view.v, v);
+    gather_ways<Cell>(nodes, view.v, v);
     Pack V, size;
     volume_and_rate<Cell>(constants, x, v, V, rate, size);
     rate = absolute(rate / V);
@@ -341,7 +354,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   const double* constants = constants_of<Cell>(g, block);
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   Vector<Pack, D> x[Cell::nodes];
-  gather<Cell>(nodes, view.x, x);
+  gather_ways<Cell>(nodes, view.x, x);
   Pack V[Cell::simplices], J[Cell::simplices], p[Cell::simplices];
   simplex_volumes<Cell>(constants, x, V);
   volume_ratios<Cell>(g, block, V, J);

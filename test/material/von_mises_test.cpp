@@ -143,7 +143,7 @@ TEST(VonMises, EightPointsAtOnceAreEightPoints) {
   Symmetric<Pack, 3> B;
   Pack J, p;
   double single_p[kLanes];
-  LayerResult<double, 3> single[kLanes];
+  PointResponse<double, 3> single[kLanes];
   for (int l = 0; l < kLanes; ++l) {
     const double s = 1e-3 * l;  // lane 0 stays elastic
     const Symmetric<double, 3> b{{1 + 2 * s, 1 - s, 1 - 0.9 * s, 0.5 * s, -s, 0.2 * s}};
@@ -154,11 +154,11 @@ TEST(VonMises, EightPointsAtOnceAreEightPoints) {
     single[l] = update_layer(solid.layer[0].hardening, stress_factor(solid, j), b, j, single_p[l]);
   }
   const HardeningCurve& curve = solid.layer[0].hardening;
-  const LayerResult<Pack, 3> packed = update_layer(curve, stress_factor(solid, J), B, J, p);
+  const PointResponse<Pack, 3> packed = update_layer(curve, stress_factor(solid, J), B, J, p);
   int yielding = 0;
   for (int l = 0; l < kLanes; ++l) {
-    yielding += single[l].a < 1;
-    EXPECT_NEAR(packed.a[l], single[l].a, 1e-12);
+    yielding += single[l].kept < 1;
+    EXPECT_NEAR(packed.kept[l], single[l].kept, 1e-12);
     EXPECT_NEAR(p[l], single_p[l], 1e-13);
     for (int i = 0; i < 6; ++i) EXPECT_NEAR(packed.S[i][l], single[l].S[i], 1e-3);
   }

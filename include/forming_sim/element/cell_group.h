@@ -50,7 +50,7 @@ struct CellGroup {
   double* sums = nullptr;          ///< [slot][kRecord] forces, N; or [slot] volumes for nodal pressure
   double* plastic_work = nullptr;  ///< [block] dissipated so far, J
   double* viscous_work = nullptr;  ///< [block] dissipated so far by bulk viscosity, J
-  double* lowest_ratio = nullptr;  ///< [block] smallest V/V0 of the last force pass
+  bool* upright = nullptr;         ///< [block] V/V0 > 0 everywhere in the last force pass
 };
 
 /// Nodal fields as the kernels read them: four doubles a node.

@@ -32,12 +32,6 @@ template <int D> constexpr int kLayerItems = Symmetric<double, D>::size + 1;
 /// Whether a law stores what a step did to its memory.
 enum class Keep { yes, no };
 
-template <class T, int D> struct LayerResult {
-  Symmetric<T, D> S;  ///< of the layer, as if the body were made of it, Pa
-  T a;                ///< 1: elastic
-  T dissipation;      ///< J/m3, likewise
-};
-
 /// Relative distance of q from sigma_s below which a point is on the yield surface: what stands still there keeps its memory.
 constexpr double kOnTheSurface = 1e-13;
 
@@ -68,32 +62,36 @@ template <class T> T stress_factor(const SolidConstants& m, const T& J) {
   return T(m.mu) * j23 * j23 * j13;
 }
 
-/// B: the trial B' (3.51); J: V/V0 of the element; p: plastic strain, updated.
+/// The correction of a layer whose trial B' has q_S'^2 = Q: its a, p and dissipation.
 template <class T, int D>
-LayerResult<T, D> update_layer(const HardeningCurve& hardening, T factor, const Symmetric<T, D>& B, const T& J, T& p) {
-  LayerResult<T, D> r;
+void flow(const HardeningCurve& hardening, const T& factor, const Symmetric<T, D>& B, const T& J, const T& Q, T& p, PointResponse<T, D>& r) {
+  const YieldStress<T> yield = yield_stress(hardening, p);
+  const auto yields = Q > yield.value * yield.value * T(1 + 2 * kOnTheSurface);
+  if (!any(yields)) return;
+  const Symmetric<T, D> cof = cofactor(B);
+  const T over_det = T(1) / determinant(B, cof);
+  const T k = mises(deviator(cof)) * over_det * T(1.0 / 3);
+  const T safe_q = select(yields, sqrt(Q), yield.value);  // lanes that do not yield solve to u = 0
+  const T u = select(yields, solve_correction(hardening, safe_q, p, k, yield), T(0));
+  r.kept = T(1) - u;
+  p += u * k;
+  // J S : D_p with the stress after the correction, which is the one that moves the nodes;
+  // B_D : dev(B^-1) = 3 - tr B tr B^-1 / 3
+  const T minus_contraction = trace(B) * trace(cof) * over_det * T(1.0 / 3) - T(3);
+  r.dissipation = factor * r.kept * J * T(0.5) * u * minus_contraction;
+}
+
+/// What a layer answers, as if the body were made of it. B: the trial B' (3.51); J: V/V0 of the element; p: plastic strain, updated.
+template <class T, int D>
+PointResponse<T, D> update_layer(const HardeningCurve& hardening, T factor, const Symmetric<T, D>& B, const T& J, T& p) {
+  PointResponse<T, D> r;
   r.S = deviator(B);
-  r.a = T(1);
   r.dissipation = T(0);
   if (hardening.kind != HardeningCurve::elastic) {
     const T Q = T(1.5) * contract(r.S, r.S) * factor * factor;  // q_S'^2: the root is needed only where something yields
-    const YieldStress<T> yield = yield_stress(hardening, p);
-    const auto yields = Q > yield.value * yield.value * T(1 + 2 * kOnTheSurface);
-    if (any(yields)) {
-      const Symmetric<T, D> cof = cofactor(B);
-      const T over_det = T(1) / determinant(B, cof);
-      const T k = mises(deviator(cof)) * over_det * T(1.0 / 3);
-      const T safe_q = select(yields, sqrt(Q), yield.value);  // lanes that do not yield solve to u = 0
-      const T u = select(yields, solve_correction(hardening, safe_q, p, k, yield), T(0));
-      r.a = T(1) - u;
-      p += u * k;
-      // J S : D_p with the stress after the correction, which is the one that moves the nodes;
-      // B_D : dev(B^-1) = 3 - tr B tr B^-1 / 3
-      const T minus_contraction = trace(B) * trace(cof) * over_det * T(1.0 / 3) - T(3);
-      r.dissipation = factor * r.a * J * T(0.5) * u * minus_contraction;
-    }
+    if (any(Q > T(hardening.lowest * hardening.lowest))) flow(hardening, factor, B, J, Q, p, r);
   }
-  factor *= r.a;
+  factor *= r.kept;
   for (int i = 0; i < Symmetric<T, D>::size; ++i) r.S[i] = factor * r.S[i];
   return r;
 }
@@ -113,13 +111,13 @@ PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, 
   T p;
   load(memory, size, p);
   const T before = p;
-  const LayerResult<T, D> r = update_layer(m.layer[k].hardening, factor, push(G, e), J, p);  // (3.51)
+  const PointResponse<T, D> r = update_layer(m.layer[k].hardening, factor, push(G, e), J, p);  // (3.51)
   if (keep == Keep::yes && any(p > before)) {
     const Symmetric<T, D> Gx = metric(e);
-    for (int i = 0; i < size; ++i) store(memory, i, r.a * G[i] + (T(1) - r.a) * Gx[i]);  // (3.54)
+    for (int i = 0; i < size; ++i) store(memory, i, r.kept * G[i] + (T(1) - r.kept) * Gx[i]);  // (3.54)
     store(memory, size, p);
   }
-  return {r.S, r.dissipation, r.a};
+  return r;
 }
 
 /// One step of all layers.

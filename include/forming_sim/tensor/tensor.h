@@ -20,6 +20,10 @@ template <class T, int D> struct Vector {
     for (int i = 0; i < D; ++i) c[i] += b.c[i];
     return *this;
   }
+  Vector& operator-=(const Vector& b) {
+    for (int i = 0; i < D; ++i) c[i] -= b.c[i];
+    return *this;
+  }
   friend Vector operator*(const T& s, const Vector& a) {
     Vector r;
     for (int i = 0; i < D; ++i) r.c[i] = s * a.c[i];
@@ -131,9 +135,10 @@ template <class T, int D, bool Ring> void find_areas(Edges<T, D, Ring>& e) {
     e.area[0] = {{half * e.x[1][1], -(half * e.x[1][0])}};
     e.area[1] = {{-(half * e.x[0][1]), half * e.x[0][0]}};
   } else {
-    e.area[0] = T(1.0 / 6) * cross(e.x[1], e.x[2]);
-    e.area[1] = T(1.0 / 6) * cross(e.x[2], e.x[0]);
-    e.area[2] = T(1.0 / 6) * cross(e.x[0], e.x[1]);
+    const Vector<T, 3> x_1 = T(1.0 / 6) * e.x[1], x_2 = T(1.0 / 6) * e.x[2];
+    e.area[0] = cross(e.x[1], x_2);
+    e.area[1] = cross(x_2, e.x[0]);
+    e.area[2] = cross(e.x[0], x_1);
   }
   e.volume = dot(e.x[0], e.area[0]);
 }
