@@ -68,7 +68,8 @@ void edges_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s, V
       for (int a = 0; a < Cell::nodes; ++a) edge[2][0] += weight(constants, OnePoint<D, true>::hoop + a) * x[a][0];
     }
   } else {
-    for (int m = 0; m < D; ++m) edge[m] = x[Cell::table[s][m + 1]];
+    for (int m = 0; m < D; ++m)
+      for (int i = 0; i < D; ++i) edge[m][i] = x[Cell::table[s][m + 1]][i];
     if constexpr (Cell::ring) edge[2] = {{x[kApex<Cell>][0] + Pack(1.0 / 3) * (edge[0][0] + edge[1][0]), Pack(0.0)}};
   }
 }
@@ -184,22 +185,31 @@ void volume_and_rate(const double* constants, const Vector<Pack, kD<Cell>>* x, c
   }
 }
 
-/// Bulk viscosity of the cell: q = rho l (b1 c D + b2^2 l D |D| where D < 0),
-/// D = (dV/dt)/V, l = extent^(1/d), added to p; returns q D V, the power it takes.
-template <class Cell>
-Pack viscous_pressure(const CellGroup& g, const double* constants, const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v,
-                      Pack& q) {
+/// Bulk viscosity of the cells of a block: q, which adds to p, and the power that it takes, q D V, with
+/// q = rho l (b1 c D + b2^2 l D |D| where D < 0), D = (dV/dt)/V, l = extent^(1/d). Out of line: most scenes have none.
+struct Viscosity {
+  Pack q, power;
+};
+template <class Cell> [[gnu::noinline]] Viscosity viscosity_of_block(const CellGroup& g, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
+  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
+  Vector<Pack, D> x[Cell::nodes], v[Cell::nodes];
+  gather_ways<Cell>(nodes, view.x, x);
+  gather_ways<Cell>(nodes, view.v, v);
   Pack V, rate, size;
-  volume_and_rate<Cell>(constants, x, v, V, rate, size);
+  volume_and_rate<Cell>(constants_of<Cell>(g, block), x, v, V, rate, size);
   const Pack D_v = rate / V;
   const Pack l = lanewise([](double volume) { return D == 2 ? __builtin_sqrt(volume) : __builtin_cbrt(volume); }, size);
   const Pack c(__builtin_sqrt((g.solid.K + 4.0 / 3 * g.solid.mu) / g.density));
   const Pack b2(g.quadratic_viscosity);
-  q = Pack(g.density) * l * D_v *
-      (Pack(g.linear_viscosity) * c + select(D_v < Pack(0.0), b2 * b2 * l * absolute(D_v), Pack(0.0)));
-  return q * D_v * V;
+  const Pack q = Pack(g.density) * l * D_v * (Pack(g.linear_viscosity) * c + select(D_v < Pack(0.0), b2 * b2 * l * absolute(D_v), Pack(0.0)));
+  return {q, q * D_v * V};
 }
+
+/// Simplices of a cell that go through the law together.
+template <class Cell> using Together = std::conditional_t<Cell::one_point || Cell::simplices % 2 == 1, Pack, Twin<Pack>>;
+
+inline bool of_von_mises(Law law) { return law == Law::green_elastic || law == Law::paper; }
 
 /// OneLayer: the law is one of material/von_mises.h with a single layer, for which the
 /// kernel is made as lean as it can be; all others, and the laws of one-point cells, are told apart at run time.
@@ -216,59 +226,71 @@ template <class Cell, bool OneLayer>
   Pack V[Cell::simplices], J[Cell::simplices], p[Cell::simplices];
   simplex_volumes<Cell>(constants, x, V);
   volume_ratios<Cell>(g, block, V, J);
-  Vector<Pack, D> v[Cell::nodes];  // only where something asks for velocities
-  const bool classical = !OneLayer && g.solid.law == Law::classical, viscous = g.linear_viscosity > 0 || g.quadratic_viscosity > 0;
-  if (classical || viscous) gather_ways<Cell>(nodes, view.v, v);
+  Vector<Pack, D> v[Cell::nodes];  // only where the law asks for velocities
+  const bool classical = !OneLayer && g.solid.law == Law::classical;
+  if (classical) gather_ways<Cell>(nodes, view.v, v);
   if (classical) classical_pressures<Cell>(g, view, block, x, v, p);
   else pressures<Cell>(g, view, block, V, J, p);
   const int in_use = block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes;
-  if (viscous) {
-    Pack q;
-    const Pack power = viscous_pressure<Cell>(g, constants, x, v, q);
-    for (int s = 0; s < Cell::simplices; ++s) p[s] += q;
-    g.viscous_work[block] += sum_of_first(power, in_use) * view.dt;
+  if (g.linear_viscosity > 0 || g.quadratic_viscosity > 0) {
+    const Viscosity viscosity = viscosity_of_block<Cell>(g, view, block);
+    for (int s = 0; s < Cell::simplices; ++s) p[s] += viscosity.q;
+    g.viscous_work[block] += sum_of_first(viscosity.power, in_use) * view.dt;
   }
 
   Pack dissipated(0.0), hoops(0.0);
   Mask upright = J[0] > Pack(0.0);
-  for (int s = 0; s < Cell::simplices; ++s) {
-    CellEdges<Cell> e;
-    edges_of<Cell>(constants, x, s, e.x);
-    if (Cell::one_point || classical) find_reciprocal(e);
-    else find_areas(e);
-    double* memory = memory_of<Cell>(g, block, s);
-    const Pack V0 = initial_volume(g, memory);
-    upright = upright & (J[s] > Pack(0.0));
-    Vector<Pack, D> w[kE<Cell>], force[D];
-    if (classical) moved_edges<Cell>(view, constants, v, s, w);
-    PointResponse<Pack, D> point;
-    if constexpr (Cell::one_point) {
-      Hourglass<Pack, D, Cell::ring> hourglass(g.solid, constants, e, x);
-      point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J[s], memory, hourglass, hourglass_of<Cell>(g, block));
-      for (int m = 0; m < D; ++m)
-        for (int i = 0; i < D; ++i) force[m][i] = Pack(0.0);
-      hourglass.add_forces(V0, force, f);
-    } else if constexpr (OneLayer) {
-      point = layer_step(g.solid, 0, stress_factor(g.solid, J[s]), e, J[s], memory, Keep::yes);
-    } else {
-      point = point_step(g.solid, e, classical ? w : nullptr, J[s], memory, Keep::yes);
+  constexpr int together = points_in<Together<Cell>>;
+  for (int first = 0; first < Cell::simplices; first += together) {
+    CellEdges<Cell> edges[together];
+    double* memory[together];
+    Together<Cell> ratio;
+    for (int i = 0; i < together; ++i) {
+      edges_of<Cell>(constants, x, first + i, edges[i].x);
+      if (Cell::one_point || classical) find_reciprocal(edges[i]);
+      else find_areas(edges[i]);
+      memory[i] = memory_of<Cell>(g, block, first + i);
+      part_of(ratio, i) = J[first + i];
+      upright = upright & (J[first + i] > Pack(0.0));
     }
-    dissipated += point.dissipation * V0;
-    for (int i = 0; i < 3; ++i) point.S[i] += p[s];  // sigma = p I + S (3.4)
-    // The force on edge m is -V sigma . x^m, that of the hoop of a ring -V sigma . x^3.
-    if constexpr (Cell::one_point) {
-      for (int m = 0; m < D; ++m) force[m] += point.S * (Pack(-1.0) * e.area[m]);
-      spread<Cell>(constants, force, f);
-      if constexpr (Cell::ring) {  // through the weights of x_3
-        const Pack hoop = e.area[2][0] * point.S[2];
-        for (int a = 0; a < Cell::nodes; ++a) f[a][0] -= weight(constants, OnePoint<D, true>::hoop + a) * hoop;
+    PointResponse<Together<Cell>, D> points;
+    if constexpr (OneLayer) points = layer_step(g.solid, 0, stress_factor(g.solid, ratio), edges, ratio, memory, Keep::yes);
+    else if (!Cell::one_point && of_von_mises(g.solid.law)) points = von_mises_step(g.solid, edges, ratio, memory, Keep::yes);
+    for (int i = 0; i < together; ++i) {
+      const int s = first + i;
+      const CellEdges<Cell>& e = edges[i];
+      const Pack V0 = initial_volume(g, memory[i]);
+      PointResponse<Pack, D> point;
+      Vector<Pack, D> w[kE<Cell>], force[D];
+      if (classical) moved_edges<Cell>(view, constants, v, s, w);
+      if constexpr (Cell::one_point) {
+        Hourglass<Pack, D, Cell::ring> hourglass(g.solid, constants, e, x);
+        point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J[s], memory[i], hourglass, hourglass_of<Cell>(g, block));
+        for (int m = 0; m < D; ++m)
+          for (int c = 0; c < D; ++c) force[m][c] = Pack(0.0);
+        hourglass.add_forces(V0, force, f);
+      } else if (OneLayer || of_von_mises(g.solid.law)) {
+        point = points.of(i);
+      } else {
+        point = point_step(g.solid, e, classical ? w : nullptr, J[s], memory[i], Keep::yes);
       }
-    } else {
-      for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]] -= point.S * e.area[m];
-      if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
-        const Pack hoop = e.area[2][0] * point.S[2] * Pack(1.0 / 3);
-        for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]][0] -= hoop;
-        hoops += hoop;
+      dissipated += point.dissipation * V0;
+      for (int c = 0; c < 3; ++c) point.S[c] += p[s];  // sigma = p I + S (3.4)
+      // The force on edge m is -V sigma . x^m, that of the hoop of a ring -V sigma . x^3.
+      if constexpr (Cell::one_point) {
+        for (int m = 0; m < D; ++m) force[m] += point.S * (Pack(-1.0) * e.area[m]);
+        spread<Cell>(constants, force, f);
+        if constexpr (Cell::ring) {  // through the weights of x_3
+          const Pack hoop = e.area[2][0] * point.S[2];
+          for (int a = 0; a < Cell::nodes; ++a) f[a][0] -= weight(constants, OnePoint<D, true>::hoop + a) * hoop;
+        }
+      } else {
+        for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]] -= point.S * e.area[m];
+        if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
+          const Pack hoop = e.area[2][0] * point.S[2] * Pack(1.0 / 3);
+          for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]][0] -= hoop;
+          hoops += hoop;
+        }
       }
     }
   }
@@ -412,7 +434,7 @@ template <class Work> void with_cell(const CellGroup& g, Work&& work) {
 }
 
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
-  const bool one_layer = (g.solid.law == Law::green_elastic || g.solid.law == Law::paper) && g.solid.layers == 1;
+  const bool one_layer = of_von_mises(g.solid.law) && g.solid.layers == 1;
   with_cell(g, [&](auto cell) {
     for (int b = first; b < last; ++b) {
       if (one_layer && !decltype(cell)::one_point) forces_of_block<decltype(cell), !decltype(cell)::one_point>(g, view, b);

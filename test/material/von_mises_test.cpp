@@ -166,6 +166,39 @@ TEST(VonMises, EightPointsAtOnceAreEightPoints) {
   EXPECT_LT(yielding, kLanes);
 }
 
+/// A step of two elements at once (tensor/twin.h), of which one or both yield, against one after the other.
+TEST(VonMises, TwoElementsAtOnceAreTwoElements) {
+  SolidConstants solid = solid_of(70.5e9, 0.34, voce(192.1e6, 429.8e6, 8.504));
+  solid.layers = 2;
+  solid.layer[0].weight = solid.layer[1].weight = 0.5;
+  solid.layer[1].hardening = perfect(300e6);
+  for (double second : {0.0, 0.004, 0.02}) {
+    const double stretch[2] = {0.01, second};
+    Edges<double, 3> e[2];
+    std::vector<double> together[2], alone[2];
+    double* memory[2];
+    Twin<double> J;
+    for (int i = 0; i < 2; ++i) {
+      e[i].x[0] = {{1 + stretch[i], 0.2 * stretch[i], 0}};
+      e[i].x[1] = {{0, 1 - 0.5 * stretch[i], 0}};
+      e[i].x[2] = {{0, 0, 1}};
+      find_areas(e[i]);
+      J.part[i] = 6 * e[i].volume;
+      for (int k = 0; k < solid.layers; ++k) together[i].insert(together[i].end(), {1, 1, 1, 0, 0, 0, 0.01 * k});
+      alone[i] = together[i];
+      memory[i] = together[i].data();
+    }
+    const PointResponse<Twin<double>, 3> both = von_mises_step(solid, e, J, memory, Keep::yes);
+    for (int i = 0; i < 2; ++i) {
+      const PointResponse<double, 3> one = von_mises_step(solid, e[i], J.part[i], alone[i].data(), Keep::yes);
+      EXPECT_EQ(alone[i][6] > 0, stretch[i] > 0) << "element " << i;
+      for (int c = 0; c < 6; ++c) EXPECT_NEAR(both.of(i).S[c], one.S[c], 1e-3);
+      EXPECT_NEAR(both.of(i).dissipation, one.dissipation, 1e-11 * one.dissipation);
+      for (std::size_t item = 0; item < alone[i].size(); ++item) EXPECT_NEAR(together[i][item], alone[i][item], 1e-13);
+    }
+  }
+}
+
 TEST(Pack, ExponentialAndCubeRoot) {
   using portable::Pack;
   for (double x : {-30.0, -1.0, -1e-9, 0.0, 0.3, 1.0, 20.0}) EXPECT_NEAR(exp(Pack(x))[3] / std::exp(x), 1, 4e-16);

@@ -142,10 +142,10 @@ inline void gather_records(const double* const from[kLanes], Pack& x, Pack& y, P
 
 typedef double Pair __attribute__((vector_size(16), aligned(8)));
 
-/// Adds kLanes pairs to slots of two doubles; lanes may have a slot in common.
-inline void add_pairs(Pack x, Pack y, const int slot[kLanes], double* to) {
+/// Adds kLanes pairs to those that start at to[at[lane]]; lanes may have one in common.
+inline void add_pairs(Pack x, Pack y, const int at[kLanes], double* to) {
   const Lanes pairs[2] = {__builtin_shufflevector(x.v, y.v, 0, 8, 1, 9, 2, 10, 3, 11), __builtin_shufflevector(x.v, y.v, 4, 12, 5, 13, 6, 14, 7, 15)};
-  const auto add = [&](int lane, Pair pair) { *reinterpret_cast<Pair*>(to + 2 * static_cast<long>(slot[lane])) += pair; };
+  const auto add = [&](int lane, Pair pair) { *reinterpret_cast<Pair*>(to + at[lane]) += pair; };
   for (int k = 0; k < 2; ++k) {
     add(4 * k, __builtin_shufflevector(pairs[k], pairs[k], 0, 1));
     add(4 * k + 1, __builtin_shufflevector(pairs[k], pairs[k], 2, 3));
@@ -165,11 +165,11 @@ inline void to_quads(Pack x, Pack y, Pack z, Lanes quads[4]) {
   quads[2] = __builtin_shufflevector(xy1, z1, 0, 1, 8, 9, 2, 3, 10, 11);
   quads[3] = __builtin_shufflevector(xy1, z1, 4, 5, 12, 13, 6, 7, 14, 15);
 }
-/// Adds kLanes vectors to slots of four doubles, nothing to the last of each; lanes may have a slot in common.
-inline void add_quads(Pack x, Pack y, Pack z, const int slot[kLanes], double* to) {
+/// Adds kLanes vectors to records of four doubles, which start at to[at[lane]], nothing to the last of each; lanes may have one in common.
+inline void add_quads(Pack x, Pack y, Pack z, const int at[kLanes], double* to) {
   Lanes quads[4];
   to_quads(x, y, z, quads);
-  const auto add = [&](int lane, Quad quad) { *reinterpret_cast<Quad*>(to + 4 * static_cast<long>(slot[lane])) += quad; };
+  const auto add = [&](int lane, Quad quad) { *reinterpret_cast<Quad*>(to + at[lane]) += quad; };
   for (int k = 0; k < 4; ++k) {
     add(2 * k, __builtin_shufflevector(quads[k], quads[k], 0, 1, 2, 3));
     add(2 * k + 1, __builtin_shufflevector(quads[k], quads[k], 4, 5, 6, 7));
