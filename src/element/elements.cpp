@@ -6,6 +6,7 @@
 
 #include "forming_sim/config/fault.h"
 #include "forming_sim/element/hourglass.h"
+#include "forming_sim/element/node_kernels.h"
 #include "forming_sim/element/one_point.h"
 #include "forming_sim/material/law.h"
 
@@ -101,7 +102,7 @@ Elements::~Elements() = default;
 
 Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x,
                    const ElementOptions& options, int threads, const char* kernels)
-    : kernels_(kernels_of(choose_isa(kernels))), dimension_(dimension), axisymmetric_(options.axisymmetric), team_(std::make_unique<Team>(threads)) {
+    : isa_(choose_isa(kernels)), kernels_(kernels_of(isa_)), dimension_(dimension), axisymmetric_(options.axisymmetric), team_(std::make_unique<Team>(threads)) {
   const int nodes = static_cast<int>(x.size()), D = dimension_;
   if (axisymmetric_) check_axis(x);
   mass_.assign(nodes, 0.0);
@@ -138,7 +139,8 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.body = body.name;
       g.plastic.assign(g.blocks, 0.0);
       g.viscous.assign(g.blocks, 0.0);
-      g.lowest.assign(g.blocks, 1.0);
+      g.upright_storage = std::make_unique<bool[]>(g.blocks);
+      std::fill_n(g.upright_storage.get(), g.blocks, true);
       g.node_storage.resize(static_cast<std::size_t>(g.blocks) * shape.nodes * kLanes);
       g.memory_storage.resize(static_cast<std::size_t>(g.blocks) * shape.points * g.items);
       if (is_one_point(cells.kind)) {
@@ -209,7 +211,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
     g.sums = slots_ + g.first_slot * record_size_;
     g.plastic_work = g.plastic.data();
     g.viscous_work = g.viscous.data();
-    g.lowest_ratio = g.lowest.data();
+    g.upright = g.upright_storage.get();
   }
   if (options.shares) keep_shares(x);
 }
@@ -226,24 +228,26 @@ template <class Work> void Elements::over_tiles(Work&& work) const {
     });
 }
 
+void Elements::clear_slots(const Group& g, long t) const {
+  std::fill(g.sums + g.tile_start[t] * record_size_, g.sums + g.tile_start[t + 1] * record_size_, 0.0);
+}
+
 void Elements::nodal_pressure(const NodalView& view) const {
   over_tiles([&](const Group& g, long t) {
-    CellGroup one_wide = g;
-    one_wide.sums = slots_ + g.first_slot;
-    std::fill(one_wide.sums + g.tile_start[t], one_wide.sums + g.tile_start[t + 1], 0.0);
-    kernels_.volumes(one_wide, view, g.first_block(t), g.last_block(t));
+    clear_slots(g, t);
+    kernels_.volumes(g, view, g.first_block(t), g.last_block(t));
   });
   team_->share(static_cast<long>(mass_.size()), kNodesOfAThread, [&](long first, long last) {
     for (long n = first; n < last; ++n) {
       double V = 0;
-      for (int k = slot_start_[n]; k < slot_start_[n + 1]; ++k) V += slots_[slot_index_[k]];
+      for (int k = slot_start_[n]; k < slot_start_[n + 1]; ++k) V += slots_[static_cast<long>(slot_index_[k]) * record_size_];
       pressure_[n] = nodal_volume0_[n] > 0 ? nodal_bulk_[n] * (V / nodal_volume0_[n] - 1) : 0;
     }
   });
 }
 
 void Elements::forces_of_tile(const CellGroup& cells, const Group& g, const NodalView& view, long t) const {
-  std::fill(g.sums + g.tile_start[t] * record_size_, g.sums + g.tile_start[t + 1] * record_size_, 0.0);
+  clear_slots(g, t);
   kernels_.forces(cells, view, g.first_block(t), g.last_block(t));
 }
 
@@ -279,25 +283,16 @@ void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, do
     over_tiles([&](const Group& g, long t) { forces_of_tile(g, g, view, t); });
   }
   for (const Group& g : groups_)
-    for (double ratio : g.lowest)
-      if (!(ratio > 0)) report_inversion(x);
+    if (!std::all_of(g.upright, g.upright + g.blocks, [](bool upright) { return upright; })) report_inversion(x);
   clock.ends(&StepTimes::cells);
   sum_slots(f);
   clock.ends(&StepTimes::sum);
 }
 
 void Elements::sum_slots(NodeField& f) const {
-  const bool flat = dimension_ == 2;
+  const NodeKernels& kernels = node_kernels_of(isa_);
   team_->share(static_cast<long>(mass_.size()), kNodesOfAThread, [&](long first, long last) {
-    for (long n = first; n < last; ++n) {
-      Node sum = Node::Zero();
-      for (int k = slot_start_[n]; k < slot_start_[n + 1]; ++k) {
-        const double* slot = slots_ + static_cast<std::size_t>(slot_index_[k]) * record_size_;
-        if (flat) sum.head<2>() += Eigen::Map<const Eigen::Vector2d>(slot);
-        else sum += Eigen::Map<const Node>(slot);
-      }
-      f[n] = sum;
-    }
+    kernels.sum(dimension_, slot_start_.data(), slot_index_.data(), slots_, first, last, f.data()->data());
   });
 }
 

@@ -117,14 +117,14 @@ void Elements::elastic_forces(const NodeField& x, NodeField& f) {
   const NodalView view{x.data()->data(), nullptr, nullptr, pressure_.data(), 0, 0};
   if (any_nodal_) nodal_pressure(view);
   std::vector<double> unused;
-  for (const Group& g : groups_) unused.resize(std::max<std::size_t>(unused.size(), 3 * static_cast<std::size_t>(g.blocks)));
+  for (const Group& g : groups_) unused.resize(std::max<std::size_t>(unused.size(), static_cast<std::size_t>(g.blocks)));
+  const std::unique_ptr<bool[]> unread = std::make_unique<bool[]>(unused.size());
   for (const Group& own : groups_) {
     CellGroup g = own;
     for (int k = 0; k < g.solid.layers; ++k) g.solid.layer[k].hardening.kind = HardeningCurve::elastic;
     g.linear_viscosity = g.quadratic_viscosity = 0;
     g.plastic_work = unused.data();
-    g.viscous_work = g.plastic_work + g.blocks;
-    g.lowest_ratio = g.viscous_work + g.blocks;
+    g.upright = unread.get();
     team_->share(own.tiles, tiles_of_a_thread(own), [&](long first, long last) {
       for (long t = first; t < last; ++t) forces_of_tile(g, own, view, t);
     });

@@ -1,5 +1,6 @@
 #pragma once
 // Cells of one body and kind, with the arrays that they own.
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,8 @@ namespace forming_sim {
 struct Elements::Group : CellGroup {
   std::vector<int> node_storage, slot_storage;
   std::vector<long> tile_start;  ///< first slot of each tile, and behind the last
-  std::vector<double> plastic, viscous, lowest;
+  std::vector<double> plastic, viscous;
+  std::unique_ptr<bool[]> upright_storage;
   enum Rest : char { changed, kept, passed_over };  ///< a tile's memory by the last evaluation, or none was needed
   std::vector<Rest> rest;  ///< per tile; empty where all are evaluated
   CurveTables curves;

@@ -29,6 +29,21 @@ void gather(const int* nodes, const double* field, Vector<Pack, kD<Cell>>* out) 
   }
 }
 
+/// The node that all simplices of a cell have in common (mesh/cell_tables.h).
+template <class Cell> constexpr int kApex = Cell::table[0][0];
+
+/// From where the nodes of a cell of simplices are to the ways from the apex to the others; the apex stays where it
+/// is. One-point cells have no apex, and keep all their nodes.
+template <class Cell> void refer_to_apex(Vector<Pack, kD<Cell>>* x) {
+  if constexpr (!Cell::one_point)
+    for (int a = 0; a < Cell::nodes; ++a)
+      if (a != kApex<Cell>) x[a] = x[a] - x[kApex<Cell>];
+}
+template <class Cell> void gather_ways(const int* nodes, const double* field, Vector<Pack, kD<Cell>>* out) {
+  gather<Cell>(nodes, field, out);
+  refer_to_apex<Cell>(out);
+}
+
 /// Constants of a block of one-point cells; null elsewhere.
 template <class Cell> const double* constants_of(const CellGroup& g, long block) {
   if constexpr (Cell::one_point) return g.constants + block * OnePoint<kD<Cell>, Cell::ring>::items * kLanes;
@@ -39,6 +54,7 @@ template <class Cell> double* hourglass_of(const CellGroup& g, long block) { ret
 /// w_ma of a one-point cell.
 inline Pack weight(const double* constants, int item) { return Pack::load(constants + item * kLanes); }
 
+/// Edges of simplex s from what gather_ways() gives.
 template <class Cell>
 void edges_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s, Vector<Pack, kD<Cell>>* edge) {
   constexpr int D = kD<Cell>;
@@ -52,28 +68,18 @@ void edges_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s, V
       for (int a = 0; a < Cell::nodes; ++a) edge[2][0] += weight(constants, OnePoint<D, true>::hoop + a) * x[a][0];
     }
   } else {
-    const auto& corner = Cell::table[s];
-    for (int m = 0; m < D; ++m) edge[m] = x[corner[m + 1]] - x[corner[0]];
-    if constexpr (Cell::ring) edge[2] = {{Pack(1.0 / 3) * (x[corner[0]][0] + x[corner[1]][0] + x[corner[2]][0]), Pack(0.0)}};
+    for (int m = 0; m < D; ++m)
+      for (int i = 0; i < D; ++i) edge[m][i] = x[Cell::table[s][m + 1]][i];
+    if constexpr (Cell::ring) edge[2] = {{x[kApex<Cell>][0] + Pack(1.0 / 3) * (edge[0][0] + edge[1][0]), Pack(0.0)}};
   }
 }
 
-/// Hands the forces on the edges to the nodes, through the weights by which they make the edges.
+/// Hands the forces on the edges of a one-point cell to its nodes, through the weights by which they make the edges.
 template <class Cell>
-void spread(const double* constants, int s, const Vector<Pack, kD<Cell>>* force, Vector<Pack, kD<Cell>>* f) {
+void spread(const double* constants, const Vector<Pack, kD<Cell>>* force, Vector<Pack, kD<Cell>>* f) {
   constexpr int D = kD<Cell>;
-  if constexpr (Cell::one_point) {
-    for (int a = 0; a < Cell::nodes; ++a)
-      for (int m = 0; m < D; ++m) f[a] += weight(constants, a * D + m) * force[m];
-  } else {
-    const auto& corner = Cell::table[s];
-    Vector<Pack, D> rest = force[0];
-    for (int m = 0; m < D; ++m) {
-      f[corner[m + 1]] += force[m];
-      if (m > 0) rest += force[m];
-    }
-    for (int i = 0; i < D; ++i) f[corner[0]][i] -= rest[i];
-  }
+  for (int a = 0; a < Cell::nodes; ++a)
+    for (int m = 0; m < D; ++m) f[a] += weight(constants, a * D + m) * force[m];
 }
 
 template <class Cell> void simplex_volumes(const double* constants, const Vector<Pack, kD<Cell>>* x, Pack* V) {
@@ -179,22 +185,31 @@ void volume_and_rate(const double* constants, const Vector<Pack, kD<Cell>>* x, c
   }
 }
 
-/// Bulk viscosity of the cell: q = rho l (b1 c D + b2^2 l D |D| where D < 0),
-/// D = (dV/dt)/V, l = extent^(1/d), added to p; returns q D V, the power it takes.
-template <class Cell>
-Pack viscous_pressure(const CellGroup& g, const double* constants, const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v,
-                      Pack& q) {
+/// Bulk viscosity of the cells of a block: q, which adds to p, and the power that it takes, q D V, with
+/// q = rho l (b1 c D + b2^2 l D |D| where D < 0), D = (dV/dt)/V, l = extent^(1/d). Out of line: most scenes have none.
+struct Viscosity {
+  Pack q, power;
+};
+template <class Cell> [[gnu::noinline]] Viscosity viscosity_of_block(const CellGroup& g, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
+  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
+  Vector<Pack, D> x[Cell::nodes], v[Cell::nodes];
+  gather_ways<Cell>(nodes, view.x, x);
+  gather_ways<Cell>(nodes, view.v, v);
   Pack V, rate, size;
-  volume_and_rate<Cell>(constants, x, v, V, rate, size);
+  volume_and_rate<Cell>(constants_of<Cell>(g, block), x, v, V, rate, size);
   const Pack D_v = rate / V;
   const Pack l = lanewise([](double volume) { return D == 2 ? __builtin_sqrt(volume) : __builtin_cbrt(volume); }, size);
   const Pack c(__builtin_sqrt((g.solid.K + 4.0 / 3 * g.solid.mu) / g.density));
   const Pack b2(g.quadratic_viscosity);
-  q = Pack(g.density) * l * D_v *
-      (Pack(g.linear_viscosity) * c + select(D_v < Pack(0.0), b2 * b2 * l * absolute(D_v), Pack(0.0)));
-  return q * D_v * V;
+  const Pack q = Pack(g.density) * l * D_v * (Pack(g.linear_viscosity) * c + select(D_v < Pack(0.0), b2 * b2 * l * absolute(D_v), Pack(0.0)));
+  return {q, q * D_v * V};
 }
+
+/// Simplices of a cell that go through the law together.
+template <class Cell> using Together = std::conditional_t<Cell::one_point || Cell::simplices % 2 == 1, Pack, Twin<Pack>>;
+
+inline bool of_von_mises(Law law) { return law == Law::green_elastic || law == Law::paper; }
 
 /// OneLayer: the law is one of material/von_mises.h with a single layer, for which the
 /// kernel is made as lean as it can be; all others, and the laws of one-point cells, are told apart at run time.
@@ -204,69 +219,88 @@ template <class Cell, bool OneLayer>
   const double* constants = constants_of<Cell>(g, block);
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   Vector<Pack, D> x[Cell::nodes], f[Cell::nodes];
-  gather<Cell>(nodes, view.x, x);
+  gather_ways<Cell>(nodes, view.x, x);
   for (int a = 0; a < Cell::nodes; ++a)
     for (int i = 0; i < D; ++i) f[a][i] = Pack(0.0);
 
   Pack V[Cell::simplices], J[Cell::simplices], p[Cell::simplices];
   simplex_volumes<Cell>(constants, x, V);
   volume_ratios<Cell>(g, block, V, J);
-  Vector<Pack, D> v[Cell::nodes];  // only where something asks for velocities
-  const bool classical = !OneLayer && g.solid.law == Law::classical, viscous = g.linear_viscosity > 0 || g.quadratic_viscosity > 0;
-  if (classical || viscous) gather<Cell>(nodes, view.v, v);
+  Vector<Pack, D> v[Cell::nodes];  // only where the law asks for velocities
+  const bool classical = !OneLayer && g.solid.law == Law::classical;
+  if (classical) gather_ways<Cell>(nodes, view.v, v);
   if (classical) classical_pressures<Cell>(g, view, block, x, v, p);
   else pressures<Cell>(g, view, block, V, J, p);
   const int in_use = block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes;
-  if (viscous) {
-    Pack q;
-    const Pack power = viscous_pressure<Cell>(g, constants, x, v, q);
-    for (int s = 0; s < Cell::simplices; ++s) p[s] += q;
-    for (int l = 0; l < in_use; ++l) g.viscous_work[block] += power[l] * view.dt;
+  if (g.linear_viscosity > 0 || g.quadratic_viscosity > 0) {
+    const Viscosity viscosity = viscosity_of_block<Cell>(g, view, block);
+    for (int s = 0; s < Cell::simplices; ++s) p[s] += viscosity.q;
+    g.viscous_work[block] += sum_of_first(viscosity.power, in_use) * view.dt;
   }
 
-  Pack dissipated(0.0), lowest(1e300);
-  for (int s = 0; s < Cell::simplices; ++s) {
-    CellEdges<Cell> e;
-    edges_of<Cell>(constants, x, s, e.x);
-    if (Cell::one_point || classical) find_reciprocal(e);
-    else find_areas(e);
-    double* memory = memory_of<Cell>(g, block, s);
-    const Pack V0 = initial_volume(g, memory);
-    lowest = smaller(lowest, J[s]);
-    Vector<Pack, D> w[kE<Cell>], force[D];
-    if (classical) moved_edges<Cell>(view, constants, v, s, w);
-    PointResponse<Pack, D> point;
-    if constexpr (Cell::one_point) {
-      Hourglass<Pack, D, Cell::ring> hourglass(g.solid, constants, e, x);
-      point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J[s], memory, hourglass, hourglass_of<Cell>(g, block));
-      for (int m = 0; m < D; ++m)
-        for (int i = 0; i < D; ++i) force[m][i] = Pack(0.0);
-      hourglass.add_forces(V0, force, f);
-    } else if constexpr (OneLayer) {
-      point = layer_step(g.solid, 0, stress_factor(g.solid, J[s]), e, J[s], memory, Keep::yes);
-    } else {
-      point = point_step(g.solid, e, classical ? w : nullptr, J[s], memory, Keep::yes);
+  Pack dissipated(0.0), hoops(0.0);
+  Mask upright = J[0] > Pack(0.0);
+  constexpr int together = points_in<Together<Cell>>;
+  for (int first = 0; first < Cell::simplices; first += together) {
+    CellEdges<Cell> edges[together];
+    double* memory[together];
+    Together<Cell> ratio;
+    for (int i = 0; i < together; ++i) {
+      edges_of<Cell>(constants, x, first + i, edges[i].x);
+      if (Cell::one_point || classical) find_reciprocal(edges[i]);
+      else find_areas(edges[i]);
+      memory[i] = memory_of<Cell>(g, block, first + i);
+      part_of(ratio, i) = J[first + i];
+      upright = upright & (J[first + i] > Pack(0.0));
     }
-    dissipated += point.dissipation * V0;
-    for (int i = 0; i < 3; ++i) point.S[i] += p[s];  // sigma = p I + S (3.4)
-    for (int m = 0; m < D; ++m) {
-      const Vector<Pack, D> of_mean = point.S * (Pack(-1.0) * e.area[m]);  // -V sigma . x^m
-      if constexpr (Cell::one_point) force[m] += of_mean;
-      else force[m] = of_mean;
-    }
-    spread<Cell>(constants, s, force, f);
-    if constexpr (Cell::ring && Cell::one_point) {  // the hoop: -V sigma . x^3, through the weights of x_3
-      const Pack hoop = e.area[2][0] * point.S[2];
-      for (int a = 0; a < Cell::nodes; ++a) f[a][0] -= weight(constants, OnePoint<D, true>::hoop + a) * hoop;
-    } else if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
-      const Pack hoop = e.area[2][0] * point.S[2] * Pack(1.0 / 3);
-      for (int a = 0; a <= D; ++a) f[Cell::table[s][a]][0] -= hoop;
+    PointResponse<Together<Cell>, D> points;
+    if constexpr (OneLayer) points = layer_step(g.solid, 0, stress_factor(g.solid, ratio), edges, ratio, memory, Keep::yes);
+    else if (!Cell::one_point && of_von_mises(g.solid.law)) points = von_mises_step(g.solid, edges, ratio, memory, Keep::yes);
+    for (int i = 0; i < together; ++i) {
+      const int s = first + i;
+      const CellEdges<Cell>& e = edges[i];
+      const Pack V0 = initial_volume(g, memory[i]);
+      PointResponse<Pack, D> point;
+      Vector<Pack, D> w[kE<Cell>], force[D];
+      if (classical) moved_edges<Cell>(view, constants, v, s, w);
+      if constexpr (Cell::one_point) {
+        Hourglass<Pack, D, Cell::ring> hourglass(g.solid, constants, e, x);
+        point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J[s], memory[i], hourglass, hourglass_of<Cell>(g, block));
+        for (int m = 0; m < D; ++m)
+          for (int c = 0; c < D; ++c) force[m][c] = Pack(0.0);
+        hourglass.add_forces(V0, force, f);
+      } else if (OneLayer || of_von_mises(g.solid.law)) {
+        point = points.of(i);
+      } else {
+        point = point_step(g.solid, e, classical ? w : nullptr, J[s], memory[i], Keep::yes);
+      }
+      dissipated += point.dissipation * V0;
+      for (int c = 0; c < 3; ++c) point.S[c] += p[s];  // sigma = p I + S (3.4)
+      // The force on edge m is -V sigma . x^m, that of the hoop of a ring -V sigma . x^3.
+      if constexpr (Cell::one_point) {
+        for (int m = 0; m < D; ++m) force[m] += point.S * (Pack(-1.0) * e.area[m]);
+        spread<Cell>(constants, force, f);
+        if constexpr (Cell::ring) {  // through the weights of x_3
+          const Pack hoop = e.area[2][0] * point.S[2];
+          for (int a = 0; a < Cell::nodes; ++a) f[a][0] -= weight(constants, OnePoint<D, true>::hoop + a) * hoop;
+        }
+      } else {
+        for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]] -= point.S * e.area[m];
+        if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
+          const Pack hoop = e.area[2][0] * point.S[2] * Pack(1.0 / 3);
+          for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]][0] -= hoop;
+          hoops += hoop;
+        }
+      }
     }
   }
-  for (int l = 0; l < in_use; ++l) g.plastic_work[block] += dissipated[l];
-  double low = 1e300;
-  for (int l = 0; l < kLanes; ++l) low = lowest[l] > low ? low : lowest[l];  // keeps a NaN
-  g.lowest_ratio[block] = low;
+  if constexpr (!Cell::one_point) {  // the forces on edges are in balance with those on the apex, where all of them start
+    for (int a = 0; a < Cell::nodes; ++a)
+      if (a != kApex<Cell>) f[kApex<Cell>] -= f[a];
+    if constexpr (Cell::ring) f[kApex<Cell>][0] -= Pack(3.0) * hoops;
+  }
+  g.plastic_work[block] += sum_of_first(dissipated, in_use);
+  g.upright[block] = all(upright);
 
   const int* slots = g.slots + block * Cell::nodes * kLanes;
   for (int a = 0; a < Cell::nodes; ++a) {
@@ -280,7 +314,7 @@ template <class Cell> void volumes_of_block(const CellGroup& g, const NodalView&
   const double* constants = constants_of<Cell>(g, block);
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   Vector<Pack, D> x[Cell::nodes];
-  gather<Cell>(nodes, view.x, x);
+  gather_ways<Cell>(nodes, view.x, x);
   Pack share[Cell::nodes];
   for (int a = 0; a < Cell::nodes; ++a) share[a] = Pack(0.0);
   Pack V[Cell::simplices];
@@ -311,6 +345,7 @@ template <class Cell>
       inertia[a][1] = gather_numbers(view.inertia, nodes + a * kLanes);
       inertia[a][0] = select(x[a][0] > Pack(0.0), inertia[a][1], Pack(0.0));  // no radial motion on the axis
     }
+  refer_to_apex<Cell>(x);
   CellBound<Cell> bound(g, inertia);
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
@@ -324,7 +359,7 @@ template <class Cell>
   Pack rate(0.0);
   if (g.quadratic_viscosity > 0) {
     Vector<Pack, D> v[Cell::nodes];
-    gather<Cell>(nodes, view.v, v);
+    gather_ways<Cell>(nodes, view.v, v);
     Pack V, size;
     volume_and_rate<Cell>(constants, x, v, V, rate, size);
     rate = absolute(rate / V);
@@ -341,7 +376,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   const double* constants = constants_of<Cell>(g, block);
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   Vector<Pack, D> x[Cell::nodes];
-  gather<Cell>(nodes, view.x, x);
+  gather_ways<Cell>(nodes, view.x, x);
   Pack V[Cell::simplices], J[Cell::simplices], p[Cell::simplices];
   simplex_volumes<Cell>(constants, x, V);
   volume_ratios<Cell>(g, block, V, J);
@@ -399,7 +434,7 @@ template <class Work> void with_cell(const CellGroup& g, Work&& work) {
 }
 
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
-  const bool one_layer = (g.solid.law == Law::green_elastic || g.solid.law == Law::paper) && g.solid.layers == 1;
+  const bool one_layer = of_von_mises(g.solid.law) && g.solid.layers == 1;
   with_cell(g, [&](auto cell) {
     for (int b = first; b < last; ++b) {
       if (one_layer && !decltype(cell)::one_point) forces_of_block<decltype(cell), !decltype(cell)::one_point>(g, view, b);

@@ -40,9 +40,9 @@ void Elements::lay_tiles(int nodes) {
           node_of_slot.push_back(node);
           ++count[node + 1];
         }
-        g.slot_storage[at] = slot[node];
+        g.slot_storage[at] = slot[node] * record_size_;
       }
-      for (long at : copies) g.slot_storage[at] = static_cast<int>(node_of_slot.size() - g.first_slot);
+      for (long at : copies) g.slot_storage[at] = static_cast<int>(node_of_slot.size() - g.first_slot) * record_size_;
       node_of_slot.push_back(-1);
     }
     g.tile_start.push_back(static_cast<long>(node_of_slot.size()) - g.first_slot);

@@ -1,5 +1,7 @@
 #include "forming_sim/material/constants.h"
 
+#include <algorithm>
+
 #include "forming_sim/config/fault.h"
 
 namespace forming_sim {
@@ -16,6 +18,13 @@ Law law_of(const std::string& word) {
 const double* keep(const std::vector<double>& points, CurveTables& tables) {
   tables.push_back(points);
   return tables.back().data();
+}
+
+/// sigma_s(0) of a curve that does not fall, the least of a table; 0 where that is not known.
+double lowest_of(const HardeningCurve& h) {
+  if (h.kind == HardeningCurve::table) return *std::min_element(h.stress, h.stress + h.points);
+  const bool rises = h.kind == HardeningCurve::swift ? h.c >= 0 : h.d >= 0 && (h.kind != HardeningCurve::voce || (h.b >= 0 && h.c >= 0));
+  return rises ? yield_stress(h, 0.0).value : 0;
 }
 
 HardeningCurve curve_of(const HardeningConfig& h, CurveTables& tables) {
@@ -44,6 +53,7 @@ HardeningCurve curve_of(const HardeningConfig& h, CurveTables& tables) {
   } else {
     throw Error(Code::invalid_scene, "hardening.curve: given " + h.curve + "; right are perfect, linear, voce, swift, table");
   }
+  curve.lowest = lowest_of(curve);
   return curve;
 }
 

@@ -108,6 +108,13 @@ template <int D> void check_reciprocal() {
 TEST(AppendixB, ReciprocalVectorsInSpace) { check_reciprocal<3>(); }
 TEST(AppendixB, ReciprocalVectorsInThePlane) { check_reciprocal<2>(); }
 
+/// G^x of an element: x^m . x^k.
+template <int D> Symmetric<double, D> metric(const Edges<double, D>& e) {
+  Symmetric<double, D> G = area_metric(e);
+  for (int i = 0; i < Symmetric<double, D>::size; ++i) G[i] /= e.volume * e.volume;
+  return G;
+}
+
 /// (B.5): G^x . G_x = G_x . G^x = I and G^x : G_x = 3, G_x with the components x_i . x_j. In
 /// plane strain the third direction is a unit vector of both.
 template <int D> void check_metrics() {

@@ -143,7 +143,7 @@ TEST(VonMises, EightPointsAtOnceAreEightPoints) {
   Symmetric<Pack, 3> B;
   Pack J, p;
   double single_p[kLanes];
-  LayerResult<double, 3> single[kLanes];
+  PointResponse<double, 3> single[kLanes];
   for (int l = 0; l < kLanes; ++l) {
     const double s = 1e-3 * l;  // lane 0 stays elastic
     const Symmetric<double, 3> b{{1 + 2 * s, 1 - s, 1 - 0.9 * s, 0.5 * s, -s, 0.2 * s}};
@@ -154,16 +154,49 @@ TEST(VonMises, EightPointsAtOnceAreEightPoints) {
     single[l] = update_layer(solid.layer[0].hardening, stress_factor(solid, j), b, j, single_p[l]);
   }
   const HardeningCurve& curve = solid.layer[0].hardening;
-  const LayerResult<Pack, 3> packed = update_layer(curve, stress_factor(solid, J), B, J, p);
+  const PointResponse<Pack, 3> packed = update_layer(curve, stress_factor(solid, J), B, J, p);
   int yielding = 0;
   for (int l = 0; l < kLanes; ++l) {
-    yielding += single[l].a < 1;
-    EXPECT_NEAR(packed.a[l], single[l].a, 1e-12);
+    yielding += single[l].kept < 1;
+    EXPECT_NEAR(packed.kept[l], single[l].kept, 1e-12);
     EXPECT_NEAR(p[l], single_p[l], 1e-13);
     for (int i = 0; i < 6; ++i) EXPECT_NEAR(packed.S[i][l], single[l].S[i], 1e-3);
   }
   EXPECT_GT(yielding, 3);
   EXPECT_LT(yielding, kLanes);
+}
+
+/// A step of two elements at once (tensor/twin.h), of which one or both yield, against one after the other.
+TEST(VonMises, TwoElementsAtOnceAreTwoElements) {
+  SolidConstants solid = solid_of(70.5e9, 0.34, voce(192.1e6, 429.8e6, 8.504));
+  solid.layers = 2;
+  solid.layer[0].weight = solid.layer[1].weight = 0.5;
+  solid.layer[1].hardening = perfect(300e6);
+  for (double second : {0.0, 0.004, 0.02}) {
+    const double stretch[2] = {0.01, second};
+    Edges<double, 3> e[2];
+    std::vector<double> together[2], alone[2];
+    double* memory[2];
+    Twin<double> J;
+    for (int i = 0; i < 2; ++i) {
+      e[i].x[0] = {{1 + stretch[i], 0.2 * stretch[i], 0}};
+      e[i].x[1] = {{0, 1 - 0.5 * stretch[i], 0}};
+      e[i].x[2] = {{0, 0, 1}};
+      find_areas(e[i]);
+      J.part[i] = 6 * e[i].volume;
+      for (int k = 0; k < solid.layers; ++k) together[i].insert(together[i].end(), {1, 1, 1, 0, 0, 0, 0.01 * k});
+      alone[i] = together[i];
+      memory[i] = together[i].data();
+    }
+    const PointResponse<Twin<double>, 3> both = von_mises_step(solid, e, J, memory, Keep::yes);
+    for (int i = 0; i < 2; ++i) {
+      const PointResponse<double, 3> one = von_mises_step(solid, e[i], J.part[i], alone[i].data(), Keep::yes);
+      EXPECT_EQ(alone[i][6] > 0, stretch[i] > 0) << "element " << i;
+      for (int c = 0; c < 6; ++c) EXPECT_NEAR(both.of(i).S[c], one.S[c], 1e-3);
+      EXPECT_NEAR(both.of(i).dissipation, one.dissipation, 1e-11 * one.dissipation);
+      for (std::size_t item = 0; item < alone[i].size(); ++item) EXPECT_NEAR(together[i][item], alone[i][item], 1e-13);
+    }
+  }
 }
 
 TEST(Pack, ExponentialAndCubeRoot) {

@@ -46,11 +46,11 @@ struct CellGroup {
   const double* constants = nullptr;  ///< one-point cells: [block][OnePoint::items][lane]
   double* hourglass = nullptr;        ///< likewise: [block][hourglass_items][lane], memory
   int hourglass_items = 0;
-  const int* slots = nullptr;      ///< [block][cell node][lane] slot that the node has in the tile; of a copy one that no node reads
-  double* sums = nullptr;          ///< [slot][kRecord] forces, N; or [slot] volumes for nodal pressure
+  const int* slots = nullptr;      ///< [block][cell node][lane] where in `sums` the slot starts that the node has in the tile; of a copy one that no node reads
+  double* sums = nullptr;          ///< [slot][kRecord] forces, N; or volumes for nodal pressure, the first of each
   double* plastic_work = nullptr;  ///< [block] dissipated so far, J
   double* viscous_work = nullptr;  ///< [block] dissipated so far by bulk viscosity, J
-  double* lowest_ratio = nullptr;  ///< [block] smallest V/V0 of the last force pass
+  bool* upright = nullptr;         ///< [block] V/V0 > 0 everywhere in the last force pass
 };
 
 /// Nodal fields as the kernels read them: four doubles a node.

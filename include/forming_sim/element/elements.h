@@ -108,6 +108,7 @@ class Elements {
   void keep_shares(const NodeField& X);
   /// Cuts the groups into tiles, gives every node of each tile a slot, and tells the nodes theirs.
   void lay_tiles(int nodes);
+  void clear_slots(const Group& group, long tile) const;
   /// cells: the group, or what differs from it in its law only.
   void forces_of_tile(const CellGroup& cells, const Group& group, const NodalView& view, long tile) const;
   /// f = sum of the slots of each node.
@@ -118,6 +119,7 @@ class Elements {
   static long tiles_of_a_thread(const Group& group);
   template <class Work> void over_tiles(Work&& work) const;
 
+  const Isa isa_;
   const Kernels& kernels_;
   int dimension_;
   bool axisymmetric_;

@@ -7,6 +7,7 @@ namespace forming_sim {
 /// A hardening curve as plain numbers, so that kernels of every vector width share it.
 struct HardeningCurve {
   enum Kind { elastic, perfect, linear, voce, swift, table } kind = elastic;
+  double lowest = 0;  ///< no sigma_s(p) lies below: what is not stressed that far does not yield, whatever its p
   double a = 0, b = 0, c = 0, d = 0;  ///< perfect: a; linear: a + d p; voce: a - b exp(-c p) + d p; swift: a (b + p)^c
   const double* strain = nullptr;   ///< table
   const double* stress = nullptr;

@@ -12,10 +12,15 @@
 //   d p = sqrt(2/3 D_p : D_p) = (1-a)/3 q(B^-1),
 // and a is solved for together with the hardening (ERRATA to 3.63):
 //   a q_S' = sigma_s(p + (1-a) k),  k = q(B'^-1)/3.
+// What is asked of B'^-1 follows from B' = s I + D, D its deviator, m = D : D, d = det D, by Cayley and Hamilton:
+//   det B' = s^3 - s m/2 + d,
+//   q(B'^-1) det B' = sqrt(3/2 (s^2 m - 6 s d + m^2/6)),
+//   D : dev(B'^-1) det B' = 3 d - s m.
 //
 // Memory of a point: G^X and p of every layer, one layer after the other.
 #include "forming_sim/material/constants.h"
 #include "forming_sim/tensor/tensor.h"
+#include "forming_sim/tensor/twin.h"
 
 namespace forming_sim {
 
@@ -24,6 +29,13 @@ template <class T, int D> struct PointResponse {
   Symmetric<T, D> S;  ///< Cauchy stress beside the pressure, Pa
   T dissipation;      ///< plastic work of the step per initial volume, J/m3
   T kept = T(1);      ///< of a single layer: S over that of the trial, 1: elastic
+
+  /// What it answers for one of points_in<T> points.
+  PointResponse<PartOf<T>, D> of(int point) const {
+    PointResponse<PartOf<T>, D> r{{}, part_of(dissipation, point), part_of(kept, point)};
+    for (int i = 0; i < Symmetric<T, D>::size; ++i) r.S[i] = part_of(S[i], point);
+    return r;
+  }
 };
 
 /// Numbers of memory of one layer: G^X and p.
@@ -31,12 +43,6 @@ template <int D> constexpr int kLayerItems = Symmetric<double, D>::size + 1;
 
 /// Whether a law stores what a step did to its memory.
 enum class Keep { yes, no };
-
-template <class T, int D> struct LayerResult {
-  Symmetric<T, D> S;  ///< of the layer, as if the body were made of it, Pa
-  T a;                ///< 1: elastic
-  T dissipation;      ///< J/m3, likewise
-};
 
 /// Relative distance of q from sigma_s below which a point is on the yield surface: what stands still there keeps its memory.
 constexpr double kOnTheSurface = 1e-13;
@@ -68,32 +74,35 @@ template <class T> T stress_factor(const SolidConstants& m, const T& J) {
   return T(m.mu) * j23 * j23 * j13;
 }
 
-/// B: the trial B' (3.51); J: V/V0 of the element; p: plastic strain, updated.
+/// The correction of a layer whose trial B' = s I + D, m = D : D, has q_S'^2 = Q: its a, p and dissipation.
 template <class T, int D>
-LayerResult<T, D> update_layer(const HardeningCurve& hardening, T factor, const Symmetric<T, D>& B, const T& J, T& p) {
-  LayerResult<T, D> r;
+void flow(const HardeningCurve& hardening, const T& factor, const T& s, const Symmetric<T, D>& deviator, const T& m, const T& J, const T& Q, T& p,
+          PointResponse<T, D>& r) {
+  const YieldStress<T> yield = yield_stress(hardening, p);
+  const auto yields = Q > yield.value * yield.value * T(1 + 2 * kOnTheSurface);
+  if (!any(yields)) return;
+  const T d = determinant(deviator, cofactor(deviator));
+  const T over_det = T(1) / (s * (s * s - T(0.5) * m) + d);
+  const T k = sqrt(T(1.5) * (s * (s * m - T(6) * d) + m * m * T(1.0 / 6))) * (over_det * T(1.0 / 3));
+  const T safe_q = select(yields, sqrt(Q), yield.value);  // lanes that do not yield solve to u = 0
+  const T u = select(yields, solve_correction(hardening, safe_q, p, k, yield), T(0));
+  r.kept = T(1) - u;
+  p += u * k;
+  // J S : D_p with the stress after the correction, which is the one that moves the nodes
+  r.dissipation = factor * r.kept * J * T(0.5) * u * ((s * m - T(3) * d) * over_det);
+}
+
+/// What a layer answers, as if the body were made of it. B: the trial B' (3.51); J: V/V0 of the element; p: plastic strain, updated.
+template <class T, int D>
+PointResponse<T, D> update_layer(const HardeningCurve& hardening, T factor, const Symmetric<T, D>& B, const T& J, T& p) {
+  PointResponse<T, D> r;
   r.S = deviator(B);
-  r.a = T(1);
   r.dissipation = T(0);
   if (hardening.kind != HardeningCurve::elastic) {
-    const T Q = T(1.5) * contract(r.S, r.S) * factor * factor;  // q_S'^2: the root is needed only where something yields
-    const YieldStress<T> yield = yield_stress(hardening, p);
-    const auto yields = Q > yield.value * yield.value * T(1 + 2 * kOnTheSurface);
-    if (any(yields)) {
-      const Symmetric<T, D> cof = cofactor(B);
-      const T over_det = T(1) / determinant(B, cof);
-      const T k = mises(deviator(cof)) * over_det * T(1.0 / 3);
-      const T safe_q = select(yields, sqrt(Q), yield.value);  // lanes that do not yield solve to u = 0
-      const T u = select(yields, solve_correction(hardening, safe_q, p, k, yield), T(0));
-      r.a = T(1) - u;
-      p += u * k;
-      // J S : D_p with the stress after the correction, which is the one that moves the nodes;
-      // B_D : dev(B^-1) = 3 - tr B tr B^-1 / 3
-      const T minus_contraction = trace(B) * trace(cof) * over_det * T(1.0 / 3) - T(3);
-      r.dissipation = factor * r.a * J * T(0.5) * u * minus_contraction;
-    }
+    const T m = contract(r.S, r.S), Q = T(1.5) * m * factor * factor;  // q_S'^2: the root is needed only where something yields
+    if (any(Q > T(hardening.lowest * hardening.lowest))) flow(hardening, factor, trace(B) * T(1.0 / 3), r.S, m, J, Q, p, r);
   }
-  factor *= r.a;
+  factor *= r.kept;
   for (int i = 0; i < Symmetric<T, D>::size; ++i) r.S[i] = factor * r.S[i];
   return r;
 }
@@ -105,38 +114,58 @@ template <class T, int D> Symmetric<T, D> load_memory(const double* from) {
   return G;
 }
 
-/// One step of layer k, whose memory starts at `memory`; factor: stress_factor(m, J).
+/// One step of layer k of points_in<T> points (tensor/twin.h), whose memories of that layer start at `memory`; factor: stress_factor(m, J).
+template <class T, int D, bool Ring>
+PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, const Edges<PartOf<T>, D, Ring>* e, const T& J, double* const* memory, Keep keep) {
+  using Part = PartOf<T>;
+  constexpr int size = Symmetric<T, D>::size;
+  Symmetric<T, D> B;
+  T p;
+  for (int i = 0; i < points_in<T>; ++i) {
+    const Symmetric<Part, D> of_point = push(load_memory<Part, D>(memory[i]), e[i]);  // (3.51)
+    for (int c = 0; c < size; ++c) part_of(B[c], i) = of_point[c];
+    load(memory[i], size, part_of(p, i));
+  }
+  const T before = p;
+  const PointResponse<T, D> r = update_layer(m.layer[k].hardening, factor, B, J, p);
+  if (keep == Keep::yes && any(p > before))
+    for (int i = 0; i < points_in<T>; ++i) {
+      const Symmetric<Part, D> A = area_metric(e[i]), G = load_memory<Part, D>(memory[i]);
+      const Part a = part_of(r.kept, i), share = (Part(1) - a) / (e[i].volume * e[i].volume);
+      for (int c = 0; c < size; ++c) store(memory[i], c, a * G[c] + share * A[c]);  // (3.54)
+      store(memory[i], size, part_of(p, i));
+    }
+  return r;
+}
+/// Of one point.
 template <class T, int D, bool Ring>
 PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, const Edges<T, D, Ring>& e, const T& J, double* memory, Keep keep) {
-  constexpr int size = Symmetric<T, D>::size;
-  const Symmetric<T, D> G = load_memory<T, D>(memory);
-  T p;
-  load(memory, size, p);
-  const T before = p;
-  const LayerResult<T, D> r = update_layer(m.layer[k].hardening, factor, push(G, e), J, p);  // (3.51)
-  if (keep == Keep::yes && any(p > before)) {
-    const Symmetric<T, D> Gx = metric(e);
-    for (int i = 0; i < size; ++i) store(memory, i, r.a * G[i] + (T(1) - r.a) * Gx[i]);  // (3.54)
-    store(memory, size, p);
-  }
-  return {r.S, r.dissipation, r.a};
+  return layer_step(m, k, factor, &e, J, &memory, keep);
 }
 
-/// One step of all layers.
+/// One step of all layers of points_in<T> points.
 template <class T, int D, bool Ring>
-PointResponse<T, D> von_mises_step(const SolidConstants& m, const Edges<T, D, Ring>& e, const T& J, double* memory, Keep keep) {
+PointResponse<T, D> von_mises_step(const SolidConstants& m, const Edges<PartOf<T>, D, Ring>* e, const T& J, double* const* memory, Keep keep) {
   const T factor = stress_factor(m, J);
   if (m.layers == 1) return layer_step(m, 0, factor, e, J, memory, keep);
   PointResponse<T, D> sum;
   for (int i = 0; i < Symmetric<T, D>::size; ++i) sum.S[i] = T(0);
   sum.dissipation = T(0);
+  double* of_layer[points_in<T>];
+  for (int i = 0; i < points_in<T>; ++i) of_layer[i] = memory[i];
   for (int k = 0; k < m.layers; ++k) {
-    const PointResponse<T, D> r = layer_step(m, k, factor, e, J, memory + k * kLayerItems<D> * lanes_of<T>, keep);
+    const PointResponse<T, D> r = layer_step(m, k, factor, e, J, of_layer, keep);
+    for (double*& at : of_layer) at += kLayerItems<D> * lanes_of<PartOf<T>>;
     const T w(m.layer[k].weight);
     for (int i = 0; i < Symmetric<T, D>::size; ++i) sum.S[i] += w * r.S[i];
     sum.dissipation += w * r.dissipation;
   }
   return sum;
+}
+/// Of one point.
+template <class T, int D, bool Ring>
+PointResponse<T, D> von_mises_step(const SolidConstants& m, const Edges<T, D, Ring>& e, const T& J, double* memory, Keep keep) {
+  return von_mises_step(m, &e, J, &memory, keep);
 }
 
 /// Stored energy per initial volume, J/m3, of the deviatoric part:

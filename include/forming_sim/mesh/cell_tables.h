@@ -5,6 +5,8 @@
 // Every simplex of a well-shaped cell has a positive volume:
 // in 2D its three corners run counter-clockwise (the fourth entry is -1),
 // in 3D (x1 - x0) x (x2 - x0) . (x3 - x0) > 0.
+// The simplices of a cell have their first corner in common, its apex: their edge
+// vectors are the ways from there to the cell's other nodes.
 #include "forming_sim/mesh/mesh.h"
 
 namespace forming_sim {
@@ -13,7 +15,7 @@ inline constexpr int kTriangle[1][4] = {{0, 1, 2, -1}};
 
 inline constexpr int kQuad2[2][4] = {{0, 1, 2, -1}, {0, 2, 3, -1}};
 
-inline constexpr int kCrossed[4][4] = {{0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}};
+inline constexpr int kCrossed[4][4] = {{4, 0, 1, -1}, {4, 1, 2, -1}, {4, 2, 3, -1}, {4, 3, 0, -1}};
 
 inline constexpr int kTetrahedron[1][4] = {{0, 1, 2, 3}};
 

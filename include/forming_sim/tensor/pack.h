@@ -37,10 +37,18 @@ namespace FORMING_SIM_ISA {
 typedef double Lanes __attribute__((vector_size(64)));
 typedef std::int64_t Bits __attribute__((vector_size(64)));
 
+/// One truth a lane.
+#if defined(__AVX512DQ__)
+struct Mask {
+  __mmask8 v;  ///< a bit a lane
+  friend Mask operator&(Mask a, Mask b) { return {static_cast<__mmask8>(a.v & b.v)}; }
+};
+#else
 struct Mask {
   Bits v;  ///< all ones where true
   friend Mask operator&(Mask a, Mask b) { return {a.v & b.v}; }
 };
+#endif
 
 struct Pack {
   Lanes v;
@@ -59,28 +67,44 @@ struct Pack {
   Pack& operator+=(Pack b) { v += b.v; return *this; }
   Pack& operator-=(Pack b) { v -= b.v; return *this; }
   Pack& operator*=(Pack b) { v *= b.v; return *this; }
+#if defined(__AVX512DQ__)
+  friend Mask operator>(Pack a, Pack b) { return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_GT_OQ)}; }
+  friend Mask operator<(Pack a, Pack b) { return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_LT_OQ)}; }
+  friend Mask operator>=(Pack a, Pack b) { return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_GE_OQ)}; }
+#else
   friend Mask operator>(Pack a, Pack b) { return {a.v > b.v}; }
   friend Mask operator<(Pack a, Pack b) { return {a.v < b.v}; }
   friend Mask operator>=(Pack a, Pack b) { return {a.v >= b.v}; }
+#endif
 };
 
-inline bool any(Mask m) {
 #if defined(__AVX512DQ__)
-  return _mm512_movepi64_mask((__m512i)m.v) != 0;
+inline bool any(Mask m) { return m.v != 0; }
+inline bool all(Mask m) { return m.v == 0xff; }
+inline Pack select(Mask m, Pack a, Pack b) { return Pack(_mm512_mask_blend_pd(m.v, b.v, a.v)); }
+inline Pack larger(Pack a, Pack b) { return Pack(_mm512_maskz_max_pd(0xff, a.v, b.v)); }
+inline Pack smaller(Pack a, Pack b) { return Pack(_mm512_maskz_min_pd(0xff, a.v, b.v)); }
 #else
+inline bool any(Mask m) {
   typedef std::int64_t Pair __attribute__((vector_size(16)));
   const Pair* two = reinterpret_cast<const Pair*>(&m.v);
   return _mm_movemask_pd((__m128d)((two[0] | two[1]) | (two[2] | two[3]))) != 0;
-#endif
 }
+inline bool all(Mask m) { return !any(Mask{~m.v}); }
 inline Pack select(Mask m, Pack a, Pack b) { return Pack(m.v ? a.v : b.v); }
-inline void load(const double* from, int item, Pack& to) { to = Pack::load(from + item * kLanes); }
-inline void store(double* to, int item, Pack value) { value.store(to + item * kLanes); }
 inline Pack larger(Pack a, Pack b) { return select(a > b, a, b); }
 inline Pack smaller(Pack a, Pack b) { return select(a < b, a, b); }
-inline Pack absolute(Pack a) { return larger(a, -a); }
+#endif
+inline void load(const double* from, int item, Pack& to) { to = Pack::load(from + item * kLanes); }
+inline void store(double* to, int item, Pack value) { value.store(to + item * kLanes); }
+inline Pack absolute(Pack a) { return Pack((Lanes)((Bits)a.v & INT64_MAX)); }  // without the bit of the sign
 inline double sum(Pack a) {
   return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
+}
+/// Of the first lanes; those behind them count for nothing.
+inline double sum_of_first(Pack a, int lanes) {
+  for (int l = lanes; l < kLanes; ++l) a.v[l] = 0;
+  return sum(a);
 }
 
 /// Numbers anywhere in memory.
@@ -118,10 +142,10 @@ inline void gather_records(const double* const from[kLanes], Pack& x, Pack& y, P
 
 typedef double Pair __attribute__((vector_size(16), aligned(8)));
 
-/// Adds kLanes pairs to slots of two doubles; lanes may have a slot in common.
-inline void add_pairs(Pack x, Pack y, const int slot[kLanes], double* to) {
+/// Adds kLanes pairs to those that start at to[at[lane]]; lanes may have one in common.
+inline void add_pairs(Pack x, Pack y, const int at[kLanes], double* to) {
   const Lanes pairs[2] = {__builtin_shufflevector(x.v, y.v, 0, 8, 1, 9, 2, 10, 3, 11), __builtin_shufflevector(x.v, y.v, 4, 12, 5, 13, 6, 14, 7, 15)};
-  const auto add = [&](int lane, Pair pair) { *reinterpret_cast<Pair*>(to + 2 * static_cast<long>(slot[lane])) += pair; };
+  const auto add = [&](int lane, Pair pair) { *reinterpret_cast<Pair*>(to + at[lane]) += pair; };
   for (int k = 0; k < 2; ++k) {
     add(4 * k, __builtin_shufflevector(pairs[k], pairs[k], 0, 1));
     add(4 * k + 1, __builtin_shufflevector(pairs[k], pairs[k], 2, 3));
@@ -141,11 +165,11 @@ inline void to_quads(Pack x, Pack y, Pack z, Lanes quads[4]) {
   quads[2] = __builtin_shufflevector(xy1, z1, 0, 1, 8, 9, 2, 3, 10, 11);
   quads[3] = __builtin_shufflevector(xy1, z1, 4, 5, 12, 13, 6, 7, 14, 15);
 }
-/// Adds kLanes vectors to slots of four doubles, nothing to the last of each; lanes may have a slot in common.
-inline void add_quads(Pack x, Pack y, Pack z, const int slot[kLanes], double* to) {
+/// Adds kLanes vectors to records of four doubles, which start at to[at[lane]], nothing to the last of each; lanes may have one in common.
+inline void add_quads(Pack x, Pack y, Pack z, const int at[kLanes], double* to) {
   Lanes quads[4];
   to_quads(x, y, z, quads);
-  const auto add = [&](int lane, Quad quad) { *reinterpret_cast<Quad*>(to + 4 * static_cast<long>(slot[lane])) += quad; };
+  const auto add = [&](int lane, Quad quad) { *reinterpret_cast<Quad*>(to + at[lane]) += quad; };
   for (int k = 0; k < 4; ++k) {
     add(2 * k, __builtin_shufflevector(quads[k], quads[k], 0, 1, 2, 3));
     add(2 * k + 1, __builtin_shufflevector(quads[k], quads[k], 4, 5, 6, 7));

@@ -20,6 +20,10 @@ template <class T, int D> struct Vector {
     for (int i = 0; i < D; ++i) c[i] += b.c[i];
     return *this;
   }
+  Vector& operator-=(const Vector& b) {
+    for (int i = 0; i < D; ++i) c[i] -= b.c[i];
+    return *this;
+  }
   friend Vector operator*(const T& s, const Vector& a) {
     Vector r;
     for (int i = 0; i < D; ++i) r.c[i] = s * a.c[i];
@@ -131,9 +135,10 @@ template <class T, int D, bool Ring> void find_areas(Edges<T, D, Ring>& e) {
     e.area[0] = {{half * e.x[1][1], -(half * e.x[1][0])}};
     e.area[1] = {{-(half * e.x[0][1]), half * e.x[0][0]}};
   } else {
-    e.area[0] = T(1.0 / 6) * cross(e.x[1], e.x[2]);
-    e.area[1] = T(1.0 / 6) * cross(e.x[2], e.x[0]);
-    e.area[2] = T(1.0 / 6) * cross(e.x[0], e.x[1]);
+    const Vector<T, 3> x_1 = T(1.0 / 6) * e.x[1], x_2 = T(1.0 / 6) * e.x[2];
+    e.area[0] = cross(e.x[1], x_2);
+    e.area[1] = cross(x_2, e.x[0]);
+    e.area[2] = cross(e.x[0], x_1);
   }
   e.volume = dot(e.x[0], e.area[0]);
 }
@@ -176,23 +181,21 @@ template <class T, int D, bool Ring> Symmetric<T, D> push(const Symmetric<T, D>&
   return B;
 }
 
-/// G^x: components x^m . x^k; plane strain: G^33 = 1, ring: 1/r^2.
-template <class T, int D, bool Ring> Symmetric<T, D> metric(const Edges<T, D, Ring>& e) {
-  const T inverse = T(1) / e.volume, square = inverse * inverse;
-  const auto product = [&](int m, int k) { return square * dot(e.area[m], e.area[k]); };
-  Symmetric<T, D> G;
-  G[0] = product(0, 0);
-  G[1] = product(1, 1);
-  G[3] = product(0, 1);
+/// V^2 G^x, G^x the components x^m . x^k; plane strain: G^33 = 1, ring: 1/r^2.
+template <class T, int D, bool Ring> Symmetric<T, D> area_metric(const Edges<T, D, Ring>& e) {
+  Symmetric<T, D> A;
+  A[0] = dot(e.area[0], e.area[0]);
+  A[1] = dot(e.area[1], e.area[1]);
+  A[3] = dot(e.area[0], e.area[1]);
   if constexpr (D == 2) {
-    if constexpr (Ring) G[2] = square * (e.area[2][0] * e.area[2][0]);
-    else G[2] = T(1);
+    if constexpr (Ring) A[2] = e.area[2][0] * e.area[2][0];
+    else A[2] = e.volume * e.volume;
   } else {
-    G[2] = product(2, 2);
-    G[4] = product(1, 2);
-    G[5] = product(2, 0);
+    A[2] = dot(e.area[2], e.area[2]);
+    A[4] = dot(e.area[1], e.area[2]);
+    A[5] = dot(e.area[2], e.area[0]);
   }
-  return G;
+  return A;
 }
 
 }  // namespace forming_sim
