@@ -42,10 +42,6 @@ template <int D, bool Ring = false> class Start {
     for (int a = 0; a < N; ++a) put(Cell::weights + a * D, Eigen::Matrix<double, D, 1>(w_.col(a)));
     Eigen::Matrix<double, M, D> start = h_ * X_.transpose() * E_ / c_;
     for (int k = 0; k < M; ++k) put(Cell::start + k * D, Eigen::Matrix<double, D, 1>(start.row(k)));
-    if constexpr (D == 2)
-      for (int i = 0; i < 2; ++i) put(Cell::slopes + 2 * i, Eigen::Vector2d(slopes_.col(i)));
-    else
-      put_pairs(Cell::slopes, slopes_);
     Eigen::Matrix<double, N, 1> share;
     for (int a = 0; a < N; ++a) share[a] = result.share[a];
     const Square inertia = w_ * share.cwiseInverse().asDiagonal() * w_.transpose();
@@ -108,8 +104,17 @@ template <int D, bool Ring = false> class Start {
     c_ = D == 2 ? std::sqrt(2 * extent_) : std::cbrt(6 * extent_);
     w_ = c_ * E_.transpose() * b_;
     const Square U = E_.transpose() * J;
-    if constexpr (D == 2) slopes_ = (c_ / N) * U * U.colwise().squaredNorm().cwiseInverse().asDiagonal();
-    else slopes_ = (c_ / N) * (0.5 * (U + U.transpose())).inverse();
+    for (int i = 0; i < D; ++i) {
+      put(Cell::fibres + D * i, Eigen::Matrix<double, D, 1>(U.col(i).normalized()));
+      result.constants[Cell::slopes + i] = c_ / (N * U.col(i).norm());
+    }
+    if constexpr (D == 3)
+      for (int d = 0; d < 3; ++d) {
+        const Vec3 a = U.col((d + 1) % 3).normalized(), b = U.col((d + 2) % 3).normalized();
+        const double sine = a.cross(b).norm();
+        result.constants[Cell::skew + 2 * d] = a.dot(b) / sine;
+        result.constants[Cell::skew + 2 * d + 1] = 1 / sine;
+      }
     result.edges.template topLeftCorner<D, D>() = c_ * E_;
   }
 
@@ -135,9 +140,9 @@ template <int D, bool Ring = false> class Start {
     const Eigen::Matrix<double, M, M> L = P.llt().matrixL();
     Eigen::Matrix<double, M * D, M * D> k;
     for (int column = 0; column < M * D; ++column) {
-      double z[M][D] = {}, g[M][D];
+      Vector<double, D> z[M] = {}, g[M];
       for (int a = 0; a < M; ++a) z[a][column % D] = L(a, column / D);
-      hourglass_stiffness<D>(solid, result.constants.data() + Cell::slopes, z, g);
+      hourglass_stiffness<D>(solid, Fibres<double, D>(result.constants.data()), z, g);
       for (int row = 0; row < M * D; ++row) {
         k(row, column) = 0;
         for (int a = 0; a < M; ++a) k(row, column) += L(a, row / D) * g[a][row % D];
@@ -169,7 +174,7 @@ template <int D, bool Ring = false> class Start {
 
   Corners X_, b_, w_;
   Modes h_;
-  Square E_, slopes_;
+  Square E_;
   double c_ = 0, extent_ = 0;  ///< extent: volume, of a ring the area of its section
   double even_[N] = {};        ///< int N_a over the section
 };

@@ -6,45 +6,10 @@
 #include <Eigen/Geometry>
 
 #include "forming_sim/element/one_point.h"
-#include "support/bodies.h"
+#include "support/moved.h"
 
 namespace forming_sim {
 namespace {
-
-/// One cell in the place of the box [0, size], its corners moved by `distort`.
-Mesh cell_of(CellKind kind, const Vec3& size, const std::function<Vec3(const Vec3&)>& distort = nullptr) {
-  Mesh mesh = block_of(kind, 1);
-  for (Vec3& X : mesh.nodes) {
-    X = Vec3(X.x() > 0.5 ? size.x() : 0, X.y() > 0.4 ? size.y() : 0, X.z() > 0.4 ? size.z() : 0);
-    if (distort) X = distort(X);
-  }
-  check_volumes(mesh);
-  return mesh;
-}
-
-/// A body of few cells that is moved by hand.
-struct Moved {
-  BodyModel body;
-  NodeField X, x, v, f;
-  Elements elements;
-  Moved(const Mesh& mesh, const MaterialConfig& material)
-      : body(body_of(mesh, material)), X(positions_of(mesh)), x(X), v(X.size(), Node::Zero()), f(v), elements({body}, mesh.dimension, X, {}, 1) {}
-
-  void place(const std::function<Vec3(const Vec3&)>& at) {
-    for (std::size_t n = 0; n < X.size(); ++n) x[n] = node(at(vec3(X[n])));
-  }
-  const NodeField& forces() {
-    elements.forces(x, v, 0, 0, f);
-    return f;
-  }
-  double energy() const { return elements.observe(x).stored_energy; }
-};
-
-double largest(const NodeField& f) {
-  double most = 0;
-  for (const Node& n : f) most = std::max(most, n.norm());
-  return most;
-}
 
 /// 2/omega of the free body at x, from the stiffness by central differences and the masses.
 double true_step(Moved& body, double h) {
@@ -195,12 +160,6 @@ TEST(OnePoint, TheStableStepIsABoundAtAnyShape) {
   std::cout << "  bound / true limit from " << lowest << " to " << highest << "\n";
 }
 
-MaterialConfig perfect() {
-  MaterialConfig m = aluminium(true);
-  m.hardening->curve = "perfect";
-  return m;
-}
-
 /// The moment about the cell's own axis of the corners of the face x = size, per width.
 double moment(const Moved& body, int t, double middle, double width) {
   double sum = 0;
@@ -215,7 +174,7 @@ TEST(OnePoint, ABentCellReachesThePlasticMoment) {
   for (CellKind kind : {CellKind::quad1, CellKind::hex1}) {
     const bool flat = kind == CellKind::quad1;
     const int t = flat ? 1 : 2;
-    Moved body(cell_of(kind, flat ? Vec3(2, 1, 0) : Vec3(2, 1.5, 1)), perfect());
+    Moved body(cell_of(kind, flat ? Vec3(2, 1, 0) : Vec3(2, 1.5, 1)), perfectly_plastic());
     for (int step = 1; step <= 400; ++step) {
       const double k = 0.05 * step / 400;
       body.place([&](const Vec3& X) { return Vec3(X + (X.x() - 1) * (X[t] - 0.5) * -k * Vec3::UnitX()); });

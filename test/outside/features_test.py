@@ -168,6 +168,33 @@ class Features(unittest.TestCase):
                 self.assertTrue((last['positions'][:] == final).all())
             shutil.rmtree(self.path('whole')), shutil.rmtree(self.path('again'))
 
+    def test_a_ring_of_quadrilaterals_from_a_file(self):
+        """A mesh of gmsh turned about the axis: one-point cells under inner pressure widen as Lame's cylinder."""
+        radial, axial, inner, outer, pressure = 10, 2, 10.0, 20.0, 1e6  # millimetres, Pa
+        node = lambda i, j: 1 + j * (radial + 1) + i
+        points = ['%d %g %g 0' % (node(i, j), inner + (outer - inner) * i / radial, j) for j in range(axial + 1) for i in range(radial + 1)]
+        lines = [(1, node(0, j + 1), node(0, j)) for j in range(axial)]
+        lines += [(tag, node(i, j), node(i + 1, j)) for tag, j in ((2, 0), (3, axial)) for i in range(radial)]
+        elements = ['%d 1 2 %d %d %d %d' % (n + 1, tag, tag, a, b) for n, (tag, a, b) in enumerate(lines)]
+        elements += ['%d 3 2 4 4 %d %d %d %d' % (len(lines) + 1 + j * radial + i, node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1))
+                     for j in range(axial) for i in range(radial)]
+        with open(self.path('ring.msh'), 'w') as file:
+            file.write('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n1 1 "inside"\n1 2 "low"\n1 3 "high"\n2 4 "ring"\n$EndPhysicalNames\n'
+                       '$Nodes\n%d\n%s\n$EndNodes\n$Elements\n%d\n%s\n$EndElements\n' % (len(points), '\n'.join(points), len(elements), '\n'.join(elements)))
+        ring = {'name': 'ring', 'mesh': {'url': 'ring.msh', 'unit_scale': 1e-3, 'pattern': 'one_point'}, 'material': dict(ALUMINIUM),
+                'boundaries': [{'set': name, 'kind': 'symmetric', 'normal': [0, 1]} for name in ('low', 'high')],
+                'pressures': [{'set': 'inside', 'times': [0.0, 4e-4], 'values': [0.0, pressure]}]}
+        data = scene(ring, duration=5e-4, axisymmetric=True, time_step={'damping': 2e4})
+        data['output']['probes'] = [{'name': 'wall', 'set': 'inside'}]
+        summary = self.run_scene(data)
+        mass = ALUMINIUM['density'] * math.pi * (0.020 ** 2 - 0.010 ** 2) * 0.002
+        self.assertAlmostEqual(summary['bodies'][0]['mass'], mass, delta=1e-9 * mass)
+        moved = float(self.history()[-1]['probe_wall_position_x_m']) - 0.010
+        nu, a, b = ALUMINIUM['poissons_ratio'], 0.010, 0.020
+        exact = (1 + nu) / ALUMINIUM['youngs_modulus'] * pressure * a * a / (b * b - a * a) * ((1 - 2 * nu) * a + b * b / a)
+        self.assertAlmostEqual(moved, exact, delta=0.01 * exact)
+        self.assertEqual(summary['elements'], 2 * radial * axial)  # a cell appears as its two triangles
+
     # ---- tools
 
     def test_every_tool_format_is_the_same_tool(self):

@@ -48,6 +48,12 @@ TEST(ThickSphere, ThePlasticFrontMovesAtTheRightPressure) {
   EXPECT_LT(fine, coarse);
 }
 
+TEST(ThickSphere, OnePointQuadrilaterals) {
+  const double coarse = front_error(10, "one_point"), fine = front_error(20, "one_point");
+  EXPECT_LT(fine, 0.01);
+  EXPECT_LT(fine, coarse);
+}
+
 TEST(ThickSphere, TwoTrianglesACell) { EXPECT_LT(front_error(16, "coarse"), 0.02); }
 
 }  // namespace

@@ -52,8 +52,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
 
  public:
   /// constants: of the cell; x: of its corners; e: its edges.
-  Hourglass(const SolidConstants& m, const double* constants, const Edges<T, D, Ring>& e, const Vector<T, D>* x) : moduli_(m), edges_(e) {
-    for (int i = 0; i < Cell::inertia - Cell::slopes; ++i) load(constants, Cell::slopes + i, slopes_[i]);
+  Hourglass(const SolidConstants& m, const double* constants, const Edges<T, D, Ring>& e, const Vector<T, D>* x) : moduli_(m), edges_(e), fibres_(constants) {
     Vector<T, D> sum[Cell::modes];
     sum_modes<T, D>(x, sum);
     for (int k = 0; k < Cell::modes; ++k) {
@@ -64,7 +63,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
         z_[k][i] = rise_[k][i] - start;
       }
     }
-    strain_.from(z_, slopes_);
+    strain_.from(z_, fibres_);
     if constexpr (Ring) hoop_ = HoopStrain<T>(constants, e, x, strain_);
     constants_ = constants;
     for (int d = 0; d < 3; ++d) stress_.warp[d] = T(0);
@@ -95,8 +94,8 @@ template <class T, int D, bool Ring = false> class Hourglass {
 
   /// Minus the gradient of U: on the edges and, directly, on the corners.
   void add_forces(const T& V0, Vector<T, D>* on_edges, Vector<T, D>* on_corners) const {
-    T g[Cell::modes][D];
-    stress_.gradient(slopes_, g);
+    Vector<T, D> g[Cell::modes];
+    stress_.gradient(fibres_, g);
     Vector<T, D> r[Cell::modes];
     for (int k = 0; k < Cell::modes; ++k) {
       r[k] = (V0 * g[k][0]) * edges_.up[0];  // dU / d(sum_a h_a x_a)
@@ -119,9 +118,9 @@ template <class T, int D, bool Ring = false> class Hourglass {
       load(constants_, Cell::weights + a * D + m, w);
       gamma -= rise_[0][m] * w;
     }
-    Vector<T, D> row = (gamma * slopes_[2 * d]) * edges_.up[0];
-    row += (gamma * slopes_[2 * d + 1]) * edges_.up[1];
-    return row;
+    Vector<T, D> row = fibres_.along[d][0] * edges_.up[0];
+    row += fibres_.along[d][1] * edges_.up[1];
+    return (gamma * fibres_.slope[d]) * row;
   }
   T hoop_rate(int i, int a) const { return hoop_.rate(i, a); }
 
@@ -149,7 +148,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
       for (int d = 0; d < 3; ++d) store(memory, 3 * kPlaneItems<D> + d, ep.warp[d]);
   }
 
-  /// The cell's axes turned as its edges are: the orthonormal vectors nearest to the edges' directions,
+  /// The cell's axes E_m turned as its edges are: the orthonormal vectors nearest to the edges' directions,
   /// A <- (A + A^-T)/2, which ends at the rotation of the polar decomposition. Not F^-1 S F, in which shear
   /// would grow with the ratio of the stretches.
   struct Axes {
@@ -163,45 +162,6 @@ template <class T, int D, bool Ring = false> class Hourglass {
           for (int i = 0; i < D; ++i) a.x[m][i] = T(0.5) * (a.x[m][i] + a.up[m][i]);
       }
       for (int m = 0; m < D; ++m) e[m] = a.x[m];
-    }
-    /// Components of a spatial tensor along the axes, of the size of the tensor itself.
-    Symmetric<T, D> of(const Symmetric<T, D>& S) const {
-      Vector<T, D> Se[D];
-      for (int m = 0; m < D; ++m) Se[m] = S * e[m];
-      Symmetric<T, D> r;
-      for (int m = 0; m < D; ++m) r[m] = dot(e[m], Se[m]);
-      r[3] = dot(e[0], Se[1]);
-      if constexpr (D == 2) {
-        r[2] = S[2];
-      } else {
-        r[4] = dot(e[1], Se[2]);
-        r[5] = dot(e[2], Se[0]);
-      }
-      const T size = sqrt(contract(S, S) / larger(contract(r, r), T(1e-300)));
-      for (int i = 0; i < Symmetric<T, D>::size; ++i) r[i] *= size;
-      return r;
-    }
-    Symmetric<T, D> spatial(const Symmetric<T, D>& A) const {
-      Vector<T, D> y[D];
-      for (int m = 0; m < D; ++m) {
-        y[m] = A[kFull[m][0]] * e[0];
-        for (int k = 1; k < D; ++k) y[m] += A[kFull[m][k]] * e[k];
-      }
-      const auto part = [&](int i, int j) {
-        T sum = e[0][i] * y[0][j];
-        for (int m = 1; m < D; ++m) sum += e[m][i] * y[m][j];
-        return sum;
-      };
-      Symmetric<T, D> r;
-      for (int i = 0; i < D; ++i) r[i] = part(i, i);
-      r[3] = part(0, 1);
-      if constexpr (D == 2) {
-        r[2] = A[2];
-      } else {
-        r[4] = part(1, 2);
-        r[5] = part(2, 0);
-      }
-      return r;
     }
   };
 
@@ -261,12 +221,13 @@ template <class T, int D, bool Ring = false> class Hourglass {
     const YieldStress<T> yield = yield_stress(layer.hardening, p);
     if (!any(may_yield(point.S, yield, ep, hourglass_memory))) return relax_all(layer, yield.value, point.kept, ep);
     const Axes axes(edges_);
-    MeanFlow<T, D> mean{axes.of(point.S), {}, T(2) * factor, yield.value, yield.slope, T(0)};
+    const auto plane = [&](int d) { return PlaneOf<T, D>(axes.e, fibres_, d); };
+    MeanFlow<T, D> mean{point.S, {}, T(2) * factor, yield.value, yield.slope, T(0)};
     for (int i = 0; i < size; ++i) mean.strain[i] = T(0);
     T rise[D], share[D], most(0);  // p'; 1 where the coordinate's variation takes part, else 0
     for (int d = 0; d < D; ++d) {
       load(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise[d]);
-      const T excess = normal<T, D>(mean, moduli_.stress(strain_.plane[d] - ep.plane[d]), rise[d], PlaneOf<T, D>(slopes_, d)).excess;
+      const T excess = normal<T, D>(mean, moduli_.stress(strain_.plane[d] - ep.plane[d]), rise[d], plane(d)).excess;
       share[d] = select(excess > T(1e-12), T(1), T(0));
       most = larger(most, share[d]);
     }
@@ -279,11 +240,11 @@ template <class T, int D, bool Ring = false> class Hourglass {
       mean.harden(-dp);
       for (int d = 0; d < D; ++d) {
         if (!any(share[d] > T(0))) continue;
-        dissipation_ += T(layer.weight) * flow_to_surface<T, D>(mean, moduli_, strain_.plane[d], share[d], ep.plane[d], rise[d], PlaneOf<T, D>(slopes_, d));
+        dissipation_ += T(layer.weight) * flow_to_surface<T, D>(mean, moduli_, strain_.plane[d], share[d], ep.plane[d], rise[d], plane(d));
         store(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise[d]);
       }
       flow_of_mean(mean);
-      take_mean_flow(m, factor, J, axes.spatial(mean.strain), mean.p, point, memory);
+      take_mean_flow(m, factor, J, mean.strain, mean.p, point, memory);
     }
     const T left = smaller(point.kept * mean.sigma / larger(mean.sigma + T(3) * T(moduli_.mu) * mean.p, T(0.5) * mean.sigma), T(1));
     return relax_all(layer, mean.sigma, left, ep) || together;
@@ -364,8 +325,8 @@ template <class T, int D, bool Ring = false> class Hourglass {
   const Edges<T, D, Ring>& edges_;
   const double* constants_;
   std::conditional_t<Ring, HoopStrain<T>, int> hoop_;
-  T slopes_[Cell::inertia - Cell::slopes];
-  T rise_[Cell::modes][D], z_[Cell::modes][D];
+  const Fibres<T, D> fibres_;
+  Vector<T, D> rise_[Cell::modes], z_[Cell::modes];
   Strain strain_, stress_;
   T dissipation_{0.0};
 };

@@ -24,7 +24,7 @@ namespace forming_sim {
 /// s at the faces over the m of the yield surface.
 constexpr double kFaceStress = 2.0 / 3;
 
-/// The mean of a layer while its cell flows, along the cell's axes.
+/// The mean of a layer while its cell flows.
 template <class T, int D> struct MeanFlow {
   Symmetric<T, D> S;       ///< Pa
   Symmetric<T, D> strain;  ///< plastic, of this step
@@ -49,38 +49,48 @@ template <class T, int D> struct Normal {
   T along;                      ///< varied : S
 };
 
-/// In plane: the components of S that s has too; the rest of dev s follows from its trace.
-template <class T> struct PlaneOf2D {
-  Vector<T, 2> fibre;  ///< unit vector
-  PlaneOf2D(const T* slopes, int d) {
-    const T* a = slopes + 2 * d;
-    const T over = T(1) / sqrt(a[0] * a[0] + a[1] * a[1]);
-    fibre = {{over * a[0], over * a[1]}};
+/// The plane in which s lies, of the unit vectors t_1 and t_2 (in 2D t_2 = e_3): where a body has turned, they have
+/// turned with it.
+template <class T, int D> struct PlaneOf {
+  Symmetric<T, D> first, second, across;  ///< t_1 t_1, t_2 t_2, sym(t_1 t_2)
+
+  /// axes: of the cell now.
+  PlaneOf(const Vector<T, D>* axes, const Fibres<T, D>& f, int d) {
+    if constexpr (D == 2) {
+      const Vector<T, 2> t = turned(axes, f.along[d]);
+      first = dyad(t, t);
+      second = {{T(0), T(0), T(1), T(0)}};
+      across = {{T(0), T(0), T(0), T(0)}};
+    } else {
+      const Vector<T, 3>& u = f.along[(d + 1) % 3];
+      const Vector<T, 3> t = turned(axes, u), v = turned(axes, f.over_sine[d] * f.along[(d + 2) % 3] - f.cotangent[d] * u);
+      first = dyad(t, t);
+      second = dyad(v, v);
+      across = dyad(t, v);
+    }
   }
-  Symmetric<T, 2> deviator(const Plane<T>& s) const {
-    const T mean = T(1.0 / 3) * (s.a + s.b);
-    return {{s.a * fibre[0] * fibre[0] - mean, s.a * fibre[1] * fibre[1] - mean, s.b - mean, s.a * fibre[0] * fibre[1]}};
-  }
-  Plane<T> part(const Symmetric<T, 2>& a) const {
-    return {a[0] * fibre[0] * fibre[0] + a[1] * fibre[1] * fibre[1] + T(2) * a[3] * fibre[0] * fibre[1], a[2], T(0)};
-  }
-};
-template <class T> struct PlaneOf3D {
-  int i, j, k;
-  PlaneOf3D(const T*, int d) : i((d + 1) % 3), j((d + 2) % 3), k(d) {}
-  Symmetric<T, 3> deviator(const Plane<T>& s) const {
-    const T mean = T(1.0 / 3) * (s.a + s.b);
-    Symmetric<T, 3> r;
-    for (int n = 0; n < 6; ++n) r[n] = T(0);
-    r[i] = s.a - mean;
-    r[j] = s.b - mean;
-    r[k] = -mean;
-    r[kPair<3>[i][j]] = s.shear;
+  Symmetric<T, D> deviator(const Plane<T>& s) const {
+    const T mean = T(1.0 / 3) * (s.a + s.b), twice = T(2) * s.shear;
+    Symmetric<T, D> r;
+    for (int n = 0; n < Symmetric<T, D>::size; ++n) r[n] = s.a * first[n] + s.b * second[n] + twice * across[n];
+    for (int n = 0; n < 3; ++n) r[n] -= mean;
     return r;
   }
-  Plane<T> part(const Symmetric<T, 3>& a) const { return {a[i], a[j], T(2) * a[kPair<3>[i][j]]}; }
+  /// Components of a tensor in the plane, the shear twice.
+  Plane<T> part(const Symmetric<T, D>& a) const { return {contract(first, a), contract(second, a), T(2) * contract(across, a)}; }
+
+ private:
+  static Vector<T, D> turned(const Vector<T, D>* axes, const Vector<T, D>& u) {
+    Vector<T, D> r = u[0] * axes[0];
+    for (int m = 1; m < D; ++m) r += u[m] * axes[m];
+    return r;
+  }
+  static Symmetric<T, D> dyad(const Vector<T, D>& t, const Vector<T, D>& v) {
+    const T half(0.5);
+    if constexpr (D == 2) return {{t[0] * v[0], t[1] * v[1], T(0), half * (t[0] * v[1] + t[1] * v[0])}};
+    else return {{t[0] * v[0], t[1] * v[1], t[2] * v[2], half * (t[0] * v[1] + t[1] * v[0]), half * (t[1] * v[2] + t[2] * v[1]), half * (t[2] * v[0] + t[0] * v[2])}};
+  }
 };
-template <class T, int D> using PlaneOf = std::conditional_t<D == 2, PlaneOf2D<T>, PlaneOf3D<T>>;
 
 /// m/h = dev s - H p'/sigma_s S.
 template <class T, int D> Symmetric<T, D> own_part(const MeanFlow<T, D>& mean, const Symmetric<T, D>& S, const Plane<T>& s, const T& rise, const PlaneOf<T, D>& at) {

@@ -26,57 +26,81 @@ template <class T> Plane<T> operator-(const Plane<T>& x, const Plane<T>& y) { re
 /// s : e
 template <class T> T work(const Plane<T>& s, const Plane<T>& e) { return s.a * e.a + s.b * e.b + s.shear * e.shear; }
 
-/// e_d and e_m from z, and the transposed map; slopes: A of the cell.
+/// The fibres of a cell and the planes that they span, constants of one_point.h.
+template <class T, int D> struct Fibres {
+  Vector<T, D> along[D];  ///< u_i
+  T slope[D];
+  T cotangent[3], over_sine[3];  ///< 3D: of the plane across coordinate d
+
+  explicit Fibres(const double* constants) {
+    using Cell = OnePoint<D>;
+    for (int i = 0; i < D; ++i) {
+      for (int m = 0; m < D; ++m) load(constants, Cell::fibres + D * i + m, along[i][m]);
+      load(constants, Cell::slopes + i, slope[i]);
+    }
+    if constexpr (D == 3)
+      for (int d = 0; d < 3; ++d) {
+        load(constants, Cell::skew + 2 * d, cotangent[d]);
+        load(constants, Cell::skew + 2 * d + 1, over_sine[d]);
+      }
+  }
+};
+
+/// e_d and e_m from z, and the transposed map.
+///
+/// In 3D the strains a' = u_i . Z u_i, b' = u_j . Z u_j and c' = 2 u_i . sym(Z) u_j of the fibres are at hand first; with
+/// t_1 = u_i and t_2 = (u_j - cos u_i)/sin the components along t_1 and t_2 follow.
 template <class T, int D> struct HourglassStrain {
   Plane<T> plane[D];
   T warp[3];  ///< 3D: of the last mode
 
-  void from(const T (*z)[D], const T* A) {
+  void from(const Vector<T, D>* z, const Fibres<T, D>& f) {
     if constexpr (D == 2) {
-      for (int i = 0; i < 2; ++i) plane[i].a = A[2 * i] * z[0][0] + A[2 * i + 1] * z[0][1];
+      for (int i = 0; i < 2; ++i) plane[i].a = f.slope[i] * dot(f.along[i], z[0]);
     } else {
-      const auto& at = kPair<3>;
       for (int d = 0; d < 3; ++d) {
         const int i = (d + 1) % 3, j = (d + 2) % 3;
-        plane[d].a = A[at[j][i]] * z[i][i] + A[i] * z[j][i];
-        plane[d].b = A[j] * z[i][j] + A[at[i][j]] * z[j][j];
-        plane[d].shear = A[j] * z[i][i] + A[at[j][i]] * z[i][j] + A[at[i][j]] * z[j][i] + A[i] * z[j][j];
-        warp[d] = A[d] * z[3][d];
+        const Vector<T, 3> zi = f.slope[j] * z[i], zj = f.slope[i] * z[j];
+        const T a = dot(f.along[i], zj), b = dot(f.along[j], zi), c = dot(f.along[i], zi) + dot(f.along[j], zj);
+        const T cot = f.cotangent[d], over = f.over_sine[d];
+        plane[d] = {a, over * over * b + cot * (cot * a - over * c), over * c - T(2) * cot * a};
+        warp[d] = f.slope[d] * dot(f.along[d], z[3]);
       }
     }
   }
   /// With stresses in place of strains: dU/dz per volume.
-  void gradient(const T* A, T (*g)[D]) const {
+  void gradient(const Fibres<T, D>& f, Vector<T, D>* g) const {
     if constexpr (D == 2) {
-      for (int m = 0; m < 2; ++m) g[0][m] = T(1.0 / 3) * (A[m] * plane[0].a + A[2 + m] * plane[1].a);
+      g[0] = (T(1.0 / 3) * f.slope[0] * plane[0].a) * f.along[0];
+      g[0] += (T(1.0 / 3) * f.slope[1] * plane[1].a) * f.along[1];
     } else {
-      const auto& at = kPair<3>;
-      for (int k = 0; k < 3; ++k)
-        for (int m = 0; m < 3; ++m) g[k][m] = T(0);
+      for (int k = 0; k < 3; ++k) g[k] = {{T(0), T(0), T(0)}};
+      g[3] = g[0];
       for (int d = 0; d < 3; ++d) {
         const int i = (d + 1) % 3, j = (d + 2) % 3;
         const Plane<T>& s = plane[d];
-        g[i][i] += A[at[j][i]] * s.a + A[j] * s.shear;
-        g[j][i] += A[i] * s.a + A[at[i][j]] * s.shear;
-        g[i][j] += A[j] * s.b + A[at[j][i]] * s.shear;
-        g[j][j] += A[at[i][j]] * s.b + A[i] * s.shear;
-        g[3][d] = T(1.0 / 9) * A[d] * warp[d];
+        const T cot = f.cotangent[d], over = f.over_sine[d];
+        const T a = s.a + cot * (cot * s.b - T(2) * s.shear), b = over * over * s.b, c = over * (s.shear - cot * s.b);
+        const T si = T(1.0 / 3) * f.slope[i], sj = T(1.0 / 3) * f.slope[j];
+        g[j] += (si * a) * f.along[i];
+        g[j] += (si * c) * f.along[j];
+        g[i] += (sj * b) * f.along[j];
+        g[i] += (sj * c) * f.along[i];
+        g[3] += (T(1.0 / 9) * f.slope[d] * warp[d]) * f.along[d];
       }
-      for (int k = 0; k < 3; ++k)
-        for (int m = 0; m < 3; ++m) g[k][m] *= T(1.0 / 3);
     }
   }
 };
 
 /// g = dU/dz per volume of an elastic cell.
-template <int D> void hourglass_stiffness(const SolidConstants& m, const double* A, const double (*z)[D], double (*g)[D]) {
+template <int D> void hourglass_stiffness(const SolidConstants& m, const Fibres<double, D>& fibres, const Vector<double, D>* z, Vector<double, D>* g) {
   const PlaneModuli<double> moduli(m);
   HourglassStrain<double, D> e, s;
-  e.from(z, A);
+  e.from(z, fibres);
   for (int d = 0; d < D; ++d) s.plane[d] = moduli.stress(e.plane[d]);
   if constexpr (D == 3)
     for (int d = 0; d < 3; ++d) s.warp[d] = moduli.E * e.warp[d];
-  s.gradient(A, g);
+  s.gradient(fibres, g);
 }
 
 /// sum_a h_alpha,a x_a of all modes; the signs are those of kHourglass.

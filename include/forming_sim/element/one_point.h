@@ -29,8 +29,10 @@ template <int D, bool Ring = false> struct OnePoint {
   static constexpr int nodes = D == 2 ? 4 : 8, modes = D == 2 ? 1 : 4, pairs = D * (D + 1) / 2;
   static constexpr int weights = 0;                     ///< [node][m]
   static constexpr int start = weights + nodes * D;     ///< [mode][m]
-  static constexpr int slopes = start + modes * D;      ///< 3D: [pair] c/8 grad(xi_i) . E_j, symmetric in E; 2D: [i][j] c/4 g_i . E_j/|g_i|^2, g_i = dX/dxi_i at the centre
-  static constexpr int inertia = slopes + (D == 2 ? 4 : pairs);        ///< [pair] sum_a w_ma w_ka / share_a
+  static constexpr int fibres = start + modes * D;      ///< [i][m] u_i . E_m, u_i = g_i/|g_i|, g_i = dX/dxi_i at the centre
+  static constexpr int slopes = fibres + D * D;         ///< [i] c/2^D/|g_i|
+  static constexpr int skew = slopes + D;               ///< 3D: [d] cotangent and 1/sine of the angle from u_i to u_j, d, i, j cyclic
+  static constexpr int inertia = skew + (D == 2 ? 0 : 2 * D);          ///< [pair] sum_a w_ma w_ka / share_a
   static constexpr int stiffness = inertia + pairs;     ///< [m] Pa, bounds the modes' stiffness: element/one_point_step.h
   static constexpr int looseness = stiffness + D;       ///< 1 / smallest eigenvalue of the modes' inverse inertia
   static constexpr int slant = looseness + 1;           ///< cosine between the modes and the uniform shapes, 0 for a parallelepiped

@@ -1,0 +1,49 @@
+#pragma once
+// A body of few cells that tests move by hand.
+#include <functional>
+
+#include "support/bodies.h"
+
+namespace forming_sim {
+
+struct Moved {
+  BodyModel body;
+  NodeField X, x, v, f;
+  Elements elements;
+  Moved(const Mesh& mesh, const MaterialConfig& material)
+      : body(body_of(mesh, material)), X(positions_of(mesh)), x(X), v(X.size(), Node::Zero()), f(v), elements({body}, mesh.dimension, X, {}, 1) {}
+
+  void place(const std::function<Vec3(const Vec3&)>& at) {
+    for (std::size_t n = 0; n < X.size(); ++n) x[n] = node(at(vec3(X[n])));
+  }
+  const NodeField& forces() {
+    elements.forces(x, v, 0, 0, f);
+    return f;
+  }
+  double energy() const { return elements.observe(x).stored_energy; }
+};
+
+inline double largest(const NodeField& f) {
+  double most = 0;
+  for (const Node& n : f) most = std::max(most, n.norm());
+  return most;
+}
+
+/// One cell in the place of the box [0, size], its corners moved by `distort`.
+inline Mesh cell_of(CellKind kind, const Vec3& size, const std::function<Vec3(const Vec3&)>& distort = nullptr) {
+  Mesh mesh = block_of(kind, 1);
+  for (Vec3& X : mesh.nodes) {
+    X = Vec3(X.x() > 0.5 ? size.x() : 0, X.y() > 0.4 ? size.y() : 0, X.z() > 0.4 ? size.z() : 0);
+    if (distort) X = distort(X);
+  }
+  check_volumes(mesh);
+  return mesh;
+}
+
+inline MaterialConfig perfectly_plastic() {
+  MaterialConfig m = aluminium(true);
+  m.hardening->curve = "perfect";
+  return m;
+}
+
+}  // namespace forming_sim
