@@ -55,7 +55,7 @@ class Deck {
 
 /// One table that ccx printed.
 struct Printed {
-  std::string what, set;   ///< "displacements", "forces"
+  std::string what, set;   ///< "displacements", "forces", "total" (force); the set in capitals
   double time;
   std::vector<std::vector<double>> rows;  ///< node number, values
 };

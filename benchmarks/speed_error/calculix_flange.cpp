@@ -14,7 +14,8 @@
 namespace forming_sim::bench {
 namespace {
 
-constexpr double kToolDepth = 0.3e-3;  ///< of the bricks behind a profile, m; less than its least radius
+constexpr double kToolDepth = 0.45e-3; ///< of the bricks behind a profile, m; less than its least radius
+constexpr double kChordError = 2e-6;   ///< m; with finer faces than the sheet's it finds no equilibrium past a quarter of the way
 constexpr double kPenalty = 1e5;       ///< MPa/mm
 constexpr int kSeconds = 1500;         ///< of processor time
 
@@ -24,7 +25,9 @@ struct ToolBricks {
   std::string text;
 };
 ToolBricks tool_bricks(const ToolConfig& tool, double width, Deck& deck, long& element) {
-  const Mesh profile = mesh_profile(*tool.profile);
+  ProfileConfig config = *tool.profile;
+  config.chord_error = kChordError;
+  const Mesh profile = mesh_profile(config);
   const std::size_t segments = profile.surface.size();
   std::vector<Vec3> path{profile.nodes[profile.surface[0].nodes[0]]};
   for (const Facet& f : profile.surface) path.push_back(profile.nodes[f.nodes[1]]);
@@ -120,10 +123,10 @@ void flange_by_calculix(Report& report, const Flanged& reference) {
     found.size.steps = run.increments();
     found.size.wall_time = run.wall_time();
     ForceOverWay punch;
-    std::map<int, Vec3> top, bottom, released = places(run.last("displacements", "top"), deck);
+    std::map<int, Vec3> top, bottom, released = places(run.last("displacements", "TOP"), deck);
     for (const Printed& table : run.printed()) {
       if (table.time > 1 + 1e-9) break;
-      if (table.what == "displacements") (table.set == "top" ? top : bottom) = places(table, deck);
+      if (table.what == "displacements") (table.set == "TOP" ? top : bottom) = places(table, deck);
       if (table.what != "total") continue;
       punch.way.push_back(way * table.time);
       punch.force.push_back(-table.rows.at(0).at(1) / (1e3 * cell));  // on the punch, N/m

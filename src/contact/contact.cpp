@@ -15,6 +15,10 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
   if (m.config.method == "explicit") m.method = Impl::Method::explicit_mild;
   if (m.config.method == "geometric") m.method = Impl::Method::geometric;
   m.features = build_features(setup, at);
+  for (int b = 0; b < m.features.bodies; ++b) {
+    const std::vector<int>& own = m.features.surfaces[b].vertices;
+    m.body_vertices.insert(m.body_vertices.end(), own.begin(), own.end());
+  }
   m.layer = setup.config.layer > 0 ? setup.config.layer : std::min(0.05 * m.features.smallest_edge, 1e-3 * setup.thinnest);
   m.ceiling = std::max(m.layer, 0.05 * m.features.smallest_edge);
   m.modulus = setup.config.stiffness > 0 ? setup.config.stiffness : setup.softest_modulus;

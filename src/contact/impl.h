@@ -27,6 +27,7 @@ struct Contact::Impl {
   ContactConfig config;
   Method method = Method::implicit;
   Features features;
+  std::vector<int> body_vertices;  ///< on surfaces
   ToolSet tools;
   std::vector<Tie> ties;
   std::vector<std::string> body_names;
@@ -65,11 +66,6 @@ struct Contact::Impl {
   Sweeps sweeps;
   std::vector<double> moved;
   std::vector<double> sum, weighted, total;  ///< per entry of the workspace
-
-  template <class Each> void each_body_vertex(Each&& each) const {
-    for (int b = 0; b < features.bodies; ++b)
-      for (int v : features.surfaces[b].vertices) each(v);
-  }
 
   // search.cpp
   double fastest(const NodeField& v) const;

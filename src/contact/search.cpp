@@ -1,13 +1,26 @@
 // Which features are near: the list and its margin, the workspace.
 #include <Eigen/Geometry>
+#include <mutex>
 
 #include "contact/impl.h"
 
 namespace forming_sim {
 
 double Contact::Impl::fastest(const NodeField& v) const {
+  std::mutex one;
   double most = 0;
-  each_body_vertex([&](int i) { most = std::max(most, dot3(v[i], v[i])); });
+  team.share(static_cast<long>(body_vertices.size()), kNodesOfAThread, [&](long first, long last) {
+    double of_share[4] = {0, 0, 0, 0};  // that do not wait for each other
+    long k = first;
+    for (; k + 4 <= last; k += 4)
+      for (int j = 0; j < 4; ++j) {
+        const Node& u = v[body_vertices[k + j]];
+        of_share[j] = std::max(of_share[j], dot3(u, u));
+      }
+    for (; k < last; ++k) of_share[0] = std::max(of_share[0], dot3(v[body_vertices[k]], v[body_vertices[k]]));
+    const std::lock_guard<std::mutex> lock(one);
+    for (const double squared : of_share) most = std::max(most, squared);
+  });
   return std::sqrt(most);
 }
 
@@ -22,7 +35,8 @@ double Contact::Impl::farthest(const std::vector<ToolMotion>& motion, const Node
     if (!motion[t].present) continue;
     Box box = tool_index->of(static_cast<int>(t)).box();
     if (tools.is_plane[t]) {
-      if (!have) each_body_vertex([&](int i) { bodies.add(x[i]); });
+      if (!have)
+        for (int i : body_vertices) bodies.add(x[i]);
       have = true;
       box = bodies;  // in the world: brought into the tool's frame below
     }
@@ -50,8 +64,7 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
     if (used + reach <= list.radius) return;
     // The bound adds up vibrations; how far has anything really gone?
     double body = 0;
-    size_t i = 0;
-    each_body_vertex([&](int v) { body = std::max(body, (x[v] - x_at_build[i++]).squaredNorm()); });
+    for (size_t i = 0; i < body_vertices.size(); ++i) body = std::max(body, (x[body_vertices[i]] - x_at_build[i]).squaredNorm());
     const double tool = farthest(motion, x, [&](size_t t, const Vec3& p) { return pose0(motion_at_build[t], p); },
                             [&](size_t t, const Vec3& p) { return pose0(motion[t], p); });
     used = (both * std::sqrt(body) + tool) * (1 + 1e-12);
@@ -63,7 +76,7 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
   listed_present = present;
   motion_at_build = motion;
   x_at_build.clear();
-  each_body_vertex([&](int v) { x_at_build.push_back(x[v]); });
+  for (int v : body_vertices) x_at_build.push_back(x[v]);
   travel = used = 0;
   ++builds;
   for (int i = 0; i < work.body_entries; ++i) {

@@ -140,7 +140,6 @@ BoundarySet::Group BoundarySet::merge(const std::vector<int>& members,
       }
     }
   }
-  for (const Direction& fixed : group.directions) group.driven = group.driven || !fixed.terms.empty();
   for (const Direction& fixed : group.directions) group.projector -= fixed.axis * fixed.axis.transpose();
   // All directions fixed: nothing is left, not even rounding.
   if (group.directions.size() == 3) group.projector.setZero();
@@ -196,8 +195,8 @@ double BoundarySet::work(const NodeField& force, const std::vector<double>& mass
                          const NodeField& v_after, double dt) const {
   double sum = 0;
   for (size_t k = 0; k < nodes_.size(); ++k) {
-    if (!groups_[group_[k]].driven) continue;
     const int i = nodes_[k];
+    if (v_before[i] + v_after[i] == Node::Zero()) continue;  // held at rest
     sum += work(static_cast<int>(k), vec3(force[i]), mass[i], vec3(v_before[i]), vec3(v_after[i]), dt);
   }
   return sum;

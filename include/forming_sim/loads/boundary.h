@@ -54,8 +54,7 @@ class BoundarySet {
   /// v_after) / 2 for the other forces, the change of m v^2 / 2 is met exactly.
   double work(int k, const Vec3& force, double mass, const Vec3& v_before, const Vec3& v_after,
               double dt) const;
-  /// Sum over all constrained nodes, in their order; both velocities obey the prescription, so that where
-  /// all directions are held at rest there is none.
+  /// Sum over all constrained nodes, in their order.
   double work(const NodeField& force, const std::vector<double>& mass, const NodeField& v_before,
               const NodeField& v_after, double dt) const;
 
@@ -73,7 +72,6 @@ class BoundarySet {
   struct Group {
     Mat3 projector = Mat3::Identity();
     std::vector<Direction> directions;
-    bool driven = false;  ///< a velocity is prescribed that may not be 0
   };
   Group merge(const std::vector<int>& members, const std::vector<ResolvedBoundary>& boundaries, int dimension,
               int node) const;
