@@ -1,3 +1,4 @@
+#include "element/alike.h"
 #include "element/group.h"
 
 #include <Eigen/LU>
@@ -144,10 +145,11 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.node_storage.resize(static_cast<std::size_t>(g.blocks) * shape.nodes * kLanes);
       g.memory_storage.resize(static_cast<std::size_t>(g.blocks) * shape.points * g.items);
       if (is_one_point(cells.kind)) {
-        g.constants_storage.resize(static_cast<std::size_t>(g.blocks) * one_point_items(D, g.ring));
         g.hourglass_items = D == 2 ? hourglass_items<2>(g.solid) : hourglass_items<3>(g.solid);
         g.hourglass_storage.resize(static_cast<std::size_t>(g.blocks) * g.hourglass_items);
       }
+      AlikeBlocks alike;
+      std::vector<Lane> constants(is_one_point(cells.kind) ? one_point_items(D, g.ring) : 0);
       for (int b = 0; b < g.blocks; ++b) {
         for (int l = 0; l < kLanes; ++l) {
           const int cell = std::min(b * kLanes + l, g.cells - 1);
@@ -178,8 +180,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
             if (D == 2) start_memory<2>(g.solid, {{G(0, 0), G(1, 1), G(2, 2), G(0, 1)}}, start);
             else start_memory<3>(g.solid, {{G(0, 0), G(1, 1), G(2, 2), G(0, 1), G(1, 2), G(2, 0)}}, start);
             memory[g.items - 1][l] = V0;
-            const std::size_t items = initial.constants.size();
-            for (std::size_t i = 0; i < items; ++i) g.constants_storage[b * items + i][l] = initial.constants[i];
+            for (std::size_t i = 0; i < constants.size(); ++i) constants[i][l] = initial.constants[i];
             if (!first) continue;
             for (int a = 0; a < initial.nodes; ++a) mass_[initial.node[a]] += g.density * V0 * initial.share[a];
             if (is_one_point(cells.kind)) continue;  // it has no share in nodal pressures, and the bound of its step its own masses
@@ -192,6 +193,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
             }
           }
         }
+        if (is_one_point(cells.kind)) g.constant_sets.push_back(alike.find(constants, g.constants_storage));
       }
       groups_.push_back(std::move(g));
     }
@@ -206,6 +208,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
     g.nodes = g.node_storage.data();
     g.memory = reinterpret_cast<double*>(g.memory_storage.data());
     g.constants = reinterpret_cast<double*>(g.constants_storage.data());
+    g.constant_set = g.constant_sets.data();
     g.hourglass = reinterpret_cast<double*>(g.hourglass_storage.data());
     g.slots = g.slot_storage.data();
     g.sums = slots_ + g.first_slot * record_size_;
@@ -312,18 +315,18 @@ double Elements::volume_ratio(const NodeField& x, int element) const {
   const int block = where.cell / kLanes, l = where.cell % kLanes, point = where.simplex % g.cell_simplices;
   const double V0 = g.memory_storage[(static_cast<std::size_t>(block) * g.cell_simplices + point + 1) * g.items - 1][l];
   if (g.constants_storage.empty()) return SimplexShape(x, simplices_[element], dimension_, axisymmetric_).volume / V0;
-  const int D = dimension_, items = one_point_items(D, axisymmetric_);
+  const int D = dimension_;
   Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
   edges.topLeftCorner(D, D).setZero();
   for (int a = 0; a < g.cell_nodes; ++a)
     for (int m = 0; m < D; ++m)
-      edges.col(m) += g.constants_storage[static_cast<std::size_t>(block) * items + a * D + m][l] *
+      edges.col(m) += g.constant(block, a * D + m, l) *
                       vec3(x[g.node_storage[(static_cast<std::size_t>(block) * g.cell_nodes + a) * kLanes + l]]);
   double circle = 1;
   if (axisymmetric_) {
     circle = 0;
     for (int a = 0; a < g.cell_nodes; ++a)
-      circle += kTwoPi * g.constants_storage[static_cast<std::size_t>(block) * items + OnePoint<2, true>::hoop + a][l] *
+      circle += kTwoPi * g.constant(block, OnePoint<2, true>::hoop + a, l) *
                 x[g.node_storage[(static_cast<std::size_t>(block) * g.cell_nodes + a) * kLanes + l]][0];
   }
   return circle * edges.determinant() / (D == 2 ? 2 : 6) / V0;

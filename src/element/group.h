@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "forming_sim/element/elements.h"
+#include "forming_sim/element/one_point.h"
 
 namespace forming_sim {
 
 struct Elements::Group : CellGroup {
-  std::vector<int> node_storage, slot_storage;
+  std::vector<int> node_storage, slot_storage, constant_sets;
   std::vector<long> tile_start;  ///< first slot of each tile, and behind the last
   std::vector<double> plastic, viscous;
   std::unique_ptr<bool[]> upright_storage;
@@ -23,6 +24,8 @@ struct Elements::Group : CellGroup {
   long first_slot = 0;           ///< of all slots
   std::string body;
 
+  /// A constant of a one-point cell.
+  double constant(int block, int item, int lane) const { return constants_storage[static_cast<std::size_t>(constant_sets[block]) * one_point_items(dimension, ring) + item][lane]; }
   int first_block(long t) const { return static_cast<int>(t) * tile; }
   int last_block(long t) const { return blocks < first_block(t + 1) ? blocks : first_block(t + 1); }
 };

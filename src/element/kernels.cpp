@@ -46,7 +46,7 @@ template <class Cell> void gather_ways(const int* nodes, const double* field, Ve
 
 /// Constants of a block of one-point cells; null elsewhere.
 template <class Cell> const double* constants_of(const CellGroup& g, long block) {
-  if constexpr (Cell::one_point) return g.constants + block * OnePoint<kD<Cell>, Cell::ring>::items * kLanes;
+  if constexpr (Cell::one_point) return g.constants + static_cast<long>(g.constant_set[block]) * OnePoint<kD<Cell>, Cell::ring>::items * kLanes;
   else return nullptr;
 }
 template <class Cell> double* hourglass_of(const CellGroup& g, long block) { return g.hourglass + block * g.hourglass_items * kLanes; }

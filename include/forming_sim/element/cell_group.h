@@ -43,7 +43,8 @@ struct CellGroup {
 
   const int* nodes = nullptr;      ///< [block][cell node][lane] joined node index
   double* memory = nullptr;        ///< [block][simplex][items][lane]
-  const double* constants = nullptr;  ///< one-point cells: [block][OnePoint::items][lane]
+  const double* constants = nullptr;  ///< one-point cells: [set][OnePoint::items][lane]
+  const int* constant_set = nullptr;  ///< likewise: [block] its set, shared by blocks of the same shape
   double* hourglass = nullptr;        ///< likewise: [block][hourglass_items][lane], memory
   int hourglass_items = 0;
   const int* slots = nullptr;      ///< [block][cell node][lane] where in `sums` the slot starts that the node has in the tile; of a copy one that no node reads

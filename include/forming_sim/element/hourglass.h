@@ -3,17 +3,18 @@
 //
 // About the centre the deformation gradient is F (I + Z), Z = sum_alpha F^-1 q_alpha (x) grad h_alpha,
 // and Z is the variation of the logarithmic strain across the cell, also where F is a large
-// plastic stretch. Its parts that vary linearly with one coordinate are kept normal to that
-// coordinate only: in 3D the plane tensor
+// plastic stretch. Of its parts that vary linearly with one coordinate only those are kept that lie in the
+// plane of the fibres u_i, u_j, the cell's edges along the other two: in 3D the plane tensor with
 //
-//   e_d = sym(z_i (x) A_j + z_j (x) A_i) in the plane of E_i and E_j,   d, i, j cyclic,
+//   u_i . e_d u_i = a_i z_j . u_i,   u_j . e_d u_j = a_j z_i . u_j,
+//   2 u_i . e_d u_j = a_j z_i . u_i + a_i z_j . u_j,   d, i, j cyclic,
 //
-// (times xi_d; z and A = `slopes` of one_point.h), in 2D e_i = A_ii z_i along E_i and nothing
-// along E_3. The stress that goes with them is plane: it has no component along xi_d. Thus a
+// (times xi_d; z, u = `fibres` and a = `slopes` of one_point.h), in 2D e_i = a_i z . u_i along u_i and nothing
+// along E_3. The stress that goes with them is plane: it has no component across that plane. Thus a
 // bent cell is neither too stiff in shear, at any ratio of its edges, nor near nu = 1/2, and its
 // bending is exact, with E/(1-nu^2) in plane strain (the assumed strain of Belytschko and
-// Bindeman, 1991, 1993). The part that varies with two coordinates, xi eta zeta, is uniaxial: e = A_mm z_m
-// along each E_m. The energy is quadratic,
+// Bindeman, 1991, 1993; in a parallelogram it is the quadrilateral of Pian and Sumihara, 1984). The part that varies with two
+// coordinates, xi eta zeta, is uniaxial: e = a_m z . u_m along each u_m. The energy is quadratic,
 //
 //   U = V0 [ 1/6 sum_d s_d : (e_d - ep_d) + 1/18 sum_m E (e_m - ep_m)^2 ],
 //   s_d = C (e_d - ep_d),  C the moduli of plane stress,
@@ -21,16 +22,12 @@
 // 1/3 and 1/9 the means of xi_d^2 and (xi eta)^2; the nodal forces are its gradient, with that of
 // F^-1 in it, so that momenta and rotations are exact.
 //
-// Plasticity. ep is a memory. With S the law's deviator of the trial and p' the variation
-// of the plastic strain, the stress at two points xi_d = +-h is S +- h s_d; each is
-// returned to the yield surface as the law does it, by
-//   dp+- = (q+- - sigma_s -+ h H p') / (3 mu + H) where it is positive,  H = d sigma_s/dp,
-// and the plastic strains there, 3/2 dp (S +- h dev s)/q, change mean and variation; the mean is the
-// law's own affair, their variation is that of ep, and p' changes likewise. Where both points flow, s
-// follows the tangent of the hardening curve along the flow and relaxes across it, as the
-// points of a fine mesh would; where none does, the cell is elastic; across a neutral axis, where
-// S = 0, s is bounded, and h = 2/3 makes the moment of the cell that of the rectangle of yield stress.
-// What the points dissipate beside the centre is s : d ep V0/3.
+// Plasticity. ep of each coordinate is a memory, with p', the variation of its plastic strain. Mean stress and s_d share the
+// yield surface of element/hourglass_flow.h: where a coordinate is outside, what the law has returned is taken back, and mean and
+// variation flow together, one coordinate after the other. Where the whole cell flows, s follows the tangent of the hardening
+// curve along the flow and relaxes across it, as the points of a fine mesh would; where S = 0, s is bounded such that the moment
+// of the cell is that of the rectangle of yield stress. The last mode relaxes as the mean does.
+// What the variation dissipates beside the mean is s : d ep V0/3.
 #include "forming_sim/element/hourglass_flow.h"
 #include "forming_sim/element/one_point_ring.h"
 #include "forming_sim/material/law.h"
@@ -219,7 +216,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
     T p;
     load(memory, size, p);
     const YieldStress<T> yield = yield_stress(layer.hardening, p);
-    if (!any(may_yield(point.S, yield, ep, hourglass_memory))) return relax_all(layer, yield.value, point.kept, ep);
+    if (!may_yield(point.S, yield, ep, hourglass_memory)) return relax_all(layer, yield.value, point.kept, ep);
     const Axes axes(edges_);
     const auto plane = [&](int d) { return PlaneOf<T, D>(axes.e, fibres_, d); };
     MeanFlow<T, D> mean{point.S, {}, T(2) * factor, yield.value, yield.slope, T(0)};
@@ -250,19 +247,27 @@ template <class T, int D, bool Ring = false> class Hourglass {
     return relax_all(layer, mean.sigma, left, ep) || together;
   }
 
-  /// Whether a coordinate can be outside its surface: Q_n + mu <= Q_n + sqrt(Q_n Q_m) + Q_m, without directions.
-  auto may_yield(const Symmetric<T, D>& S, const YieldStress<T>& yield, const Strain& ep, const double* hourglass_memory) const {
-    const T one = T(1) / yield.value, n = sqrt(T(1.5) * contract(S, S)) * one;
-    T most(0);
+  /// Whether a coordinate can be outside its surface: Q_n + mu <= Q_n + sqrt(Q_n Q_m) + Q_m, without directions; asked
+  /// first without roots, by sqrt(Q_n Q_m) <= (Q_n + Q_m)/2.
+  bool may_yield(const Symmetric<T, D>& S, const YieldStress<T>& yield, const Strain& ep, const double* hourglass_memory) const {
+    const T one = T(1) / yield.value, n2 = T(1.5) * contract(S, S) * one * one;
+    T q2[D], back[D], most(0);  // of each coordinate: squared face stress and the shift by p', over sigma_s
     for (int d = 0; d < D; ++d) {
       T rise;
       load(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise);
       const Plane<T> s = moduli_.stress(strain_.plane[d] - ep.plane[d]);
-      const T q = sqrt(s.a * s.a + s.b * s.b - s.a * s.b + T(3) * s.shear * s.shear);
-      const T m = T(kFaceStress) * (q * one + absolute(yield.slope * rise) * one * n);
-      most = larger(most, n * n + n * m + m * m);
+      q2[d] = (s.a * s.a + s.b * s.b - s.a * s.b + T(3) * s.shear * s.shear) * one * one;
+      back[d] = absolute(yield.slope * rise) * one;
+      most = larger(most, q2[d] + back[d] * back[d] * n2);
     }
-    return most > T(1 + 1e-12);
+    if (!any(T(1.5) * (n2 + T(2 * kFaceStress * kFaceStress) * most) > T(1))) return false;
+    const T n = sqrt(n2);
+    most = T(0);
+    for (int d = 0; d < D; ++d) {
+      const T m = T(kFaceStress) * (sqrt(q2[d]) + back[d] * n);
+      most = larger(most, n2 + n * m + m * m);
+    }
+    return any(most > T(1 + 1e-12));
   }
 
   /// The last mode, of hexahedra; whether it flows.
