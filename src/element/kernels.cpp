@@ -206,8 +206,15 @@ template <class Cell> [[gnu::noinline]] Viscosity viscosity_of_block(const CellG
   return {q, q * D_v * V};
 }
 
+/// Where a Pack takes several registers, their operations fill each other's waiting times already.
+#if defined(__AVX512F__)
+constexpr bool kOneRegister = true;
+#else
+constexpr bool kOneRegister = false;
+#endif
+
 /// Simplices of a cell that go through the law together.
-template <class Cell> using Together = std::conditional_t<Cell::one_point || Cell::simplices % 2 == 1, Pack, Twin<Pack>>;
+template <class Cell> using Together = std::conditional_t<!kOneRegister || Cell::one_point || Cell::simplices % 2 == 1, Pack, Twin<Pack>>;
 
 inline bool of_von_mises(Law law) { return law == Law::green_elastic || law == Law::paper; }
 
