@@ -1,10 +1,16 @@
 // Every number that the next steps depend on, to bytes and back.
+#include <cstdint>
 #include <sstream>
 
 #include "simulation/archive.h"
 #include "simulation/impl.h"
 
 namespace forming_sim {
+
+namespace {
+/// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
+constexpr std::uint64_t kLayout = 0x6d726f6600000002u;
+}  // namespace
 
 template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.numbers(x.data()->data(), x.size() * 4);
@@ -34,6 +40,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
 std::vector<char> Simulation::save() const {
   Impl& s = *impl_;
   Writer out;
+  out.number(kLayout);
   out.number(s.elements.simplices().size());
   out.number(s.x.size());
   out.number(s.tools.size());
@@ -49,6 +56,9 @@ std::vector<char> Simulation::save() const {
 void Simulation::restore(const std::vector<char>& data) {
   Impl& s = *impl_;
   Reader in(data);
+  std::uint64_t layout = 0;
+  in.number(layout);
+  if (layout != kLayout) throw Error(Code::resume_error, "the checkpoint was written by another build of this version, which keeps other things; resume with the build that wrote it");
   std::size_t simplices = 0, nodes = 0, tools = 0;
   in.number(simplices);
   in.number(nodes);
