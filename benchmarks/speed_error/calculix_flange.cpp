@@ -129,7 +129,7 @@ void flange_by_calculix(Report& report, const Flanged& reference) {
       if (table.what == "displacements") (table.set == "TOP" ? top : bottom) = places(table, deck);
       if (table.what != "total") continue;
       punch.way.push_back(way * table.time);
-      punch.force.push_back(-table.rows.at(0).at(1) / (1e3 * cell));  // on the punch, N/m
+      punch.force.push_back(-table.rows.at(0).at(1) / cell);  // of the sheet on the punch, N/m
     }
     // As the scene has it: means over equal parts of the time in which the punch goes from rest to rest.
     constexpr int parts = 20, points = 50;

@@ -10,9 +10,9 @@ namespace forming_sim {
 
 namespace {
 
-constexpr int kBits = 64;              ///< colours of tiles, packs of a tile; what finds none of them comes after them, one by one
-constexpr long kMostPairsOfATile = 384, kLeastPairsOfATile = 64;  ///< 48 packs where all are full
-constexpr long kTilesAimedAt = 32;     ///< where there are not enough pairs for as many full ones
+constexpr int kBits = 64;              ///< colours of tiles, of pairs in a tile; what finds none of them comes after them, one by one
+constexpr long kMostPairsOfATile = 2048, kLeastPairsOfATile = 256;  ///< many enough to fill the packs of some 20 colours, few enough for the cache
+constexpr long kTilesAimedAt = 16;     ///< where there are not pairs enough for as many full ones
 
 constexpr int kPlainSweeps = 3;        ///< before over-relaxation; pairs that share no node are done after two
 constexpr double kMostOmega = 1.9;
@@ -91,40 +91,44 @@ template <class Work> void Sweeps::each_tile(Work&& work) {
   }
 }
 
-// Every pair goes to the first pack that has a lane left and none of its nodes. Tiles of the same
-// colour do so at the same time: none writes to a node of another.
+// Every pair takes the first colour that none of its nodes has in this tile; a colour fills packs of its own, so that
+// packs that follow each other mostly do not wait for each other's nodes. Tiles of the same colour do so at the same
+// time: none writes to a node of another.
 void Sweeps::pack(Tile& tile, const Workspace& work, const std::vector<ContactPair>& pairs, const std::vector<Rub>& rubs) {
   for (long i = tile.first; i < tile.last; ++i) each_mover(work, pairs[i], [&](int n) { taken_[n] = 0; });
-  std::uint64_t full = 0;
-  int filled[kBits] = {};
-  long packs = 0, left_over = kBits;
+  long of_colour[kBits + 1] = {};  // the last: pairs left over
   bool any_rubs = false;
   for (long i = tile.first; i < tile.last; ++i) {
     const ContactPair& pair = pairs[i];
-    std::uint64_t taken = full;
+    std::uint64_t taken = 0;
     each_mover(work, pair, [&](int n) { taken |= taken_[n]; });
-    const int p = first_free(taken);
+    const int colour = first_free(taken);
+    if (colour < kBits) each_mover(work, pair, [&](int n) { taken_[n] |= std::uint64_t{1} << colour; });
     any_rubs = any_rubs || pair.rub >= 0;
-    if (p == kBits) {
-      place_[i] = left_over++ * kLanes;
-      continue;
-    }
-    const std::uint64_t bit = std::uint64_t{1} << p;
-    each_mover(work, pair, [&](int n) { taken_[n] |= bit; });
-    place_[i] = static_cast<long>(p) * kLanes + filled[p]++;
-    if (filled[p] == kLanes) full |= bit;
-    packs = std::max(packs, static_cast<long>(p) + 1);
+    place_[i] = colour;
+    ++of_colour[colour];
+  }
+  long next[kBits + 1], packs = 0;
+  std::vector<long>& part_empty = tile.part_empty;
+  part_empty.clear();
+  for (int c = 0; c < kBits; ++c) {
+    next[c] = packs * kLanes;
+    packs += (of_colour[c] + kLanes - 1) / kLanes;
+    if (of_colour[c] % kLanes > 0) part_empty.push_back(packs - 1);
+  }
+  next[kBits] = packs * kLanes;
+  for (long p = 0; p < of_colour[kBits]; ++p) part_empty.push_back(packs++);  // a pack each
+  for (long i = tile.first; i < tile.last; ++i) {
+    const long colour = place_[i];
+    place_[i] = next[colour];
+    next[colour] += colour < kBits ? 1 : kLanes;
   }
   static const PairPack no_pairs = empty_pack();
   static const RubPack no_rubs = empty_rub();
-  if (left_over > kBits) packs = left_over;
   tile.packs.resize(packs);
-  tile.rubs.resize(any_rubs ? packs : 0);
-  for (long p = 0; p < packs; ++p) {
-    if (p >= kBits || filled[p] < kLanes) tile.packs[p] = no_pairs;
-    tile.packs[p].nodes = tile.packs[p].held = 0;
-    if (any_rubs) tile.rubs[p] = no_rubs;
-  }
+  tile.rubs.assign(any_rubs ? packs : 0, no_rubs);
+  for (long p : part_empty) tile.packs[p] = no_pairs;
+  for (PairPack& p : tile.packs) p.nodes = p.held = 0;
   for (long i = tile.first; i < tile.last; ++i) {
     const ContactPair& pair = pairs[i];
     PairPack& p = tile.packs[place_[i] / kLanes];

@@ -8,9 +8,9 @@
 // allowed number they are plain again, which cannot fail to approach.
 //
 // The pairs are visited tile by tile: a tile is a run of pairs in the order of their keys,
-// which lie near each other, so that their nodes stay in cache. Within a tile eight pairs that
-// share no node that can move are visited at a time (pair_pack.h). Tiles have colours: those of
-// one colour share no node that can move either, so that their order does not matter: the
+// which lie near each other, so that their nodes stay in cache. Within a tile pairs have colours: those of
+// one colour share no node that can move, and eight of them are visited at a time (pair_pack.h). Tiles have
+// colours in the same way: the order of those of one colour does not matter either, so that the
 // threads share them, and the result is that of one thread.
 #include <cstdint>
 #include <vector>
@@ -43,6 +43,7 @@ class Sweeps {
     long first, last;             ///< of the pairs
     std::vector<PairPack> packs;
     std::vector<RubPack> rubs;    ///< one per pack; empty: none of the pairs rubs
+    std::vector<long> part_empty; ///< packs with lanes that are not in use
     const RubPack* rub() const { return rubs.empty() ? nullptr : rubs.data(); }
     RubPack* rub() { return rubs.empty() ? nullptr : rubs.data(); }
   };
@@ -58,7 +59,7 @@ class Sweeps {
   long tile_count_ = 0, tiles_of_a_thread_ = 1;
   std::vector<long> order_;            ///< of the tiles, by colour
   std::vector<long> colour_ends_;      ///< places in order_
-  std::vector<std::uint64_t> taken_;   ///< per node: colours of its tiles, then packs of its pairs; one bit each
+  std::vector<std::uint64_t> taken_;   ///< per node: colours of its tiles, then of its pairs in a tile; one bit each
   std::vector<long> place_;            ///< per pair: its lane, counted through the packs of its tile
   std::vector<const double*> projector_;
 };
