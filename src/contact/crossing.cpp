@@ -8,19 +8,30 @@
 namespace forming_sim {
 namespace {
 
-// Of features that lie in one plane rounding would decide: below it they count as
-// in the plane, and what only touches has not passed.
+// Of features that nearly lie in one plane, as edges side by side do, rounding would decide: below this share of the
+// largest volume that such edges can span it is computed again with twice as many digits, which leaves nothing to rounding.
 constexpr double kRounding = 1e-14;
+__extension__ typedef __float128 Wide;
 
 double volume(const Node& a, const Node& b, const Node& c, const Node& d) {
   const Node u = b - a, v = c - a, w = d - a;
   const double six_volumes = dot3(cross3(u, v), w);
-  return six_volumes * six_volumes > kRounding * kRounding * dot3(u, u) * dot3(v, v) * dot3(w, w) ? six_volumes : 0;
+  if (six_volumes * six_volumes > kRounding * kRounding * dot3(u, u) * dot3(v, v) * dot3(w, w)) return six_volumes;
+  Wide e[3][3];
+  for (int k = 0; k < 3; ++k) {
+    const Wide from = a[k];
+    e[0][k] = b[k] - from;
+    e[1][k] = c[k] - from;
+    e[2][k] = d[k] - from;
+  }
+  return static_cast<double>((e[0][1] * e[1][2] - e[0][2] * e[1][1]) * e[2][0] + (e[0][2] * e[1][0] - e[0][0] * e[1][2]) * e[2][1] +
+                             (e[0][0] * e[1][1] - e[0][1] * e[1][0]) * e[2][2]);
 }
 double area(const Node& a, const Node& b, const Node& c) {
   const Node u = b - a, v = c - a;
   const double two_areas = u[0] * v[1] - u[1] * v[0];
-  return two_areas * two_areas > kRounding * kRounding * dot3(u, u) * dot3(v, v) ? two_areas : 0;
+  if (two_areas * two_areas > kRounding * kRounding * dot3(u, u) * dot3(v, v)) return two_areas;
+  return static_cast<double>((Wide(b[0]) - a[0]) * (Wide(c[1]) - a[1]) - (Wide(b[1]) - a[1]) * (Wide(c[0]) - a[0]));
 }
 
 class Finder {

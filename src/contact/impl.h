@@ -64,6 +64,7 @@ struct Contact::Impl {
   NodeField v_star;
   Narrow near;
   Sweeps sweeps;
+  std::vector<PairRecord> tried;  ///< pairs of the last attempt at this step that failed
   std::vector<double> moved;
   std::vector<double> sum, weighted, total;  ///< per entry of the workspace
 

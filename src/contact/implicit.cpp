@@ -71,7 +71,7 @@ int Contact::Impl::first_touch(double dt) {
   std::atomic<long> found{kNone};
   team.share(static_cast<long>(near.close.size()), kPairsOfAThread, [&](long first, long last) {
     for (long c = first; c < last && c < found; ++c)
-      if (near.close[c].distance * 0.999 <= far_apart && touches(dt, near.close[c])) {
+      if (0.999 * near.close[c].distance <= far_apart && touches(dt, near.close[c])) {
         for (long other = found; c < other && !found.compare_exchange_weak(other, c);) {}
         return;
       }
@@ -180,6 +180,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
   ContactStep step;
   Laps laps(times);
   bool all = false;  // let pairs that push askew act before they are in their layer
+  tried.clear();
   for (;;) {
     const std::vector<ToolMotion> motion = tools_at(dt);
     predict(dt, v_star);
@@ -202,7 +203,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
       if (list.size() == 0) break;
       gather(x, v, dt, motion, planes);
       narrow_phase(constants(), planes, all, reach, travel, team, list, near);
-      assign_layers(records, work, dt, layer, ceiling, team, near.pairs, near.rubs);
+      assign_layers(records, tried, work, dt, layer, ceiling, team, near.pairs, near.rubs);
       laps.done(&ContactTimes::narrow);
       swept = SweepResult();
       if (!near.pairs.empty() || !tie_pairs.empty())
@@ -215,6 +216,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
       way = std::max(bound / 2, both * std::sqrt(most) * dt + tool_way);
       if (way <= bound) break;
     }
+    tried.clear();
     step.sweeps += swept.sweeps;
     check_unmovable(time + dt);
     const int touch = swept.open ? first_touch(dt) : -1;
@@ -223,6 +225,8 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
       moved_by(way);
       break;
     }
+    for (const ContactPair& pair : near.pairs)
+      if (pair.impulse > 0) tried.push_back(record_of(pair, near.rubs, dt));
     if (!all) {
       all = true;
       continue;

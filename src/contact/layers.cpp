@@ -79,23 +79,27 @@ class Left {
 
 }  // namespace
 
-void assign_layers(const std::vector<PairRecord>& before, const Workspace& work, double dt, double full, double ceiling, Team& team,
+void assign_layers(const std::vector<PairRecord>& before, const std::vector<PairRecord>& tried, const Workspace& work, double dt, double full, double ceiling, Team& team,
                    std::vector<ContactPair>& pairs, std::vector<Rub>& rubs) {
   std::mutex one;
   std::vector<long> born;  // inside their layer
   const auto rising = [](const PairRecord& r, const PairKey& key) { return r.key < key; };
   team.share(static_cast<long>(pairs.size()), kPairsOfAThread, [&](long first, long last) {
+    const std::vector<PairRecord>& last_try = tried.empty() ? before : tried;
     auto r = std::lower_bound(before.begin(), before.end(), pairs[first].key, rising);
+    auto t = std::lower_bound(last_try.begin(), last_try.end(), pairs[first].key, rising);
     std::vector<long> inside;
     for (long i = first; i < last; ++i) {
       ContactPair& pair = pairs[i];
       while (r != before.end() && r->key < pair.key) ++r;
+      while (t != last_try.end() && t->key < pair.key) ++t;
       pair.impulse = 0;
+      if (t != last_try.end() && t->key == pair.key && pair.w > 0) {
+        pair.impulse = dt * t->force;
+        if (pair.rub >= 0) rubs[pair.rub].slip = dt * Node(t->drag[0], t->drag[1], t->drag[2], 0);
+      }
       if (r != before.end() && r->key == pair.key) {
         pair.layer = pair.base < full ? std::min(r->layer, pair.base) : r->layer;
-        if (pair.w == 0) continue;
-        pair.impulse = dt * r->force;
-        if (pair.rub >= 0) rubs[pair.rub].slip = dt * Node(r->drag[0], r->drag[1], r->drag[2], 0);
       } else if (pair.gap >= pair.base) {
         const double raised = std::min(ceiling, 0.1 * closing_speed(pair, work) * dt);
         pair.layer = std::max(pair.base, std::min(pair.gap, raised));
@@ -113,14 +117,17 @@ void assign_layers(const std::vector<PairRecord>& before, const Workspace& work,
   for (long i : born) left.inherit(pairs[i]);
 }
 
+PairRecord record_of(const ContactPair& pair, const std::vector<Rub>& rubs, double dt) {
+  const Node drag = pair.rub >= 0 ? Node(rubs[pair.rub].slip / dt) : Node(Node::Zero());
+  return {pair.key, pair.own, pair.surface, pair.layer, pair.end_gap, pair.impulse / dt, {drag[0], drag[1], drag[2]}};
+}
+
 void relax_layer(double dt, double growth, const std::vector<Rub>& rubs, ContactPair& pair, RelaxedPotential& potential, std::vector<PairRecord>& after) {
   const double old = pair.layer, before = mild_potential(pair.end_gap, old, pair.stiffness);
   pair.layer = old < pair.base ? std::min(pair.base, old + growth) : std::max(pair.base, old - growth);
   potential.before += before;
   potential.after += pair.layer == old ? before : mild_potential(pair.end_gap, pair.layer, pair.stiffness);
-  if (!(pair.end_gap < std::max(pair.layer, pair.base))) return;
-  const Node drag = pair.rub >= 0 ? Node(rubs[pair.rub].slip / dt) : Node(Node::Zero());
-  after.push_back({pair.key, pair.own, pair.surface, pair.layer, pair.end_gap, pair.impulse / dt, {drag[0], drag[1], drag[2]}});
+  if (pair.end_gap < std::max(pair.layer, pair.base)) after.push_back(record_of(pair, rubs, dt));
 }
 
 }  // namespace forming_sim

@@ -19,15 +19,18 @@ struct PairRecord {
 };
 
 /// Sets `layer` of all pairs, and impulse and slip of known ones to those of the step before, from which
-/// the sweeps start; both lists in the order of the keys.
+/// the sweeps start, or where the step was `tried` already to those that this found; all lists in the order of the keys.
 ///  known            as it was; never more than half a layer for edges out of their wedge
 ///  new, h >= base   base, or .1 of the closing motion of the step where that is more, but not above h or `ceiling`
 ///  new, h < base    h: no force at first. Where the vertex or edge of either side has just left another
 ///                   feature of the other surface, that pair's layer goes over, to one new pair, so that
 ///                   the potential, a function of h/h0, does not rise.
 /// dt: of the step; work.v: predicted velocities. full: h0.
-void assign_layers(const std::vector<PairRecord>& before, const Workspace& work, double dt, double full, double ceiling, Team& team,
+void assign_layers(const std::vector<PairRecord>& before, const std::vector<PairRecord>& tried, const Workspace& work, double dt, double full, double ceiling, Team& team,
                    std::vector<ContactPair>& pairs, std::vector<Rub>& rubs);
+
+/// What is known of a pair at the end of a step of dt.
+PairRecord record_of(const ContactPair& pair, const std::vector<Rub>& rubs, double dt);
 
 /// Potential of pairs at their end gaps, J, before and after relax_layer;
 /// the difference is the work of the layers' growth.
