@@ -8,31 +8,39 @@
 namespace forming_sim {
 namespace {
 
-// Of features that nearly lie in one plane, as edges side by side do, rounding would decide: below this share of the
-// largest volume that such edges can span it is computed again with twice as many digits, which leaves nothing to rounding.
+// Of features that nearly lie in one plane, as faces and edges side by side do, rounding would decide. Below this
+// share of the largest volume that its edges can span a vertex counts as in the plane, and what only touches has not passed;
+// on which side of an edge something passed is then computed with twice as many digits, which leaves nothing to rounding.
 constexpr double kRounding = 1e-14;
 __extension__ typedef __float128 Wide;
 
-double volume(const Node& a, const Node& b, const Node& c, const Node& d) {
-  const Node u = b - a, v = c - a, w = d - a;
-  const double six_volumes = dot3(cross3(u, v), w);
-  if (six_volumes * six_volumes > kRounding * kRounding * dot3(u, u) * dot3(v, v) * dot3(w, w)) return six_volumes;
-  Wide e[3][3];
+/// Six volumes of a tetrahedron.
+template <class T> T volume(const Node& a, const Node& b, const Node& c, const Node& d) {
+  T u[3], v[3], w[3];
   for (int k = 0; k < 3; ++k) {
-    const Wide from = a[k];
-    e[0][k] = b[k] - from;
-    e[1][k] = c[k] - from;
-    e[2][k] = d[k] - from;
+    u[k] = T(b[k]) - T(a[k]);
+    v[k] = T(c[k]) - T(a[k]);
+    w[k] = T(d[k]) - T(a[k]);
   }
-  return static_cast<double>((e[0][1] * e[1][2] - e[0][2] * e[1][1]) * e[2][0] + (e[0][2] * e[1][0] - e[0][0] * e[1][2]) * e[2][1] +
-                             (e[0][0] * e[1][1] - e[0][1] * e[1][0]) * e[2][2]);
+  return (u[1] * v[2] - u[2] * v[1]) * w[0] + (u[2] * v[0] - u[0] * v[2]) * w[1] + (u[0] * v[1] - u[1] * v[0]) * w[2];
 }
-double area(const Node& a, const Node& b, const Node& c) {
-  const Node u = b - a, v = c - a;
-  const double two_areas = u[0] * v[1] - u[1] * v[0];
-  if (two_areas * two_areas > kRounding * kRounding * dot3(u, u) * dot3(v, v)) return two_areas;
-  return static_cast<double>((Wide(b[0]) - a[0]) * (Wide(c[1]) - a[1]) - (Wide(b[1]) - a[1]) * (Wide(c[0]) - a[0]));
+/// Two areas of a triangle in the plane.
+template <class T> T area(const Node& a, const Node& b, const Node& c) {
+  return (T(b[0]) - T(a[0])) * (T(c[1]) - T(a[1])) - (T(b[1]) - T(a[1])) * (T(c[0]) - T(a[0]));
 }
+
+/// On which side of abc (2D: ab) is p? 0: in the plane, to rounding.
+double side(const Node& a, const Node& b, const Node& c, const Node& p) {
+  const Node u = b - a, v = c - a, w = p - a;
+  const double size = volume<double>(a, b, c, p);
+  return size * size > kRounding * kRounding * dot3(u, u) * dot3(v, v) * dot3(w, w) ? size : 0;
+}
+double side(const Node& a, const Node& b, const Node& p) {
+  const Node u = b - a, v = p - a;
+  const double size = area<double>(a, b, p);
+  return size * size > kRounding * kRounding * dot3(u, u) * dot3(v, v) ? size : 0;
+}
+int sign(const Wide& a) { return a > 0 ? 1 : a < 0 ? -1 : 0; }
 
 class Finder {
  public:
@@ -112,15 +120,15 @@ class Finder {
 }  // namespace
 
 bool segments_cross(const Node& p, const Node& q, const Node& a, const Node& b, bool border) {
-  if (!(area(a, b, p) * area(a, b, q) < 0)) return false;
-  const double u = area(p, q, a), v = area(p, q, b);
+  if (!(side(a, b, p) * side(a, b, q) < 0)) return false;
+  const int u = sign(area<Wide>(p, q, a)), v = sign(area<Wide>(p, q, b));
   return border ? u * v <= 0 && u != v : u * v < 0;
 }
 
 bool pierces(const Node& p, const Node& q, const Node& a, const Node& b, const Node& c, bool border) {
-  if (!(volume(a, b, c, p) * volume(a, b, c, q) < 0)) return false;
-  const double u = volume(p, q, a, b), v = volume(p, q, b, c), w = volume(p, q, c, a);
-  const double low = std::min({u, v, w}), high = std::max({u, v, w});
+  if (!(side(a, b, c, p) * side(a, b, c, q) < 0)) return false;
+  const int u = sign(volume<Wide>(p, q, a, b)), v = sign(volume<Wide>(p, q, b, c)), w = sign(volume<Wide>(p, q, c, a));
+  const int low = std::min({u, v, w}), high = std::max({u, v, w});
   return border ? (low >= 0 && high > 0) || (high <= 0 && low < 0) : low > 0 || high < 0;
 }
 

@@ -200,6 +200,17 @@ TEST(ContactCrossing, FeaturesInOnePlaneDoNotPierce) {
   EXPECT_TRUE(pierces(centre + up, centre - up, a, b, c, false));
 }
 
+// Two blocks that have met: an edge that stands 3e-8 off one that runs along it to 5e-8, and goes through the plane of that one's
+// side face. The volume that the two edges span is a hundredth of the rounding of a product of their coordinates.
+TEST(ContactCrossing, EdgesSideBySideDoNotPierceTheFacesBehind) {
+  const Node p(-1.9177918551014278e-06, .33333333333082826, -2.7700304083259816e-11, 0), q(-1.7991047040509931e-06, .50000000000001954, -3.2161357386641134e-11, 0);
+  const Node a(-.1999909478690636, .3999999999992212, -1.2048563982717011e-11, 0), b(-1.9033706914785115e-06, .39999999999868252, -3.0885936566731568e-11, 0),
+      c(-1.7519346683897214e-06, .60000000000089093, -2.6802785489306593e-11, 0);
+  EXPECT_FALSE(pierces(p, q, a, b, c, true));
+  const Node into(-1e-6, 0, 0, 0);
+  EXPECT_TRUE(pierces(p + into, q + into, a, b, c, true));
+}
+
 // Every vertex-facet and edge-edge pair within the radius is listed, no other.
 TEST(ContactSearch, ListAgainstAllPairs) {
   for (int dimension : {2, 3}) {
