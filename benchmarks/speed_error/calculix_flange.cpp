@@ -132,12 +132,12 @@ void flange_by_calculix(Report& report, const Flanged& reference) {
       punch.force.push_back(-table.rows.at(0).at(1) / cell);  // of the sheet on the punch, N/m
     }
     // As the scene has it: means over equal parts of the time in which the punch goes from rest to rest.
-    constexpr int parts = 20, points = 50;
+    constexpr int points = 50;
     const RigidMotion motion(*scene.tools[2].motion, 2);
-    for (int k = 0; k < parts; ++k) {
+    for (int k = 0; k < kForceParts; ++k) {
       double sum = 0;
       for (int i = 0; i < points; ++i)
-        sum += punch.at(-motion.at(scene.stages[0].duration * (k + (i + 0.5) / points) / parts).translation.y());
+        sum += punch.at(-motion.at(scene.stages[0].duration * (k + (i + 0.5) / points) / kForceParts).translation.y());
       found.force.push_back(sum / points);
     }
     for (const auto* line : {&top, &bottom}) {

@@ -11,14 +11,12 @@
 namespace forming_sim::bench {
 namespace {
 
-constexpr int kParts = 20;
-
 /// The punch's impulse at the end of each part of its stage.
 class PunchForce : public Observer {
  public:
   explicit PunchForce(double duration) : duration_(duration) {}
   void on_step(const Simulation& sim) override {
-    while (static_cast<int>(force.size()) < kParts && sim.time() >= duration_ * static_cast<double>(force.size() + 1) / kParts) {
+    while (static_cast<int>(force.size()) < kForceParts && sim.time() >= duration_ * static_cast<double>(force.size() + 1) / kForceParts) {
       const double impulse = sim.tools()[2].impulse[1];  // die, pad, punch
       force.push_back((impulse - impulse_) / (sim.time() - time_));
       impulse_ = impulse;

@@ -9,6 +9,8 @@
 
 namespace forming_sim::bench {
 
+constexpr int kForceParts = 20;  ///< of the punch's stage, over each of which its force is a mean
+
 struct Flanged {
   RunSize size;
   std::vector<double> force;   ///< on the punch, N/m, means over equal parts of its way
