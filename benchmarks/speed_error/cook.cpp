@@ -19,7 +19,7 @@ Finished sheared(const Family& family, int cells, double loading) {
   const Clock clock;
   SteppedBody body(mesh, cook_material(), family.average);
   for (int n : mesh.sets.at("left")) body.free[n] = Node::Zero();
-  const NodeField full = cook_load(mesh, cells);
+  const NodeField full = cook_load(mesh);
   body.damping = kCookDamping;
   double dt = 0, time = 0;
   long steps = 0;

@@ -8,6 +8,7 @@
 #include "speed_error/families.h"
 #include "speed_error/report.h"
 #include "stepped_body.h"
+#include "support/free_mesh.h"
 
 namespace forming_sim::bench {
 namespace {
@@ -32,7 +33,7 @@ void swung(Report& report, const Swing& swing, const Family& family, int cells, 
   blank.pattern = family.pattern;
   blank.length = blank.width = blank.thickness = 1;
   blank.cells_along = blank.cells_across = blank.cells_through = cells;
-  const Mesh mesh = generate_blank(blank);
+  const Mesh mesh = is_free(family) ? free_box(Vec3::Ones(), 1.0 / cells) : generate_blank(blank);
   MaterialConfig material;
   material.density = 1100;
   material.youngs_modulus = 17e6;

@@ -93,7 +93,14 @@ void flange_problem(Report& report) {
     if (family.dimension != 2) continue;
     for (int through : {2, 3, 5}) {
       Scene scene = flange_scene(through);
-      scene.bodies[0].blank->pattern = family.pattern;
+      if (is_free(family)) {
+        const BlankConfig& blank = *scene.bodies[0].blank;
+        Mesh strip = free_rectangle(blank.length, blank.thickness, blank.thickness / through);
+        scene.bodies[0].mesh = inline_mesh(strip);
+        scene.bodies[0].blank.reset();
+      } else {
+        scene.bodies[0].blank->pattern = family.pattern;
+      }
       scene.bodies[0].pressure_average = family.average;
       add_flange(report, family.name, std::to_string(through) + " through", flange(scene), finest);
     }

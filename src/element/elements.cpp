@@ -1,5 +1,6 @@
 #include "element/alike.h"
 #include "element/group.h"
+#include "element/simplex_shape.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -36,18 +37,6 @@ PressureMode mode_of(const BodyModel& body, CellKind kind) {
 double element_share_of(CellKind kind) {
   return kind == CellKind::hex24 || kind == CellKind::crossed ? 0.02 : 0;
 }
-
-/// A simplex whose nodes stand at x: its edges as columns (2D: the third is the unit vector e_3,
-/// of a ring the hoop r e_3), and its volume.
-struct SimplexShape {
-  Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
-  double volume = 0;
-  SimplexShape(const NodeField& x, const std::array<int, 4>& corner, int dimension, bool ring) {
-    for (int m = 0; m < dimension; ++m) edges.col(m) = vec3(x[corner[m + 1]] - x[corner[0]]);
-    if (ring) edges(2, 2) = (x[corner[0]][0] + x[corner[1]][0] + x[corner[2]][0]) / 3;
-    volume = edges.determinant() / (dimension == 3 ? 6 : ring ? 2 / kTwoPi : 2);
-  }
-};
 
 /// Share of corner a in the mass of a simplex: equal shares; of a ring the integral of
 /// the corner's shape function, (2 R_a + R_b + R_c) / (4 (R_a + R_b + R_c)). It shows on the
@@ -110,7 +99,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   nodal_volume0_.assign(nodes, 0.0);
   nodal_bulk_.assign(nodes, 0.0);
   inertia_.assign(axisymmetric_ ? nodes : 0, 0.0);
-  std::vector<double> simplex_mass(inertia_.size(), 0.0);
+  std::vector<double> simplex_mass(inertia_.size(), 0.0), even_mass = simplex_mass;
   for (const BodyModel& body : bodies) {
     int first_element = body.first_element;
     for (const Cells& cells : body.mesh.cells) {
@@ -129,7 +118,8 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.element_share = element_share_of(cells.kind);
       any_nodal_ |= g.pressure == PressureMode::node;
       g.solid = solid_constants(body.material, g.curves);
-      g.items = D == 2 ? memory_items<2>(g.solid) : memory_items<3>(g.solid);
+      const bool at_edges = g.pressure == PressureMode::node;  // the law; what stays is V0
+      g.items = at_edges ? 1 : D == 2 ? memory_items<2>(g.solid) : memory_items<3>(g.solid);
       g.density = body.material.density * options.mass_scaling;
       g.linear_viscosity = options.linear_viscosity;
       g.quadratic_viscosity = options.quadratic_viscosity;
@@ -173,22 +163,18 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
                    << " at the start; every simplex needs a positive volume";
               throw Error(Code::mesh_error, what.str());
             }
-            const Eigen::Matrix3d up = initial.edges.inverse();  // rows: X^m
-            const Eigen::Matrix3d G = up * up.transpose();
-            Lane* memory = g.memory_storage.data() + (static_cast<std::size_t>(b) * shape.points + s) * g.items;
-            const auto start = [&](int item, double value) { memory[item][l] = value; };
-            if (D == 2) start_memory<2>(g.solid, {{G(0, 0), G(1, 1), G(2, 2), G(0, 1)}}, start);
-            else start_memory<3>(g.solid, {{G(0, 0), G(1, 1), G(2, 2), G(0, 1), G(1, 2), G(2, 0)}}, start);
-            memory[g.items - 1][l] = V0;
+            g.start(b * shape.points + s, l, initial.edges, V0);
             for (std::size_t i = 0; i < constants.size(); ++i) constants[i][l] = initial.constants[i];
             if (!first) continue;
             for (int a = 0; a < initial.nodes; ++a) mass_[initial.node[a]] += g.density * V0 * initial.share[a];
             if (is_one_point(cells.kind)) continue;  // it has no share in nodal pressures, and the bound of its step its own masses
             for (int a = 0; a < initial.nodes; ++a) {
-              nodal_volume0_[initial.node[a]] += V0 / (D + 1);
-              nodal_bulk_[initial.node[a]] = g.solid.K;
+              if (at_edges) {
+                nodal_volume0_[initial.node[a]] += V0 / (D + 1);
+                nodal_bulk_[initial.node[a]] = g.solid.K;
+              }
               if (!axisymmetric_) continue;
-              inertia_[initial.node[a]] = g.density;
+              even_mass[initial.node[a]] += g.density * V0 / (D + 1);
               simplex_mass[initial.node[a]] += g.density * V0 * initial.share[a];
             }
           }
@@ -199,7 +185,8 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
     }
   }
   for (std::size_t n = 0; n < inertia_.size(); ++n)
-    if (simplex_mass[n] > 0) inertia_[n] *= nodal_volume0_[n] / simplex_mass[n];
+    if (simplex_mass[n] > 0) inertia_[n] = even_mass[n] / simplex_mass[n];
+  for (const BodyModel& body : bodies) put_points_at_edges(body, x);
   record_size_ = D == 2 ? kRecord<2> : kRecord<3>;
   lay_tiles(nodes);
   pressure_.assign(any_nodal_ ? nodes : 0, 0.0);
@@ -210,6 +197,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
     g.constants = reinterpret_cast<double*>(g.constants_storage.data());
     g.constant_set = g.constant_sets.data();
     g.hourglass = reinterpret_cast<double*>(g.hourglass_storage.data());
+    g.node_share = reinterpret_cast<double*>(g.node_share_storage.data());
     g.slots = g.slot_storage.data();
     g.sums = slots_ + g.first_slot * record_size_;
     g.plastic_work = g.plastic.data();
@@ -237,13 +225,14 @@ void Elements::clear_slots(const Group& g, long t) const {
 
 void Elements::nodal_pressure(const NodalView& view) const {
   over_tiles([&](const Group& g, long t) {
+    if (g.pressure != PressureMode::node || g.at_edges) return;
     clear_slots(g, t);
-    kernels_.volumes(g, view, g.first_block(t), g.last_block(t));
+    kernels_.nodal.volumes(g, view, g.first_block(t), g.last_block(t));
   });
   team_->share(static_cast<long>(mass_.size()), kNodesOfAThread, [&](long first, long last) {
     for (long n = first; n < last; ++n) {
       double V = 0;
-      for (int k = slot_start_[n]; k < slot_start_[n + 1]; ++k) V += slots_[static_cast<long>(slot_index_[k]) * record_size_];
+      for (int k = slot_start_[n]; k < nodal_slots_[n]; ++k) V += slots_[static_cast<long>(slot_index_[k]) * record_size_];
       pressure_[n] = nodal_volume0_[n] > 0 ? nodal_bulk_[n] * (V / nodal_volume0_[n] - 1) : 0;
     }
   });
@@ -251,7 +240,8 @@ void Elements::nodal_pressure(const NodalView& view) const {
 
 void Elements::forces_of_tile(const CellGroup& cells, const Group& g, const NodalView& view, long t) const {
   clear_slots(g, t);
-  kernels_.forces(cells, view, g.first_block(t), g.last_block(t));
+  const auto forces = g.at_edges ? kernels_.edge.forces : g.pressure == PressureMode::node ? kernels_.nodal.forces : kernels_.forces;
+  forces(cells, view, g.first_block(t), g.last_block(t));
 }
 
 void Elements::forces_of_moved(Group& g, const NodalView& view) {
@@ -302,7 +292,7 @@ void Elements::sum_slots(NodeField& f) const {
 Elements::Location Elements::locate(int element) const {
   for (int k = static_cast<int>(groups_.size()) - 1; k >= 0; --k) {
     const Group& g = groups_[k];
-    if (element >= g.first_element)
+    if (g.parts > 0 && element >= g.first_element)
       return {k, (element - g.first_element) / g.parts, (element - g.first_element) % g.parts};
   }
   return {0, 0, 0};
@@ -343,6 +333,7 @@ void Elements::report_inversion(const NodeField& x) const {
          << "; a finer mesh there, larger tool radii or slower tools avoid it";
     throw Error(Code::mesh_error, what.str());
   }
+  report_edge_inversion(x);
   throw Error(Code::mesh_error, "a nodal position is not a number");
 }
 

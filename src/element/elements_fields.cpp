@@ -6,9 +6,18 @@
 
 namespace forming_sim {
 
+void Elements::add_bytes(const Group& g, GroupPlan& plan) const {
+  plan.memory_bytes += static_cast<double>((g.memory_storage.size() + g.constants_storage.size() + g.hourglass_storage.size()) * sizeof(Lane));
+  plan.state_bytes += static_cast<double>((g.memory_storage.size() / g.items * (g.items - 1) + g.hourglass_storage.size()) * sizeof(Lane));  // V0 stays
+  const double slots = static_cast<double>(g.tile_start.back() - g.tiles);  // of nodes
+  plan.force_bytes += slots * record_size_ * sizeof(double);
+  plan.index_bytes += (static_cast<double>(g.node_storage.size() + g.slot_storage.size()) + slots) * sizeof(int);
+}
+
 std::vector<GroupPlan> Elements::plan() const {
   std::vector<GroupPlan> groups;
   for (const Group& g : groups_) {
+    if (g.at_edges) continue;
     GroupPlan plan;
     plan.body = g.body;
     plan.kind = static_cast<CellKind>(g.kind);
@@ -16,11 +25,15 @@ std::vector<GroupPlan> Elements::plan() const {
     plan.layers = g.solid.layers;
     plan.cells = g.cells;
     plan.elements = static_cast<long>(g.cells) * g.cell_simplices;
-    plan.memory_bytes = static_cast<double>((g.memory_storage.size() + g.constants_storage.size() + g.hourglass_storage.size()) * sizeof(Lane));
-    plan.state_bytes = static_cast<double>((g.memory_storage.size() / g.items * (g.items - 1) + g.hourglass_storage.size()) * sizeof(Lane));  // V0 stays
-    const double slots = static_cast<double>(g.tile_start.back() - g.tiles);  // of nodes
-    plan.force_bytes = slots * record_size_ * sizeof(double);
-    plan.index_bytes = (static_cast<double>(g.node_storage.size() + g.slot_storage.size()) + slots) * sizeof(int);
+    add_bytes(g, plan);
+    // Those of a body's points at edges count as those of its first cells that ask for them.
+    const bool first = std::none_of(groups.begin(), groups.end(), [&](const GroupPlan& p) { return p.body == g.body && p.edge_points > 0; });
+    if (!g.edge_points.empty() && first)
+      for (const Group& points : groups_)
+        if (points.at_edges && points.body == g.body) {
+          plan.edge_points += points.cells;
+          add_bytes(points, plan);
+        }
     groups.push_back(plan);
   }
   return groups;
@@ -55,14 +68,23 @@ double Elements::viscous_work() const {
 }
 
 std::vector<double> Elements::plastic_strain() const {
-  std::vector<double> p(simplices_.size());
-  for (const Group& g : groups_)
+  std::vector<double> p(simplices_.size()), at_edges(points_);
+  for (const Group& g : groups_) {
+    if (!g.edge_points.empty()) continue;
     for (int cell = 0; cell < g.cells; ++cell)
-      for (int s = 0; s < g.parts; ++s) {
-        const Lane* memory = g.memory_storage.data() + (static_cast<std::size_t>(cell / kLanes) * g.cell_simplices + s % g.cell_simplices) * g.items;
+      for (int s = 0; s < g.cell_simplices; ++s) {
+        const Lane* memory = g.memory_storage.data() + (static_cast<std::size_t>(cell / kLanes) * g.cell_simplices + s) * g.items;
         const auto at = [&](int item) { return memory[item][cell % kLanes]; };
-        p[g.first_element + cell * g.parts + s] = dimension_ == 2 ? plastic_strain_of<2>(g.solid, at) : plastic_strain_of<3>(g.solid, at);
+        const double strain = dimension_ == 2 ? plastic_strain_of<2>(g.solid, at) : plastic_strain_of<3>(g.solid, at);
+        if (g.at_edges) at_edges[g.first_point + cell] = strain;
+        for (int part = s; part < g.parts; part += g.cell_simplices) p[g.first_element + cell * g.parts + part] = strain;
       }
+  }
+  for (const Group& g : groups_) {
+    if (g.edge_points.empty()) continue;
+    const std::vector<double> means = means_over_edges(g, at_edges, 1, 0);
+    std::copy(means.begin(), means.end(), p.begin() + g.first_element);
+  }
   return p;
 }
 
@@ -72,26 +94,39 @@ ElementFields Elements::observe(const NodeField& x) const {
   ElementFields fields;
   fields.stress.resize(simplices_.size());
   fields.volume_ratio.resize(simplices_.size());
+  std::vector<double> S(static_cast<std::size_t>(points_) * 6);  // of points at edges
   for (const Group& g : groups_) {
-    std::vector<Lane> stress(static_cast<std::size_t>(g.blocks) * g.cell_simplices * 6);
-    std::vector<Lane> ratio(static_cast<std::size_t>(g.blocks) * g.cell_simplices);
-    std::vector<double> energy(g.blocks);
+    const std::size_t simplices = static_cast<std::size_t>(g.blocks) * g.cell_simplices;
+    std::vector<Lane> stress(simplices * 6), ratio(simplices);
+    std::vector<double> energy(g.blocks, 0.0);
     team_->share(g.blocks, blocks_of_a_thread(g), [&](long first, long last) {
-      kernels_.observe(g, view, static_cast<int>(first), static_cast<int>(last), stress.data()->value, ratio.data()->value, energy.data());
+      const int from = static_cast<int>(first), to = static_cast<int>(last);
+      if (g.at_edges) kernels_.edge.observe(g, view, from, to, stress.data()->value, ratio.data()->value, energy.data());
+      else if (!g.edge_points.empty()) kernels_.nodal.observe(g, view, from, to, stress.data()->value, ratio.data()->value);
+      else kernels_.observe(g, view, from, to, stress.data()->value, ratio.data()->value, energy.data());
     });
     for (double e : energy) fields.stored_energy += e;
-    for (int cell = 0; cell < g.cells; ++cell)
+    for (int cell = 0; cell < g.cells; ++cell) {
+      const int l = cell % kLanes;
+      const std::size_t block = static_cast<std::size_t>(cell / kLanes) * g.cell_simplices;
+      if (g.at_edges)
+        for (int i = 0; i < 6; ++i) S[static_cast<std::size_t>(g.first_point + cell) * 6 + i] = stress[block * 6 + i][l];
       for (int s = 0; s < g.parts; ++s) {
-        const std::size_t at = static_cast<std::size_t>(cell / kLanes) * g.cell_simplices + s % g.cell_simplices;
-        const int l = cell % kLanes, element = g.first_element + cell * g.parts + s;
-        Sym& sigma = fields.stress[element];
-        for (int i = 0; i < 6; ++i) sigma[i] = stress[at * 6 + i][l];
+        const std::size_t at = block + s % g.cell_simplices;
+        const int element = g.first_element + cell * g.parts + s;
+        for (int i = 0; i < 6; ++i) fields.stress[element][i] = stress[at * 6 + i][l];
         fields.volume_ratio[element] = ratio[at][l];
       }
+    }
   }
+  for (const Group& g : groups_)
+    for (int i = 0; i < 6 && !g.edge_points.empty(); ++i) {
+      const std::vector<double> means = means_over_edges(g, S, 6, i);
+      for (std::size_t s = 0; s < means.size(); ++s) fields.stress[g.first_element + s][i] += means[s];
+    }
   if (any_nodal_)  // the volumetric energy of nodal pressures belongs to the nodes
     for (const Group& g : groups_) {
-      if (g.pressure != PressureMode::node) continue;
+      if (g.edge_points.empty()) continue;
       std::vector<char> mine(mass_.size(), 0);
       for (int node : g.node_storage) mine[node] = 1;
       for (std::size_t n = 0; n < mine.size(); ++n)

@@ -22,13 +22,36 @@ NodeLimit slowest_node(const NodalRates& rates, const std::vector<double>& mass)
   return limit;
 }
 
+namespace {
+
+/// [block][simplex][lane] of a number per simplex; copies of the last cell like it.
+template <class Group> std::vector<Lane> lanes_of_simplices(const Group& g, const std::vector<double>& of_simplex) {
+  std::vector<Lane> lanes(static_cast<std::size_t>(g.blocks) * g.cell_simplices);
+  for (int b = 0; b < g.blocks; ++b)
+    for (int l = 0; l < kLanes; ++l)
+      for (int s = 0; s < g.cell_simplices; ++s)
+        lanes[static_cast<std::size_t>(b) * g.cell_simplices + s][l] = of_simplex[static_cast<std::size_t>(std::min(b * kLanes + l, g.cells - 1)) * g.cell_simplices + s];
+  return lanes;
+}
+
+}  // namespace
+
 void Elements::find_rates(const NodeField& x, const NodeField& v, CellRates& rates) const {
   const NodalView view{x.data()->data(), v.data()->data(), inertia_.data(), nullptr, 0, 0};
   rates.resize(groups_.size());
+  std::vector<double> of_edge;
+  if (points_ > 0) of_edge = edge_rates(view);
   for (std::size_t k = 0; k < groups_.size(); ++k) {
-    const Group& g = groups_[k];
+    const Group& own = groups_[k];
+    if (own.at_edges) continue;  // the simplices around it bound its stiffness
+    CellGroup g = own;
+    std::vector<Lane> of_simplex;
+    if (!own.edge_points.empty()) {
+      of_simplex = lanes_of_simplices(own, means_over_edges(own, of_edge, 1, 0));
+      g.edge_omega2 = of_simplex.data()->value;
+    }
     rates[k].resize(g.blocks);
-    team_->share(g.blocks, blocks_of_a_thread(g), [&](long first, long last) {
+    team_->share(g.blocks, blocks_of_a_thread(own), [&](long first, long last) {
       kernels_.rates(g, view, static_cast<int>(first), static_cast<int>(last), rates[k].data());
     });
   }
@@ -38,6 +61,7 @@ CellLimit Elements::slowest_cell(const CellRates& rates) const {
   CellLimit limit;
   for (std::size_t k = 0; k < groups_.size(); ++k) {
     const Group& g = groups_[k];
+    if (g.at_edges) continue;
     for (int cell = 0; cell < g.cells; ++cell) {
       const BlockRates& block = rates[k][cell / kLanes];
       const double dt = forming_sim::stable_step(block.omega2[cell % kLanes], block.damping[cell % kLanes]);
@@ -60,6 +84,7 @@ void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, i
 /// The masses M_c of element/step_bounds.h, [cell][node]: those to which element/time_step.h refers.
 void Elements::keep_shares(const NodeField& X) {
   for (Group& g : groups_) {
+    if (g.at_edges) continue;
     g.share.assign(static_cast<std::size_t>(g.cells) * g.cell_nodes, 0.0);
     for (int cell = 0; cell < g.cells; ++cell) {
       const int b = cell / kLanes, l = cell % kLanes;
@@ -89,6 +114,7 @@ NodalRates Elements::sum_rates(const CellRates& rates) const {
   sum.damping.assign(mass_.size(), 0.0);
   for (std::size_t k = 0; k < groups_.size(); ++k) {
     const Group& g = groups_[k];
+    if (g.at_edges) continue;
     for (int cell = 0; cell < g.cells; ++cell) {
       const int b = cell / kLanes, l = cell % kLanes;
       const BlockRates& block = rates[k][b];

@@ -1,11 +1,14 @@
 #pragma once
 // Cells of one body and kind, with the arrays that they own.
+#include <Eigen/LU>
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "forming_sim/element/elements.h"
 #include "forming_sim/element/one_point.h"
+#include "forming_sim/material/law.h"
 
 namespace forming_sim {
 
@@ -17,13 +20,27 @@ struct Elements::Group : CellGroup {
   enum Rest : char { changed, kept, passed_over };  ///< a tile's memory by the last evaluation, or none was needed
   std::vector<Rest> rest;  ///< per tile; empty where all are evaluated
   CurveTables curves;
-  std::vector<Lane> memory_storage, constants_storage, hourglass_storage;
+  std::vector<Lane> memory_storage, constants_storage, hourglass_storage, node_share_storage;
   std::vector<double> share;  ///< [cell][node] kg, with ElementOptions::shares
-  int parts = 0;  ///< simplices of a cell, all of them its one point's in a one-point cell
+  int parts = 0;  ///< simplices of a cell, all of them its one point's in a one-point cell; none of points at edges
+  std::vector<int> edge_points;  ///< [simplex][edges_of_simplex] of simplices whose law is there: place among all such points, a lane each
+  std::vector<std::array<int, 2>> edge_ends;  ///< of points at edges: the nodes of each edge
+  int first_point = 0;                        ///< likewise: place of the first of the group
   int first_element = 0;
   long first_slot = 0;           ///< of all slots
   std::string body;
 
+  /// The memory of a point (block * cell_simplices + simplex, and lane) free of stress. edges: its edge vectors as columns.
+  void start(std::size_t point, int lane, const Eigen::Matrix3d& edges, double V0) {
+    Lane* memory = memory_storage.data() + point * items;
+    memory[items - 1][lane] = V0;
+    if (items == 1) return;  // the law is elsewhere
+    const Eigen::Matrix3d up = edges.inverse();  // rows: X^m
+    const Eigen::Matrix3d G = up * up.transpose();
+    const auto put = [&](int item, double value) { memory[item][lane] = value; };
+    if (dimension == 2) start_memory<2>(solid, {{G(0, 0), G(1, 1), G(2, 2), G(0, 1)}}, put);
+    else start_memory<3>(solid, {{G(0, 0), G(1, 1), G(2, 2), G(0, 1), G(1, 2), G(2, 0)}}, put);
+  }
   /// A constant of a one-point cell.
   double constant(int block, int item, int lane) const { return constants_storage[static_cast<std::size_t>(constant_sets[block]) * one_point_items(dimension, ring) + item][lane]; }
   int first_block(long t) const { return static_cast<int>(t) * tile; }

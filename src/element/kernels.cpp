@@ -1,8 +1,7 @@
 // The loops over elements, compiled once per vector width (see CMakeLists.txt).
 // Only raw arrays and types of this width's namespace are used here, so that no
 // inline function of a wider instruction set can leak into the rest of the program.
-#include "forming_sim/element/cell_group.h"
-#include "forming_sim/element/cell_types.h"
+#include "element/bulk_viscosity.h"
 #include "forming_sim/element/hourglass.h"
 #include "forming_sim/element/one_point_step.h"
 #include "forming_sim/element/time_step.h"
@@ -11,89 +10,6 @@
 namespace forming_sim {
 namespace FORMING_SIM_ISA {
 namespace {
-
-template <class Cell> constexpr int kD = Cell::dimension;
-template <class Cell> constexpr int kE = kEdges<kD<Cell>, Cell::ring>;
-template <class Cell> using CellEdges = Edges<Pack, kD<Cell>, Cell::ring>;
-template <class Cell> using CellIncrement = Increment<Pack, kD<Cell>, Cell::ring>;
-
-/// Nodal vectors of a block of cells, gathered: one Pack per component.
-template <class Cell>
-void gather(const int* nodes, const double* field, Vector<Pack, kD<Cell>>* out) {
-  for (int a = 0; a < Cell::nodes; ++a) {
-    const double* from[kLanes];
-    for (int l = 0; l < kLanes; ++l) from[l] = field + 4 * static_cast<long>(nodes[a * kLanes + l]);
-    Pack z;
-    if constexpr (kD<Cell> == 2) gather_records(from, out[a][0], out[a][1], z);
-    else gather_records(from, out[a][0], out[a][1], out[a][2]);
-  }
-}
-
-/// The node that all simplices of a cell have in common (mesh/cell_tables.h).
-template <class Cell> constexpr int kApex = Cell::table[0][0];
-
-/// From where the nodes of a cell of simplices are to the ways from the apex to the others; the apex stays where it
-/// is. One-point cells have no apex, and keep all their nodes.
-template <class Cell> void refer_to_apex(Vector<Pack, kD<Cell>>* x) {
-  if constexpr (!Cell::one_point)
-    for (int a = 0; a < Cell::nodes; ++a)
-      if (a != kApex<Cell>) x[a] = x[a] - x[kApex<Cell>];
-}
-template <class Cell> void gather_ways(const int* nodes, const double* field, Vector<Pack, kD<Cell>>* out) {
-  gather<Cell>(nodes, field, out);
-  refer_to_apex<Cell>(out);
-}
-
-/// Constants of a block of one-point cells; null elsewhere.
-template <class Cell> const double* constants_of(const CellGroup& g, long block) {
-  if constexpr (Cell::one_point) return g.constants + static_cast<long>(g.constant_set[block]) * OnePoint<kD<Cell>, Cell::ring>::items * kLanes;
-  else return nullptr;
-}
-template <class Cell> double* hourglass_of(const CellGroup& g, long block) { return g.hourglass + block * g.hourglass_items * kLanes; }
-
-/// w_ma of a one-point cell.
-inline Pack weight(const double* constants, int item) { return Pack::load(constants + item * kLanes); }
-
-/// Edges of simplex s from what gather_ways() gives.
-template <class Cell>
-void edges_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s, Vector<Pack, kD<Cell>>* edge) {
-  constexpr int D = kD<Cell>;
-  if constexpr (Cell::one_point) {  // x_m = sum_a w_ma x_a
-    for (int m = 0; m < D; ++m) {
-      edge[m] = weight(constants, m) * x[0];
-      for (int a = 1; a < Cell::nodes; ++a) edge[m] += weight(constants, a * D + m) * x[a];
-    }
-    if constexpr (Cell::ring) {  // x_3 = sum_a o_a r_a
-      edge[2] = {{Pack(0.0), Pack(0.0)}};
-      for (int a = 0; a < Cell::nodes; ++a) edge[2][0] += weight(constants, OnePoint<D, true>::hoop + a) * x[a][0];
-    }
-  } else {
-    for (int m = 0; m < D; ++m)
-      for (int i = 0; i < D; ++i) edge[m][i] = x[Cell::table[s][m + 1]][i];
-    if constexpr (Cell::ring) edge[2] = {{x[kApex<Cell>][0] + Pack(1.0 / 3) * (edge[0][0] + edge[1][0]), Pack(0.0)}};
-  }
-}
-
-/// Hands the forces on the edges of a one-point cell to its nodes, through the weights by which they make the edges.
-template <class Cell>
-void spread(const double* constants, const Vector<Pack, kD<Cell>>* force, Vector<Pack, kD<Cell>>* f) {
-  constexpr int D = kD<Cell>;
-  for (int a = 0; a < Cell::nodes; ++a)
-    for (int m = 0; m < D; ++m) f[a] += weight(constants, a * D + m) * force[m];
-}
-
-template <class Cell> void simplex_volumes(const double* constants, const Vector<Pack, kD<Cell>>* x, Pack* V) {
-  for (int s = 0; s < Cell::simplices; ++s) {
-    Vector<Pack, kD<Cell>> edge[kE<Cell>];
-    edges_of<Cell>(constants, x, s, edge);
-    V[s] = simplex_volume<Pack, kD<Cell>, Cell::ring>(edge);
-  }
-}
-
-template <class Cell> double* memory_of(const CellGroup& g, long block, int s) {
-  return g.memory + (block * Cell::simplices + s) * g.items * kLanes;
-}
-inline Pack initial_volume(const CellGroup& g, const double* memory) { return Pack::load(memory + (g.items - 1) * kLanes); }
 
 /// The ways of the edges of simplex s in the last step; in: velocities of the cell's nodes.
 template <class Cell>
@@ -135,21 +51,11 @@ template <class Cell> void volume_ratios(const CellGroup& g, long block, const P
 }
 
 /// p of every simplex of the block: K (V/V0 - 1) of the cell (with a share of the
-/// element's own, see elements.cpp), of the element, or the mean of its nodes' pressures.
+/// element's own, see elements.cpp) or of the element. That of nodes: nodal_kernels.cpp.
 template <class Cell>
-void pressures(const CellGroup& g, const NodalView& view, long block, const Pack* V, const Pack* J, Pack* p) {
+void pressures(const CellGroup& g, long block, const Pack* V, const Pack* J, Pack* p) {
   constexpr int D = kD<Cell>;
   const Pack K(g.solid.K);
-  if constexpr (!Cell::one_point)
-    if (g.pressure == PressureMode::node) {
-      const int* nodes = g.nodes + block * Cell::nodes * kLanes;
-      for (int s = 0; s < Cell::simplices; ++s) {
-        Pack total(0.0);
-        for (int a = 0; a <= D; ++a) total += gather_numbers(view.pressure, nodes + Cell::table[s][a] * kLanes);
-        p[s] = total * Pack(1.0 / (D + 1));
-      }
-      return;
-    }
   if (g.solid.law == Law::classical) {
     for (int s = 0; s < Cell::simplices; ++s) load(memory_of<Cell>(g, block, s), kClassicalPressure<D>, p[s]);
     return;
@@ -168,55 +74,8 @@ void pressures(const CellGroup& g, const NodalView& view, long block, const Pack
   for (int s = 0; s < Cell::simplices; ++s) p[s] = mean + theta * K * (J[s] - Pack(1.0));
 }
 
-/// V, dV/dt and extent (tensor.h) of the cell whose nodes stand at x and move with v.
-template <class Cell>
-void volume_and_rate(const double* constants, const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v, Pack& V, Pack& rate, Pack& size) {
-  constexpr int D = kD<Cell>;
-  V = rate = size = Pack(0.0);
-  for (int s = 0; s < Cell::simplices; ++s) {
-    CellEdges<Cell> e;
-    edges_of<Cell>(constants, x, s, e.x);
-    find_reciprocal(e);
-    Vector<Pack, D> w[kE<Cell>];
-    edges_of<Cell>(constants, v, s, w);
-    V += e.volume;
-    size += extent(e);
-    rate += e.volume * CellIncrement<Cell>(e, w).divergence();
-  }
-}
-
-/// Bulk viscosity of the cells of a block: q, which adds to p, and the power that it takes, q D V, with
-/// q = rho l (b1 c D + b2^2 l D |D| where D < 0), D = (dV/dt)/V, l = extent^(1/d). Out of line: most scenes have none.
-struct Viscosity {
-  Pack q, power;
-};
-template <class Cell> [[gnu::noinline]] Viscosity viscosity_of_block(const CellGroup& g, const NodalView& view, long block) {
-  constexpr int D = kD<Cell>;
-  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
-  Vector<Pack, D> x[Cell::nodes], v[Cell::nodes];
-  gather_ways<Cell>(nodes, view.x, x);
-  gather_ways<Cell>(nodes, view.v, v);
-  Pack V, rate, size;
-  volume_and_rate<Cell>(constants_of<Cell>(g, block), x, v, V, rate, size);
-  const Pack D_v = rate / V;
-  const Pack l = lanewise([](double volume) { return D == 2 ? __builtin_sqrt(volume) : __builtin_cbrt(volume); }, size);
-  const Pack c(__builtin_sqrt((g.solid.K + 4.0 / 3 * g.solid.mu) / g.density));
-  const Pack b2(g.quadratic_viscosity);
-  const Pack q = Pack(g.density) * l * D_v * (Pack(g.linear_viscosity) * c + select(D_v < Pack(0.0), b2 * b2 * l * absolute(D_v), Pack(0.0)));
-  return {q, q * D_v * V};
-}
-
-/// Where a Pack takes several registers, their operations fill each other's waiting times already.
-#if defined(__AVX512F__)
-constexpr bool kOneRegister = true;
-#else
-constexpr bool kOneRegister = false;
-#endif
-
 /// Simplices of a cell that go through the law together.
 template <class Cell> using Together = std::conditional_t<!kOneRegister || Cell::one_point || Cell::simplices % 2 == 1, Pack, Twin<Pack>>;
-
-inline bool of_von_mises(Law law) { return law == Law::green_elastic || law == Law::paper; }
 
 /// OneLayer: the law is one of material/von_mises.h with a single layer, for which the
 /// kernel is made as lean as it can be; all others, and the laws of one-point cells, are told apart at run time.
@@ -237,8 +96,8 @@ template <class Cell, bool OneLayer>
   const bool classical = !OneLayer && g.solid.law == Law::classical;
   if (classical) gather_ways<Cell>(nodes, view.v, v);
   if (classical) classical_pressures<Cell>(g, view, block, x, v, p);
-  else pressures<Cell>(g, view, block, V, J, p);
-  const int in_use = block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes;
+  else pressures<Cell>(g, block, V, J, p);
+  const int in_use = lanes_in_use(g, block);
   if (g.linear_viscosity > 0 || g.quadratic_viscosity > 0) {
     const Viscosity viscosity = viscosity_of_block<Cell>(g, view, block);
     for (int s = 0; s < Cell::simplices; ++s) p[s] += viscosity.q;
@@ -301,38 +160,12 @@ template <class Cell, bool OneLayer>
       }
     }
   }
-  if constexpr (!Cell::one_point) {  // the forces on edges are in balance with those on the apex, where all of them start
-    for (int a = 0; a < Cell::nodes; ++a)
-      if (a != kApex<Cell>) f[kApex<Cell>] -= f[a];
-    if constexpr (Cell::ring) f[kApex<Cell>][0] -= Pack(3.0) * hoops;
-  }
+  if constexpr (!Cell::one_point) balance_apex<Cell>(hoops, f);
   g.plastic_work[block] += sum_of_first(dissipated, in_use);
   g.upright[block] = all(upright);
 
   const int* slots = g.slots + block * Cell::nodes * kLanes;
-  for (int a = 0; a < Cell::nodes; ++a) {
-    if constexpr (D == 2) add_pairs(f[a][0], f[a][1], slots + a * kLanes, g.sums);
-    else add_quads(f[a][0], f[a][1], f[a][2], slots + a * kLanes, g.sums);
-  }
-}
-
-template <class Cell> void volumes_of_block(const CellGroup& g, const NodalView& view, long block) {
-  constexpr int D = kD<Cell>;
-  const double* constants = constants_of<Cell>(g, block);
-  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
-  Vector<Pack, D> x[Cell::nodes];
-  gather_ways<Cell>(nodes, view.x, x);
-  Pack share[Cell::nodes];
-  for (int a = 0; a < Cell::nodes; ++a) share[a] = Pack(0.0);
-  Pack V[Cell::simplices];
-  simplex_volumes<Cell>(constants, x, V);
-  for (int s = 0; s < Cell::simplices; ++s) {
-    const Pack part = V[s] * Pack(1.0 / (D + 1));
-    if constexpr (!Cell::one_point)  // which has a pressure of its own
-      for (int a = 0; a <= D; ++a) share[Cell::table[s][a]] += part;
-  }
-  const int* slots = g.slots + block * Cell::nodes * kLanes;
-  for (int a = 0; a < Cell::nodes; ++a) add_numbers(share[a], slots + a * kLanes, g.sums);
+  for (int a = 0; a < Cell::nodes; ++a) add_vectors(f[a], slots + a * kLanes, g.sums);
 }
 
 template <class Cell>
@@ -361,7 +194,11 @@ template <class Cell>
     const double* memory = memory_of<Cell>(g, block, s);
     if constexpr (Cell::one_point && Cell::ring) bound.set(e, x, memory, initial_volume(g, memory), constants, Hourglass<Pack, D, true>(g.solid, constants, e, x));
     else if constexpr (Cell::one_point) bound.set(e, memory, initial_volume(g, memory), constants, Hourglass<Pack, D>(g.solid, constants, e, x));
-    else bound.add(e, memory, initial_volume(g, memory), Cell::table[s]);
+    else {
+      Pack at_edges;
+      if (g.edge_omega2) at_edges = Pack::load(g.edge_omega2 + (block * Cell::simplices + s) * kLanes);
+      bound.add(e, memory, g.edge_omega2 ? &at_edges : nullptr, initial_volume(g, memory), Cell::table[s]);
+    }
   }
   Pack rate(0.0);
   if (g.quadratic_viscosity > 0) {
@@ -387,7 +224,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   Pack V[Cell::simplices], J[Cell::simplices], p[Cell::simplices];
   simplex_volumes<Cell>(constants, x, V);
   volume_ratios<Cell>(g, block, V, J);
-  pressures<Cell>(g, view, block, V, J, p);
+  pressures<Cell>(g, block, V, J, p);
   Pack stored(0.0), cell_V(0.0), cell_V0(0.0);
   const double own = g.pressure == PressureMode::element ? 1 : g.element_share;
   const bool classical = g.solid.law == Law::classical;
@@ -400,7 +237,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
     stored += V0 * point_energy(g.solid, e, J[s], memory);
     if constexpr (Cell::one_point) stored += V0 * Hourglass<Pack, D, Cell::ring>(g.solid, constants, e, x).energy(g.solid, hourglass_of<Cell>(g, block));
     if (classical) stored += e.volume * p[s] * p[s] * Pack(0.5 / g.solid.K);
-    else if (g.pressure != PressureMode::node) stored += Pack(0.5 * g.solid.K * own) * V0 * (J[s] - Pack(1.0)) * (J[s] - Pack(1.0));
+    else stored += Pack(0.5 * g.solid.K * own) * V0 * (J[s] - Pack(1.0)) * (J[s] - Pack(1.0));
     cell_V += e.volume;
     cell_V0 += V0;
     const Vector<Pack, D>* at_rest = nullptr;
@@ -417,27 +254,9 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
     const Pack strain = cell_V / cell_V0 - Pack(1.0);
     stored += Pack(0.5 * g.solid.K * (1 - own)) * cell_V0 * strain * strain;
   }
-  const int in_use = block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes;
+  const int in_use = lanes_in_use(g, block);
   energy[block] = 0;
   for (int l = 0; l < in_use; ++l) energy[block] += stored[l];
-}
-
-/// Calls `work` with the cell type of the group's kind.
-template <class Work> void with_cell(const CellGroup& g, Work&& work) {
-  const auto flat = [&](auto cell) {
-    if (g.ring) return work(cell_types::Turned<decltype(cell)>());
-    work(cell);
-  };
-  switch (static_cast<CellKind>(g.kind)) {
-    case CellKind::triangle: return flat(cell_types::Triangle());
-    case CellKind::quad2: return flat(cell_types::Quad2());
-    case CellKind::crossed: return flat(cell_types::Crossed());
-    case CellKind::tetrahedron: return work(cell_types::Tetrahedron());
-    case CellKind::hex6: return work(cell_types::Hex6());
-    case CellKind::hex24: return work(cell_types::Hex24());
-    case CellKind::quad1: return flat(cell_types::Quad1());
-    case CellKind::hex1: return work(cell_types::Hex1());
-  }
 }
 
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
@@ -447,11 +266,6 @@ void forces(const CellGroup& g, const NodalView& view, int first, int last) {
       if (one_layer && !decltype(cell)::one_point) forces_of_block<decltype(cell), !decltype(cell)::one_point>(g, view, b);
       else forces_of_block<decltype(cell), false>(g, view, b);
     }
-  });
-}
-void volumes(const CellGroup& g, const NodalView& view, int first, int last) {
-  with_cell(g, [&](auto cell) {
-    for (int b = first; b < last; ++b) volumes_of_block<decltype(cell)>(g, view, b);
   });
 }
 void rates(const CellGroup& g, const NodalView& view, int first, int last, BlockRates* out) {
@@ -472,7 +286,7 @@ void observe(const CellGroup& g, const NodalView& view, int first, int last, dou
 }  // namespace
 
 const Kernels& kernels() {
-  static const Kernels k{FORMING_SIM_NAME(FORMING_SIM_ISA), forces, volumes, rates, observe};
+  static const Kernels k{FORMING_SIM_NAME(FORMING_SIM_ISA), forces, rates, observe, nodal_kernels(), edge_kernels()};
   return k;
 }
 

@@ -19,9 +19,10 @@ void Elements::lay_tiles(int nodes) {
   std::vector<int> count(nodes + 1, 0), slot(nodes), seen(nodes, -1);
   std::vector<int> node_of_slot;  // -1: of the copies of a last cell
   int tile_number = 0;
-  for (Group& g : groups_) {
+  const auto nodal = [](const Group& g) { return g.pressure == PressureMode::node && !g.at_edges; };
+  const auto lay = [&](Group& g) {
     g.first_slot = static_cast<long>(node_of_slot.size());
-    g.tile = blocks_of_a_tile(g.blocks, g.parts);
+    g.tile = blocks_of_a_tile(g.blocks, g.cell_simplices);
     g.tiles = (g.blocks + g.tile - 1) / g.tile;
     g.slot_storage.resize(g.node_storage.size());
     const long in_a_block = static_cast<long>(g.cell_nodes) * kLanes;
@@ -46,9 +47,15 @@ void Elements::lay_tiles(int nodes) {
       node_of_slot.push_back(-1);
     }
     g.tile_start.push_back(static_cast<long>(node_of_slot.size()) - g.first_slot);
-  }
+  };
+  for (Group& g : groups_)
+    if (nodal(g)) lay(g);
+  nodal_slots_.assign(count.begin() + 1, count.end());
+  for (Group& g : groups_)
+    if (!nodal(g)) lay(g);
   for (int n = 0; n < nodes; ++n) count[n + 1] += count[n];
   slot_start_ = count;
+  for (int n = 0; n < nodes; ++n) nodal_slots_[n] += slot_start_[n];
   slot_index_.resize(count[nodes]);
   for (std::size_t s = 0; s < node_of_slot.size(); ++s)
     if (node_of_slot[s] >= 0) slot_index_[count[node_of_slot[s]]++] = static_cast<int>(s);

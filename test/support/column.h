@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "support/bodies.h"
+#include "support/free_mesh.h"
 #include "support/runs.h"
 
 namespace forming_sim {
@@ -19,15 +20,7 @@ class Column {
   Column(int dimension, int cells, double aspect, const MaterialConfig& material, const std::string& pattern = "fine",
          const std::string& average = "cell")
       : t_(dimension == 2 ? 1 : 2) {
-    BlankConfig blank;
-    blank.shape = dimension == 2 ? "strip" : "plate";
-    blank.pattern = pattern;
-    blank.cells_through = cells;
-    blank.thickness = kSheetThickness;
-    blank.length = length_ = aspect * kSheetThickness / cells;
-    blank.width = kSheetThickness / cells;
-    blank.cells_along = blank.cells_across = 1;
-    const std::vector<BodyModel> bodies{body_of(generate_blank(blank), material, average)};
+    const std::vector<BodyModel> bodies{body_of(pattern == "free" ? free_sheet(dimension, cells) : column_of_cells(dimension, cells, aspect, pattern), material, average)};
     mesh_ = bodies[0].mesh;
     x_ = positions_of(mesh_);
     for (Node& n : x_) n[t_] -= 0.5 * kSheetThickness;
@@ -78,6 +71,24 @@ class Column {
 
  private:
   enum End { left, inside, right };
+
+  Mesh column_of_cells(int dimension, int cells, double aspect, const std::string& pattern) {
+    BlankConfig blank;
+    blank.shape = dimension == 2 ? "strip" : "plate";
+    blank.pattern = pattern;
+    blank.cells_through = cells;
+    blank.thickness = kSheetThickness;
+    blank.length = length_ = aspect * kSheetThickness / cells;
+    blank.width = kSheetThickness / cells;
+    blank.cells_along = blank.cells_across = 1;
+    return generate_blank(blank);
+  }
+  /// Free simplices do not come in columns: a piece of sheet as long as it is thick, and in 3D two cells wide.
+  Mesh free_sheet(int dimension, int cells) {
+    length_ = kSheetThickness;
+    const double edge = kSheetThickness / cells;
+    return dimension == 2 ? free_rectangle(length_, kSheetThickness, edge) : free_box(Vec3(length_, 2 * edge, kSheetThickness), edge);
+  }
 
   void step(double angle) {
     ++steps_;

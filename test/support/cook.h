@@ -42,13 +42,13 @@ inline Mesh membrane(int cells, const std::string& pattern) {
   return mapped_section(cells, cells, [](double s, double t) { return Vec3(48e-3 * s, 44e-3 * s + t * (44e-3 - 28e-3 * s), 0); }, pattern);
 }
 
-/// The traction as forces on the nodes, N: the edge's share to each, half as much at its ends.
-inline NodeField cook_load(const Mesh& mesh, int cells) {
+/// The traction as forces on the nodes, N: half of that on a segment of the edge to each of its ends.
+inline NodeField cook_load(const Mesh& mesh) {
   NodeField load(mesh.nodes.size(), Node::Zero());
-  for (int n : mesh.sets.at("right")) {
-    const bool corner = std::abs(mesh.nodes[n].y() - 44e-3) < 1e-9 || std::abs(mesh.nodes[n].y() - 60e-3) < 1e-9;
-    load[n][1] = kCookTraction * 16e-3 / cells * (corner ? 0.5 : 1);
-  }
+  std::vector<int> edge = mesh.sets.at("right");
+  std::sort(edge.begin(), edge.end(), [&](int a, int b) { return mesh.nodes[a].y() < mesh.nodes[b].y(); });
+  for (std::size_t i = 1; i < edge.size(); ++i)
+    for (int end : {edge[i - 1], edge[i]}) load[end][1] += 0.5 * kCookTraction * (mesh.nodes[edge[i]].y() - mesh.nodes[edge[i - 1]].y());
   return load;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The true limit of the step of a small mesh, from all its eigenvalues.
+// All frequencies of a small mesh, and the true limit of its step.
 #include <Eigen/Eigenvalues>
 
 #include "forming_sim/element/elements.h"
@@ -7,8 +7,8 @@
 
 namespace forming_sim {
 
-/// 2/omega of the fastest mode at x, plastic flow held: M^-1/2 K M^-1/2 by central differences.
-inline double dense_limit(Elements& elements, const NodeField& x, int D, const BoundarySet& held = {}) {
+/// omega^2, 1/s2, rising, of the modes at x, plastic flow held: M^-1/2 K M^-1/2 by central differences.
+inline Eigen::VectorXd dense_frequencies(Elements& elements, const NodeField& x, int D, const BoundarySet& held = {}) {
   const int n = static_cast<int>(x.size()) * D;
   const double h = 1e-6;
   const std::vector<double>& mass = elements.nodal_mass();
@@ -26,7 +26,12 @@ inline double dense_limit(Elements& elements, const NodeField& x, int D, const B
   for (std::size_t k = 0; k < held.nodes().size(); ++k)
     P.block(held.nodes()[k] * D, held.nodes()[k] * D, D, D) = held.projector(static_cast<int>(k)).topLeftCorner(D, D);
   const Eigen::MatrixXd A = P * (0.5 * (K + K.transpose())) * P;
-  return 2 / std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+/// 2/omega of the fastest of them, s.
+inline double dense_limit(Elements& elements, const NodeField& x, int D, const BoundarySet& held = {}) {
+  return 2 / std::sqrt(dense_frequencies(elements, x, D, held).maxCoeff());
 }
 
 }  // namespace forming_sim

@@ -3,14 +3,21 @@
 #include <functional>
 
 #include "forming_sim/mesh/axis.h"
+#include "support/free_mesh.h"
 #include "support/rings.h"
 #include "support/runs.h"
 
 namespace forming_sim {
 
 /// The unit square of cells, its corners moved to `place`, the middle of a crossed cell to
-/// the mean of its corners.
+/// the mean of its corners. pattern "free": of triangles about as large.
 inline Mesh mapped_section(int along, int through, const std::function<Vec3(double, double)>& place, const std::string& pattern = "fine") {
+  if (pattern == "free") {
+    Mesh mesh = free_rectangle(along, through, 1);
+    for (Vec3& X : mesh.nodes) X = place(X.x() / along, X.y() / through);
+    check_volumes(mesh);
+    return mesh;
+  }
   BlankConfig blank = strip_of(1, 1, along, through);
   blank.pattern = pattern;
   Mesh mesh = generate_blank(blank);

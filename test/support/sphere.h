@@ -70,7 +70,10 @@ inline OneBody pyramid(int cells, const std::string& pattern, const std::string&
   blank.length = blank.width = blank.thickness = 1;
   blank.cells_through = cells;
   blank.cells_along = blank.cells_across = std::max(2, cells / 2);
-  Mesh mesh = generate_blank(blank);
+  const Vec3 in_cells(blank.cells_along, blank.cells_across, cells);
+  Mesh mesh = pattern == "free" ? free_box(in_cells, 1) : generate_blank(blank);
+  if (pattern == "free")
+    for (Vec3& X : mesh.nodes) X = X.cwiseQuotient(in_cells);
   for (Vec3& X : mesh.nodes) X = radius(X.z()) * Vec3(X.x(), X.y(), 1).normalized();
   check_volumes(mesh);
   OneBody run(body_of(mesh, steel(), average), kDuration);

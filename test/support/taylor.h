@@ -19,8 +19,9 @@ inline MaterialConfig copper() {
   return m;
 }
 
-/// The quarter bar along z, its face at z = 0, ten cells along for one of the radius.
+/// The quarter bar along z, its face at z = 0, ten cells along for one of the radius; pattern "free": of tetrahedra about as large.
 inline Mesh quarter_bar(int cells, const std::string& pattern) {
+  if (pattern == "free") return free_quarter_bar(kTaylorRadius, kTaylorLength, kTaylorRadius / cells);
   BlankConfig bar;
   bar.shape = "bar";
   bar.portion = "quarter";

@@ -77,7 +77,7 @@ TEST(OnePointBodies, CooksMembrane) {
   const int n = 32;
   const Mesh mesh = membrane(n, "one_point");
   Stepped cook(mesh, cook_material());
-  const NodeField load = cook_load(mesh, n);
+  const NodeField load = cook_load(mesh);
   const int top = upper_right(mesh);
   const double keep = (1 - 0.5 * kCookDamping * cook.dt) / (1 + 0.5 * kCookDamping * cook.dt), kick = cook.dt / (1 + 0.5 * kCookDamping * cook.dt);
   double loaded = 0, highest = 0, rise = 0;

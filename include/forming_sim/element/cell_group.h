@@ -43,7 +43,7 @@ struct CellGroup {
 
   const int* nodes = nullptr;      ///< [block][cell node][lane] joined node index
   double* memory = nullptr;        ///< [block][simplex][items][lane]
-  const double* constants = nullptr;  ///< one-point cells: [set][OnePoint::items][lane]
+  const double* constants = nullptr;  ///< one-point cells: [set][OnePoint::items][lane]; edge points: [block][cell node][weight][lane]
   const int* constant_set = nullptr;  ///< likewise: [block] its set, shared by blocks of the same shape
   double* hourglass = nullptr;        ///< likewise: [block][hourglass_items][lane], memory
   int hourglass_items = 0;
@@ -52,6 +52,9 @@ struct CellGroup {
   double* plastic_work = nullptr;  ///< [block] dissipated so far, J
   double* viscous_work = nullptr;  ///< [block] dissipated so far by bulk viscosity, J
   bool* upright = nullptr;         ///< [block] V/V0 > 0 everywhere in the last force pass
+  bool at_edges = false;           ///< the cells are points of element/edge_points.h
+  const double* node_share = nullptr;  ///< edge points: [block][cell node][lane] V_e's share of each node, for the time step
+  const double* edge_omega2 = nullptr; ///< simplices whose law is at their edges: [block][simplex][lane] mean of the edges' bounds, likewise
 };
 
 /// Nodal fields as the kernels read them: four doubles a node.
@@ -70,19 +73,37 @@ struct BlockRates {
   Lane damping;  ///< 1/s, of bulk viscosity
 };
 
+/// Of simplices with pressures in their nodes. What they have beside the pressure is at their edges.
+struct NodalKernels {
+  /// Shares of the current volume of the cell nodes are added to `sums`.
+  void (*volumes)(const CellGroup&, const NodalView&, int first, int last);
+  /// The pressures' forces on the nodes, likewise.
+  void (*forces)(const CellGroup&, const NodalView&, int first, int last);
+  /// As in Kernels, of the pressure alone, without its energy.
+  void (*observe)(const CellGroup&, const NodalView&, int first, int last, double* stress, double* ratio);
+};
+
+/// Of the points of element/edge_points.h: stress is the deviator S, energy the deviatoric one.
+struct EdgeKernels {
+  void (*forces)(const CellGroup&, const NodalView&, int first, int last);
+  void (*observe)(const CellGroup&, const NodalView&, int first, int last, double* stress, double* ratio, double* energy);
+  /// The bounds omega_e^2 of element/time_step.h, 1/s2, [block][lane].
+  void (*rates)(const CellGroup&, const NodalView&, int first, int last, double* omega2);
+};
+
 /// The kernels of one vector width, for blocks [first, last) of a group.
 struct Kernels {
   const char* name;
   /// Stress, plastic flow; nodal forces are added to `sums`.
   void (*forces)(const CellGroup&, const NodalView&, int first, int last);
-  /// Shares of the current volume of the cell nodes, likewise.
-  void (*volumes)(const CellGroup&, const NodalView&, int first, int last);
   /// The bounds of element/time_step.h, [block].
   void (*rates)(const CellGroup&, const NodalView&, int first, int last, BlockRates* out);
   /// Cauchy stress [block][simplex][6][lane], V/V0 [block][simplex][lane] and stored
   /// deviatoric plus volumetric energy [block], without changing the memory.
   void (*observe)(const CellGroup&, const NodalView&, int first, int last, double* stress, double* ratio,
                   double* energy);
+  NodalKernels nodal;
+  EdgeKernels edge;
 };
 
 /// The kernels of an instruction set that this processor has.

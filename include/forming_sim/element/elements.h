@@ -33,7 +33,8 @@ struct GroupPlan {
   PressureMode pressure;
   int layers = 1;            ///< of the law
   long cells = 0, elements = 0;
-  double memory_bytes = 0;   ///< state of the law, of all elements; of one-point cells their constants too
+  long edge_points = 0;      ///< points of the law at the edges (element/edge_points.h), 0 where the elements have it
+  double memory_bytes = 0;   ///< state of the law, of all elements; of one-point cells and edge points their constants too
   double state_bytes = 0;    ///< the part of it that plastic flow writes
   double force_bytes = 0;    ///< sums of the cells' forces, one a node of each tile (element/cell_group.h)
   double index_bytes = 0;    ///< which nodes the cells have, in which slot of a tile they add to them, and which slots a node has
@@ -103,9 +104,18 @@ class Elements {
   Location locate(int element) const;
   double volume_ratio(const NodeField& x, int element) const;
   [[noreturn]] void report_inversion(const NodeField& x) const;
+  /// Throws where a point at an edge is inside out although the simplices around it are not.
+  void report_edge_inversion(const NodeField& x) const;
   void check_axis(const NodeField& x) const;
   void nodal_pressure(const NodalView& view) const;
+  /// Groups of the points at the edges of the body's simplices whose pressures are in the nodes.
+  void put_points_at_edges(const BodyModel& body, const NodeField& X);
+  /// Of every simplex of g the mean over its edges of component c of value[point][components].
+  std::vector<double> means_over_edges(const Group& g, const std::vector<double>& value, int components, int c) const;
+  /// omega_e^2 of element/time_step.h, of all points at edges.
+  std::vector<double> edge_rates(const NodalView& view) const;
   void keep_shares(const NodeField& X);
+  void add_bytes(const Group& group, GroupPlan& plan) const;
   /// Cuts the groups into tiles, gives every node of each tile a slot, and tells the nodes theirs.
   void lay_tiles(int nodes);
   void clear_slots(const Group& group, long tile) const;
@@ -128,7 +138,9 @@ class Elements {
   std::vector<std::array<int, 4>> simplices_;
   std::vector<double> mass_;
   std::vector<double> inertia_;                      ///< axisymmetric only: NodalView::inertia
-  std::vector<int> slot_start_, slot_index_;         ///< slots of a node
+  std::vector<int> slot_start_, slot_index_;         ///< slots of a node, those of cells with nodal pressure first
+  std::vector<int> nodal_slots_;                     ///< of a node: behind the last of the latter
+  int points_ = 0;                                   ///< lanes of the points at edges
   std::vector<Lane> slot_storage_;
   double* slots_ = nullptr;                          ///< [slot][kRecord]
   int record_size_ = 0;

@@ -14,6 +14,9 @@
 //   cell's nodal masses is  omega_vol^2 = K/V0 sum_a |dV/dx_a|^2 / m_a.
 //   With a share theta of the element's own pressure the two add up. With p per element it is the element's own; with p per node the element's
 //   own bounds it (the squares of means do not exceed the means of squares).
+// * Where the law is at the edges (element/edge_points.h), the deviatoric part of a simplex is the mean over
+//   its edges of theirs: K = sum_e K_e, K_e <= omega_e^2 M_e, M_e = sum_s M_s/k over the simplices around e.
+//   omega_e^2 = mu/rho max(...) with S = sum_a g_a g_a^T V_e rho/m_ea; of a ring with M of element/ring_step.h.
 // Bulk viscosity eta = rho l (b1 c + b2^2 l |D|) adds the damping
 //   C = eta/V sum_a |dV/dx_a|^2 / m_a;  what the step becomes: element/step_bounds.h.
 #include "forming_sim/element/cell_group.h"
@@ -21,6 +24,17 @@
 #include "forming_sim/material/law.h"
 
 namespace forming_sim {
+
+/// S += k g g^T
+template <class T, int D> void add_square(Symmetric<T, D>& S, const T& k, const Vector<T, D>& g) {
+  const Vector<T, D> kg = k * g;
+  for (int i = 0; i < D; ++i) S[i] += kg[i] * g[i];
+  S[3] += kg[0] * g[1];
+  if constexpr (D == 3) {
+    S[4] += kg[1] * g[2];
+    S[5] += kg[2] * g[0];
+  }
+}
 
 /// max(2 (I1/3 + sqrt(I1^2/9 - I2/3)), s1 + s2) and I1 = tr S.
 template <class T, int D> T shape_bound(const Symmetric<T, D>& S, T& I1) {
@@ -69,8 +83,9 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
     }
   }
 
+  /// at_edges: where the law is at the edges the deviatoric part of omega^2, for which no memory is read; null elsewhere.
   template <class Corners>
-  void add(const Edges<T, D, Ring>& e, const double* memory, const T& V0, const Corners& corner) {
+  void add(const Edges<T, D, Ring>& e, const double* memory, const T* at_edges, const T& V0, const Corners& corner) {
     Vector<T, D> g[D + 1];
     g[0] = T(-1.0) * e.up[0];
     for (int m = 0; m < D; ++m) {
@@ -92,8 +107,7 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
       largest = deviatoric_bound(g, sum_of_squares);
     }
     const T J = e.volume / V0;
-    const T tangent = point_tangent(g_.solid, e, J, memory);
-    const T omega2 = T((D + 1) / g_.density * g_.solid.mu) * tangent * largest;
+    const T omega2 = at_edges ? *at_edges : T((D + 1) / g_.density * g_.solid.mu) * point_tangent(g_.solid, e, J, memory) * largest;
     const T volumetric = T((D + 1) * g_.solid.K / g_.density) * J * J * sum_of_squares;
     deviatoric_ = larger(deviatoric_, omega2);
     element_ = larger(element_, omega2 + volumetric);
@@ -129,14 +143,7 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
   static T deviatoric_bound(const Vector<T, D>* g, T& I1) {
     Symmetric<T, D> S;
     for (int i = 0; i < Symmetric<T, D>::size; ++i) S[i] = T(0.0);
-    for (int a = 0; a <= D; ++a) {
-      for (int i = 0; i < D; ++i) S[i] += g[a][i] * g[a][i];
-      S[3] += g[a][0] * g[a][1];
-      if constexpr (D == 3) {
-        S[4] += g[a][1] * g[a][2];
-        S[5] += g[a][2] * g[a][0];
-      }
-    }
+    for (int a = 0; a <= D; ++a) add_square(S, T(1), g[a]);
     return shape_bound(S, I1);
   }
   const CellGroup& g_;

@@ -1,0 +1,145 @@
+#pragma once
+// A block of kLanes cells of a kind as the kernels see it: its nodes gathered, its simplices' edges and
+// volumes, its memory. For files that are compiled once per vector width only.
+#include "forming_sim/element/cell_group.h"
+#include "forming_sim/element/cell_types.h"
+#include "forming_sim/element/one_point.h"
+#include "forming_sim/material/classical.h"
+#include "forming_sim/material/law.h"
+
+namespace forming_sim {
+namespace FORMING_SIM_ISA {
+
+template <class Cell> constexpr int kD = Cell::dimension;
+template <class Cell> constexpr int kE = kEdges<kD<Cell>, Cell::ring>;
+template <class Cell> using CellEdges = Edges<Pack, kD<Cell>, Cell::ring>;
+template <class Cell> using CellIncrement = Increment<Pack, kD<Cell>, Cell::ring>;
+
+/// A nodal vector of each of kLanes nodes, gathered: one Pack per component.
+template <int D> Vector<Pack, D> gather_vectors(const int* nodes, const double* field) {
+  const double* from[kLanes];
+  for (int l = 0; l < kLanes; ++l) from[l] = field + 4 * static_cast<long>(nodes[l]);
+  Vector<Pack, D> out;
+  Pack z;
+  if constexpr (D == 2) gather_records(from, out[0], out[1], z);
+  else gather_records(from, out[0], out[1], out[2]);
+  return out;
+}
+/// Adds a vector to the slots of kLanes nodes.
+inline void add_vectors(const Vector<Pack, 2>& f, const int* slots, double* sums) { add_pairs(f[0], f[1], slots, sums); }
+inline void add_vectors(const Vector<Pack, 3>& f, const int* slots, double* sums) { add_quads(f[0], f[1], f[2], slots, sums); }
+
+/// Nodal vectors of a block of cells.
+template <class Cell>
+void gather(const int* nodes, const double* field, Vector<Pack, kD<Cell>>* out) {
+  for (int a = 0; a < Cell::nodes; ++a) out[a] = gather_vectors<kD<Cell>>(nodes + a * kLanes, field);
+}
+
+/// The node that all simplices of a cell have in common (mesh/cell_tables.h).
+template <class Cell> constexpr int kApex = Cell::table[0][0];
+
+/// From where the nodes of a cell of simplices are to the ways from the apex to the others; the apex stays where it
+/// is. One-point cells have no apex, and keep all their nodes.
+template <class Cell> void refer_to_apex(Vector<Pack, kD<Cell>>* x) {
+  if constexpr (!Cell::one_point)
+    for (int a = 0; a < Cell::nodes; ++a)
+      if (a != kApex<Cell>) x[a] = x[a] - x[kApex<Cell>];
+}
+template <class Cell> void gather_ways(const int* nodes, const double* field, Vector<Pack, kD<Cell>>* out) {
+  gather<Cell>(nodes, field, out);
+  refer_to_apex<Cell>(out);
+}
+
+/// Constants of a block of one-point cells; null elsewhere.
+template <class Cell> const double* constants_of(const CellGroup& g, long block) {
+  if constexpr (Cell::one_point) return g.constants + static_cast<long>(g.constant_set[block]) * OnePoint<kD<Cell>, Cell::ring>::items * kLanes;
+  else return nullptr;
+}
+template <class Cell> double* hourglass_of(const CellGroup& g, long block) { return g.hourglass + block * g.hourglass_items * kLanes; }
+
+/// w_ma of a one-point cell.
+inline Pack weight(const double* constants, int item) { return Pack::load(constants + item * kLanes); }
+
+/// Edges of simplex s from what gather_ways() gives.
+template <class Cell>
+void edges_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s, Vector<Pack, kD<Cell>>* edge) {
+  constexpr int D = kD<Cell>;
+  if constexpr (Cell::one_point) {  // x_m = sum_a w_ma x_a
+    for (int m = 0; m < D; ++m) {
+      edge[m] = weight(constants, m) * x[0];
+      for (int a = 1; a < Cell::nodes; ++a) edge[m] += weight(constants, a * D + m) * x[a];
+    }
+    if constexpr (Cell::ring) {  // x_3 = sum_a o_a r_a
+      edge[2] = {{Pack(0.0), Pack(0.0)}};
+      for (int a = 0; a < Cell::nodes; ++a) edge[2][0] += weight(constants, OnePoint<D, true>::hoop + a) * x[a][0];
+    }
+  } else {
+    for (int m = 0; m < D; ++m)
+      for (int i = 0; i < D; ++i) edge[m][i] = x[Cell::table[s][m + 1]][i];
+    if constexpr (Cell::ring) edge[2] = {{x[kApex<Cell>][0] + Pack(1.0 / 3) * (edge[0][0] + edge[1][0]), Pack(0.0)}};
+  }
+}
+
+/// Hands the forces on the edges of a one-point cell to its nodes, through the weights by which they make the edges.
+template <class Cell>
+void spread(const double* constants, const Vector<Pack, kD<Cell>>* force, Vector<Pack, kD<Cell>>* f) {
+  constexpr int D = kD<Cell>;
+  for (int a = 0; a < Cell::nodes; ++a)
+    for (int m = 0; m < D; ++m) f[a] += weight(constants, a * D + m) * force[m];
+}
+
+template <class Cell> void simplex_volumes(const double* constants, const Vector<Pack, kD<Cell>>* x, Pack* V) {
+  for (int s = 0; s < Cell::simplices; ++s) {
+    Vector<Pack, kD<Cell>> edge[kE<Cell>];
+    edges_of<Cell>(constants, x, s, edge);
+    V[s] = simplex_volume<Pack, kD<Cell>, Cell::ring>(edge);
+  }
+}
+
+/// The forces on edges are in balance with those on the apex, where all of them start; of rings but for the thirds of the hoops' forces, `hoops` their sum.
+template <class Cell> void balance_apex(const Pack& hoops, Vector<Pack, kD<Cell>>* f) {
+  for (int a = 0; a < Cell::nodes; ++a)
+    if (a != kApex<Cell>) f[kApex<Cell>] -= f[a];
+  if constexpr (Cell::ring) f[kApex<Cell>][0] -= Pack(3.0) * hoops;
+}
+
+template <class Cell> double* memory_of(const CellGroup& g, long block, int s) {
+  return g.memory + (block * Cell::simplices + s) * g.items * kLanes;
+}
+/// Lanes of a block that are not copies.
+inline int lanes_in_use(const CellGroup& g, long block) { return block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes; }
+inline Pack initial_volume(const CellGroup& g, const double* memory) { return Pack::load(memory + (g.items - 1) * kLanes); }
+
+inline bool of_von_mises(Law law) { return law == Law::green_elastic || law == Law::paper; }
+
+/// Where a Pack takes several registers, their operations fill each other's waiting times already.
+#if defined(__AVX512F__)
+constexpr bool kOneRegister = true;
+#else
+constexpr bool kOneRegister = false;
+#endif
+
+/// Calls `work` with the cell type of the group's kind.
+template <class Work> void with_cell(const CellGroup& g, Work&& work) {
+  const auto flat = [&](auto cell) {
+    if (g.ring) return work(cell_types::Turned<decltype(cell)>());
+    work(cell);
+  };
+  switch (static_cast<CellKind>(g.kind)) {
+    case CellKind::triangle: return flat(cell_types::Triangle());
+    case CellKind::quad2: return flat(cell_types::Quad2());
+    case CellKind::crossed: return flat(cell_types::Crossed());
+    case CellKind::tetrahedron: return work(cell_types::Tetrahedron());
+    case CellKind::hex6: return work(cell_types::Hex6());
+    case CellKind::hex24: return work(cell_types::Hex24());
+    case CellKind::quad1: return flat(cell_types::Quad1());
+    case CellKind::hex1: return work(cell_types::Hex1());
+  }
+}
+
+/// The parts of the table of kernels that have files of their own.
+NodalKernels nodal_kernels();
+EdgeKernels edge_kernels();
+
+}  // namespace FORMING_SIM_ISA
+}  // namespace forming_sim

@@ -1,0 +1,47 @@
+#pragma once
+// Bulk viscosity of the cells of a block. For files that are compiled once per vector width only.
+#include "element/block.h"
+
+namespace forming_sim {
+namespace FORMING_SIM_ISA {
+
+/// V, dV/dt and extent (tensor.h) of the cell whose nodes stand at x and move with v.
+template <class Cell>
+void volume_and_rate(const double* constants, const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v, Pack& V, Pack& rate, Pack& size) {
+  constexpr int D = kD<Cell>;
+  V = rate = size = Pack(0.0);
+  for (int s = 0; s < Cell::simplices; ++s) {
+    CellEdges<Cell> e;
+    edges_of<Cell>(constants, x, s, e.x);
+    find_reciprocal(e);
+    Vector<Pack, D> w[kE<Cell>];
+    edges_of<Cell>(constants, v, s, w);
+    V += e.volume;
+    size += extent(e);
+    rate += e.volume * CellIncrement<Cell>(e, w).divergence();
+  }
+}
+
+/// Bulk viscosity of the cells of a block: q, which adds to p, and the power that it takes, q D V, with
+/// q = rho l (b1 c D + b2^2 l D |D| where D < 0), D = (dV/dt)/V, l = extent^(1/d). Out of line: most scenes have none.
+struct Viscosity {
+  Pack q, power;
+};
+template <class Cell> [[gnu::noinline]] Viscosity viscosity_of_block(const CellGroup& g, const NodalView& view, long block) {
+  constexpr int D = kD<Cell>;
+  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
+  Vector<Pack, D> x[Cell::nodes], v[Cell::nodes];
+  gather_ways<Cell>(nodes, view.x, x);
+  gather_ways<Cell>(nodes, view.v, v);
+  Pack V, rate, size;
+  volume_and_rate<Cell>(constants_of<Cell>(g, block), x, v, V, rate, size);
+  const Pack D_v = rate / V;
+  const Pack l = lanewise([](double volume) { return D == 2 ? __builtin_sqrt(volume) : __builtin_cbrt(volume); }, size);
+  const Pack c(__builtin_sqrt((g.solid.K + 4.0 / 3 * g.solid.mu) / g.density));
+  const Pack b2(g.quadratic_viscosity);
+  const Pack q = Pack(g.density) * l * D_v * (Pack(g.linear_viscosity) * c + select(D_v < Pack(0.0), b2 * b2 * l * absolute(D_v), Pack(0.0)));
+  return {q, q * D_v * V};
+}
+
+}  // namespace FORMING_SIM_ISA
+}  // namespace forming_sim

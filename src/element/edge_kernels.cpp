@@ -1,0 +1,142 @@
+// The loops over the points at edges (element/edge_points.h), compiled once per vector width (see CMakeLists.txt).
+#include "element/block.h"
+#include "forming_sim/element/edge_points.h"
+#include "forming_sim/element/time_step.h"
+
+namespace forming_sim {
+namespace FORMING_SIM_ISA {
+namespace {
+
+template <int D, bool Ring> const double* weights_of(const CellGroup& g, long block) {
+  return g.constants + block * g.cell_nodes * edge_weights(D, Ring) * kLanes;
+}
+
+/// x_m = sum_a w_ma x_a, of a ring x_3 = sum_a o_a r_a.
+template <int D, bool Ring> Edges<Pack, D, Ring> edges_of_point(const CellGroup& g, const NodalView& view, long block) {
+  const int* nodes = g.nodes + block * g.cell_nodes * kLanes;
+  const double* w = weights_of<D, Ring>(g, block);
+  Edges<Pack, D, Ring> e;
+  for (Vector<Pack, D>& edge : e.x)
+    for (int i = 0; i < D; ++i) edge[i] = Pack(0.0);
+  for (int a = 0; a < g.cell_nodes; ++a, w += edge_weights(D, Ring) * kLanes) {
+    const Vector<Pack, D> x = gather_vectors<D>(nodes + a * kLanes, view.x);
+    for (int m = 0; m < D; ++m) e.x[m] += weight(w, m) * x;
+    if constexpr (Ring) e.x[2][0] += weight(w, D) * x[0];
+  }
+  return e;
+}
+
+/// f_a = - V_e dw/dx_a: the forces -V S . x^m on the edges and -V S . x^3 on the hoop, through the weights by which the nodes make them.
+template <int D, bool Ring> void add_forces(const CellGroup& g, long block, const Edges<Pack, D, Ring>& e, const Symmetric<Pack, D>& S) {
+  Vector<Pack, D> force[D];
+  for (int m = 0; m < D; ++m) force[m] = S * (Pack(-1.0) * e.area[m]);
+  const int* slots = g.slots + block * g.cell_nodes * kLanes;
+  const double* w = weights_of<D, Ring>(g, block);
+  for (int a = 0; a < g.cell_nodes; ++a, w += edge_weights(D, Ring) * kLanes) {
+    Vector<Pack, D> f = weight(w, 0) * force[0];
+    for (int m = 1; m < D; ++m) f += weight(w, m) * force[m];
+    if constexpr (Ring) f[0] -= weight(w, D) * e.area[2][0] * S[2];
+    add_vectors(f, slots + a * kLanes, g.sums);
+  }
+}
+
+double* memory_of_point(const CellGroup& g, long block) { return g.memory + block * g.items * kLanes; }
+
+/// The blocks from `block` on whose points go through the law together, points_in<Together> of them.
+template <int D, bool Ring, class Together> [[gnu::flatten]] void forces_of_blocks(const CellGroup& g, const NodalView& view, long block) {
+  constexpr int together = points_in<Together>;
+  Edges<Pack, D, Ring> edges[together];
+  double* memory[together];
+  Together J;
+  for (int i = 0; i < together; ++i) {
+    edges[i] = edges_of_point<D, Ring>(g, view, block + i);
+    find_areas(edges[i]);
+    memory[i] = memory_of_point(g, block + i);
+    part_of(J, i) = edges[i].volume / initial_volume(g, memory[i]);
+    g.upright[block + i] = all(part_of(J, i) > Pack(0.0));
+  }
+  PointResponse<Together, D> points;
+  if (together > 1 || of_von_mises(g.solid.law)) points = von_mises_step(g.solid, edges, J, memory, Keep::yes);
+  else if constexpr (together == 1) points = hyperelastic_step(g.solid, edges[0], J, memory[0]);
+  for (int i = 0; i < together; ++i) {
+    const PointResponse<Pack, D> point = points.of(i);
+    g.plastic_work[block + i] += sum_of_first(point.dissipation * initial_volume(g, memory[i]), lanes_in_use(g, block + i));
+    add_forces(g, block + i, edges[i], point.S);
+  }
+}
+
+template <int D, bool Ring> void observe_block(const CellGroup& g, const NodalView& view, long block, double* stress, double* ratio, double* energy) {
+  Edges<Pack, D, Ring> e = edges_of_point<D, Ring>(g, view, block);
+  find_reciprocal(e);
+  double* memory = memory_of_point(g, block);
+  const Pack V0 = initial_volume(g, memory), J = e.volume / V0;
+  const Vector<Pack, D>* at_rest = nullptr;
+  const Symmetric<Pack, D> S = point_step(g.solid, e, at_rest, J, memory, Keep::no).S;
+  for (int i = 0; i < 6; ++i) (i < Symmetric<Pack, D>::size ? S[i] : Pack(0.0)).store(stress + (block * 6 + i) * kLanes);
+  J.store(ratio + block * kLanes);
+  energy[block] = sum_of_first(V0 * point_energy(g.solid, e, J, memory), lanes_in_use(g, block));
+}
+
+/// omega_e^2 of element/time_step.h.
+template <int D, bool Ring> void rates_of_block(const CellGroup& g, const NodalView& view, long block, double* omega2) {
+  Edges<Pack, D, Ring> e = edges_of_point<D, Ring>(g, view, block);
+  find_reciprocal(e);
+  const int* nodes = g.nodes + block * g.cell_nodes * kLanes;
+  const double *w = weights_of<D, Ring>(g, block), *share = g.node_share + block * g.cell_nodes * kLanes;
+  Symmetric<Pack, D> S;
+  Symmetric<Pack, 3> M;  // of a ring
+  for (int i = 0; i < Symmetric<Pack, D>::size; ++i) S[i] = Pack(0.0);
+  for (int i = 0; i < 6; ++i) M[i] = Pack(0.0);
+  for (int a = 0; a < g.cell_nodes; ++a, w += edge_weights(D, Ring) * kLanes, share += kLanes, nodes += kLanes) {
+    Vector<Pack, D> gradient = weight(w, 0) * e.up[0];
+    for (int m = 1; m < D; ++m) gradient += weight(w, m) * e.up[m];
+    const Pack over_mass = Pack(1.0) / Pack::load(share);
+    if constexpr (Ring) {
+      const Pack axial = over_mass * gather_numbers(view.inertia, nodes);
+      const Pack radial = select(gather_vectors<D>(nodes, view.x)[0] > Pack(0.0), axial, Pack(0.0));  // no radial motion on the axis
+      add_deviatoric(M, radial, axial, gradient[0], gradient[1], weight(w, D) * e.up[2][0]);
+    } else {
+      add_square(S, over_mass, gradient);
+    }
+  }
+  Pack largest, trace_S;
+  if constexpr (Ring) largest = Pack(2.0) * largest_eigenvalue(M);
+  else largest = shape_bound(S, trace_S);
+  const double* memory = memory_of_point(g, block);
+  const Pack tangent = point_tangent(g.solid, e, e.volume / initial_volume(g, memory), memory);
+  (Pack(g.solid.mu / g.density) * tangent * largest).store(omega2 + block * kLanes);
+}
+
+/// Calls work(D, Ring) of the group, as integral constants.
+template <class Work> void with_dimension(const CellGroup& g, Work&& work) {
+  using std::integral_constant;
+  if (g.dimension == 3) work(integral_constant<int, 3>(), std::false_type());
+  else if (g.ring) work(integral_constant<int, 2>(), std::true_type());
+  else work(integral_constant<int, 2>(), std::false_type());
+}
+
+void forces(const CellGroup& g, const NodalView& view, int first, int last) {
+  with_dimension(g, [&](auto D, auto ring) {
+    int b = first;
+    if (kOneRegister && of_von_mises(g.solid.law))
+      for (; b + 1 < last; b += 2) forces_of_blocks<D, ring, Twin<Pack>>(g, view, b);
+    for (; b < last; ++b) forces_of_blocks<D, ring, Pack>(g, view, b);
+  });
+}
+void observe(const CellGroup& g, const NodalView& view, int first, int last, double* stress, double* ratio, double* energy) {
+  with_dimension(g, [&](auto D, auto ring) {
+    for (int b = first; b < last; ++b) observe_block<D, ring>(g, view, b, stress, ratio, energy);
+  });
+}
+void rates(const CellGroup& g, const NodalView& view, int first, int last, double* omega2) {
+  with_dimension(g, [&](auto D, auto ring) {
+    for (int b = first; b < last; ++b) rates_of_block<D, ring>(g, view, b, omega2);
+  });
+}
+
+}  // namespace
+
+EdgeKernels edge_kernels() { return {forces, observe, rates}; }
+
+}  // namespace FORMING_SIM_ISA
+}  // namespace forming_sim
