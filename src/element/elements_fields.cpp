@@ -102,7 +102,7 @@ ElementFields Elements::observe(const NodeField& x) const {
     team_->share(g.blocks, blocks_of_a_thread(g), [&](long first, long last) {
       const int from = static_cast<int>(first), to = static_cast<int>(last);
       if (g.at_edges) kernels_.edge.observe(g, view, from, to, stress.data()->value, ratio.data()->value, energy.data());
-      else if (!g.edge_points.empty()) kernels_.nodal.observe(g, view, from, to, stress.data()->value, ratio.data()->value);
+      else if (!g.edge_points.empty()) kernels_.nodal.observe(g, view, from, to, stress.data()->value, ratio.data()->value, energy.data());
       else kernels_.observe(g, view, from, to, stress.data()->value, ratio.data()->value, energy.data());
     });
     for (double e : energy) fields.stored_energy += e;

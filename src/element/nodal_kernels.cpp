@@ -1,8 +1,10 @@
 // The loops over simplices whose pressures are in their nodes, compiled once per vector width (see
 // CMakeLists.txt): the volumes of the nodes, and the forces of their pressures,
-//   V_n = sum_s V_s / (d+1),  p_n = K (V_n / V_n0 - 1),  U = sum_n K V_n0/2 (V_n / V_n0 - 1)^2,
-//   f_a = - dU/dx_a = - sum_s p_s dV_s/dx_a,  p_s the mean of the nodes of s.
+//   V_n = sum_s V_s / (d+1),  p_n = K (V_n / V_n0 - 1),
+//   U = sum_n K V_n0/2 (V_n / V_n0 - 1)^2 + the guard of each simplex (element/guard.h),
+//   f_a = - dU/dx_a = - sum_s p_s dV_s/dx_a,  p_s the mean p_n of the nodes of s, and its guard.
 #include "element/bulk_viscosity.h"
+#include "forming_sim/element/guard.h"
 
 namespace forming_sim {
 namespace FORMING_SIM_ISA {
@@ -23,15 +25,17 @@ template <class Cell> void volumes_of_block(const CellGroup& g, const NodalView&
   for (int a = 0; a < Cell::nodes; ++a) add_numbers(share[a], slots + a * kLanes, g.sums);
 }
 
-/// p_s of every simplex of the block.
-template <class Cell> void pressures(const CellGroup& g, const NodalView& view, long block, Pack* p) {
+/// p_s of every simplex of the block, and J = V_s / V_s0.
+template <class Cell> void pressures(const CellGroup& g, const NodalView& view, long block, const Vector<Pack, kD<Cell>>* x, Pack* p, Pack* J) {
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
+  simplex_volumes<Cell>(nullptr, x, J);
   Pack of_node[Cell::nodes];
   for (int a = 0; a < Cell::nodes; ++a) of_node[a] = gather_numbers(view.pressure, nodes + a * kLanes);
   for (int s = 0; s < Cell::simplices; ++s) {
     p[s] = Pack(0.0);
     for (int a = 0; a <= kD<Cell>; ++a) p[s] += of_node[Cell::table[s][a]];
-    p[s] *= Pack(1.0 / (kD<Cell> + 1));
+    J[s] = J[s] / initial_volume(g, memory_of<Cell>(g, block, s));
+    p[s] = Pack(1.0 / (kD<Cell> + 1)) * p[s] + Pack(kGuard * g.solid.K) * guard_pressure(J[s]);
   }
 }
 
@@ -41,8 +45,8 @@ template <class Cell> [[gnu::flatten]] void forces_of_block(const CellGroup& g, 
   gather_ways<Cell>(g.nodes + block * Cell::nodes * kLanes, view.x, x);
   for (Vector<Pack, D>& on_node : f)
     for (int i = 0; i < D; ++i) on_node[i] = Pack(0.0);
-  Pack p[Cell::simplices];
-  pressures<Cell>(g, view, block, p);
+  Pack p[Cell::simplices], J[Cell::simplices];
+  pressures<Cell>(g, view, block, x, p, J);
   if (g.linear_viscosity > 0 || g.quadratic_viscosity > 0) {
     const Viscosity viscosity = viscosity_of_block<Cell>(g, view, block);
     for (Pack& of_simplex : p) of_simplex += viscosity.q;
@@ -54,7 +58,7 @@ template <class Cell> [[gnu::flatten]] void forces_of_block(const CellGroup& g, 
     CellEdges<Cell> e;
     edges_of<Cell>(nullptr, x, s, e.x);
     find_areas(e);
-    upright = upright & (e.volume > Pack(0.0));
+    upright = upright & (J[s] > Pack(0.0));
     for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]] -= p[s] * e.area[m];
     if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
       const Pack hoop = e.area[2][0] * p[s] * Pack(1.0 / 3);
@@ -68,17 +72,18 @@ template <class Cell> [[gnu::flatten]] void forces_of_block(const CellGroup& g, 
   for (int a = 0; a < Cell::nodes; ++a) add_vectors(f[a], slots + a * kLanes, g.sums);
 }
 
-template <class Cell> void observe_block(const CellGroup& g, const NodalView& view, long block, double* stress, double* ratio) {
+template <class Cell> void observe_block(const CellGroup& g, const NodalView& view, long block, double* stress, double* ratio, double* energy) {
   Vector<Pack, kD<Cell>> x[Cell::nodes];
   gather_ways<Cell>(g.nodes + block * Cell::nodes * kLanes, view.x, x);
-  Pack V[Cell::simplices], p[Cell::simplices];
-  simplex_volumes<Cell>(nullptr, x, V);
-  pressures<Cell>(g, view, block, p);
+  Pack p[Cell::simplices], J[Cell::simplices], stored(0.0);
+  pressures<Cell>(g, view, block, x, p, J);
   for (int s = 0; s < Cell::simplices; ++s) {
+    stored += Pack(kGuard * g.solid.K) * initial_volume(g, memory_of<Cell>(g, block, s)) * guard_energy(J[s]);
     double* to = stress + (block * Cell::simplices + s) * 6 * kLanes;
     for (int i = 0; i < 6; ++i) (i < 3 ? p[s] : Pack(0.0)).store(to + i * kLanes);
-    (V[s] / initial_volume(g, memory_of<Cell>(g, block, s))).store(ratio + (block * Cell::simplices + s) * kLanes);
+    J[s].store(ratio + (block * Cell::simplices + s) * kLanes);
   }
+  energy[block] = sum_of_first(stored, lanes_in_use(g, block));
 }
 
 /// Calls `work` with the cell type of simplices; one-point cells have pressures of their own.
@@ -98,9 +103,9 @@ void forces(const CellGroup& g, const NodalView& view, int first, int last) {
     for (int b = first; b < last; ++b) forces_of_block<decltype(cell)>(g, view, b);
   });
 }
-void observe(const CellGroup& g, const NodalView& view, int first, int last, double* stress, double* ratio) {
+void observe(const CellGroup& g, const NodalView& view, int first, int last, double* stress, double* ratio, double* energy) {
   with_simplices(g, [&](auto cell) {
-    for (int b = first; b < last; ++b) observe_block<decltype(cell)>(g, view, b, stress, ratio);
+    for (int b = first; b < last; ++b) observe_block<decltype(cell)>(g, view, b, stress, ratio, energy);
   });
 }
 

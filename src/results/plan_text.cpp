@@ -68,7 +68,7 @@ std::string plan_text(const Simulation& simulation) {
     const double count = static_cast<double>(g.elements);
     nodal = nodal || g.pressure == PressureMode::node;
     lines.add(g.body + ": " + std::to_string(g.cells) + " " + shape_of(g.kind).name + ", " + std::to_string(g.elements) + " elements; pressure per " +
-              name_of(g.pressure) + "; " + law_of(body->material, g.layers));
+              name_of(g.pressure) + (g.edge_points > 0 ? ", the rest at " + std::to_string(g.edge_points) + " edges" : "") + "; " + law_of(body->material, g.layers));
     lines.add("  bytes an element: " + number_text(std::round(g.memory_bytes / count)) + " state, " + number_text(std::round(g.force_bytes / count)) +
               " forces, " + number_text(std::round(g.index_bytes / count)) + " numbers of nodes");
   }

@@ -60,4 +60,35 @@ inline int upper_right(const Mesh& mesh) {
   return best;
 }
 
+/// What the corner does while the load comes and stays, mm.
+struct CookRise {
+  double end, highest, loaded;  ///< at last, on the way, when the load was full
+};
+inline CookRise cook_rise(int cells, const std::string& pattern) {
+  const Mesh mesh = membrane(cells, pattern);
+  const NodeField X = positions_of(mesh), load = cook_load(mesh);
+  Elements elements({body_of(mesh, cook_material())}, 2, X, {}, 1);
+  NodeField x = X, v(X.size(), Node::Zero()), f(X.size());
+  const int top = upper_right(mesh);
+  CookRise rise{};
+  double dt = 0;
+  long step = 0;
+  for (double time = 0; time < kCookLoading + kCookHold; time += dt) {
+    int element;
+    if (step++ % 50 == 0) elements.stable_step(x, v, dt, element), dt *= 0.8;
+    const double keep = (1 - 0.5 * kCookDamping * dt) / (1 + 0.5 * kCookDamping * dt), kick = dt / (1 + 0.5 * kCookDamping * dt);
+    elements.forces(x, v, dt, dt, f);
+    const double share = cook_share(time + dt);
+    for (std::size_t i = 0; i < X.size(); ++i) {
+      v[i] = keep * v[i] + kick / elements.nodal_mass()[i] * (f[i] + share * load[i]);
+      if (X[i][0] < 1e-9) v[i].setZero();
+      x[i] += dt * v[i];
+    }
+    rise.end = 1e3 * (x[top][1] - X[top][1]);
+    rise.highest = std::max(rise.highest, rise.end);
+    if (time < kCookLoading) rise.loaded = rise.end;
+  }
+  return rise;
+}
+
 }  // namespace forming_sim

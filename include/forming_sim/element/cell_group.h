@@ -79,8 +79,8 @@ struct NodalKernels {
   void (*volumes)(const CellGroup&, const NodalView&, int first, int last);
   /// The pressures' forces on the nodes, likewise.
   void (*forces)(const CellGroup&, const NodalView&, int first, int last);
-  /// As in Kernels, of the pressure alone, without its energy.
-  void (*observe)(const CellGroup&, const NodalView&, int first, int last, double* stress, double* ratio);
+  /// As in Kernels, of the pressure alone; energy: the share of the simplices' own pressures.
+  void (*observe)(const CellGroup&, const NodalView&, int first, int last, double* stress, double* ratio, double* energy);
 };
 
 /// Of the points of element/edge_points.h: stress is the deviator S, energy the deviatoric one.

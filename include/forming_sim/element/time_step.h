@@ -13,13 +13,14 @@
 // * Pressure: one mode per cell, K/V0 grad V grad V^T, whose eigenvalue with the
 //   cell's nodal masses is  omega_vol^2 = K/V0 sum_a |dV/dx_a|^2 / m_a.
 //   With a share theta of the element's own pressure the two add up. With p per element it is the element's own; with p per node the element's
-//   own bounds it (the squares of means do not exceed the means of squares).
+//   own bounds it (the squares of means do not exceed the means of squares), with what its guard adds (element/guard.h).
 // * Where the law is at the edges (element/edge_points.h), the deviatoric part of a simplex is the mean over
 //   its edges of theirs: K = sum_e K_e, K_e <= omega_e^2 M_e, M_e = sum_s M_s/k over the simplices around e.
 //   omega_e^2 = mu/rho max(...) with S = sum_a g_a g_a^T V_e rho/m_ea; of a ring with M of element/ring_step.h.
 // Bulk viscosity eta = rho l (b1 c + b2^2 l |D|) adds the damping
 //   C = eta/V sum_a |dV/dx_a|^2 / m_a;  what the step becomes: element/step_bounds.h.
 #include "forming_sim/element/cell_group.h"
+#include "forming_sim/element/guard.h"
 #include "forming_sim/element/ring_step.h"
 #include "forming_sim/material/law.h"
 
@@ -109,8 +110,9 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
     const T J = e.volume / V0;
     const T omega2 = at_edges ? *at_edges : T((D + 1) / g_.density * g_.solid.mu) * point_tangent(g_.solid, e, J, memory) * largest;
     const T volumetric = T((D + 1) * g_.solid.K / g_.density) * J * J * sum_of_squares;
+    const T guard = g_.pressure == PressureMode::node ? T(kGuard) * guard_slope(J) : T(0);  // over K
     deviatoric_ = larger(deviatoric_, omega2);
-    element_ = larger(element_, omega2 + volumetric);
+    element_ = larger(element_, omega2 + volumetric * (T(1) + guard));
     own_ = larger(own_, volumetric);
     V_ += e.volume;
     V0_ += V0;

@@ -35,7 +35,7 @@ struct BodyConfig {
     visit(FORMING_SIM_FIELD(name), Field().required().doc("name of the body"));
     visit(FORMING_SIM_FIELD(blank), Field().doc("a body that is meshed here. Give blank or mesh"));
     visit(FORMING_SIM_FIELD(mesh), Field().doc("a body from a volume mesh; its physical groups become sets"));
-    visit(FORMING_SIM_FIELD(pressure_average), Field().choices({"cell", "node", "element"}).doc("over what the pressure is averaged: cell: one per quadrilateral or hexahedron, per node in free triangles and tetrahedra; node: everywhere per node; element: no average (locks in plastic flow)"));
+    visit(FORMING_SIM_FIELD(pressure_average), Field().choices({"cell", "node", "element"}).doc("over what the pressure is averaged: cell: one per quadrilateral or hexahedron, and in free triangles and tetrahedra as node; node: one per node, everything else once an edge; element: no average (locks in plastic flow)"));
     visit(FORMING_SIM_FIELD(material), Field().required().doc("what the body is made of"));
     visit(FORMING_SIM_FIELD(self_contact), Field().doc("true: the body meets itself where it folds; contact of bodies with each other is always on"));
     visit(FORMING_SIM_FIELD(sets), Field().doc("named sets of nodes, beside those of the mesh"));
