@@ -203,7 +203,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
       if (list.size() == 0) break;
       gather(x, v, dt, motion, planes);
       narrow_phase(constants(), planes, all, reach, travel, team, list, near);
-      assign_layers(records, tried, work, dt, layer, ceiling, team, near.pairs, near.rubs);
+      assign_layers(records, tried, work, dt, previous_dt, layer, ceiling, team, near.pairs, near.rubs);
       laps.done(&ContactTimes::narrow);
       swept = SweepResult();
       if (!near.pairs.empty() || !tie_pairs.empty())

@@ -79,8 +79,9 @@ class Left {
 
 }  // namespace
 
-void assign_layers(const std::vector<PairRecord>& before, const std::vector<PairRecord>& tried, const Workspace& work, double dt, double full, double ceiling, Team& team,
+void assign_layers(const std::vector<PairRecord>& before, const std::vector<PairRecord>& tried, const Workspace& work, double dt, double last_dt, double full, double ceiling, Team& team,
                    std::vector<ContactPair>& pairs, std::vector<Rub>& rubs) {
+  const double lasts = tried.empty() ? std::min(dt, last_dt) : dt;  // of a force from which the sweeps start
   std::mutex one;
   std::vector<long> born;  // inside their layer
   const auto rising = [](const PairRecord& r, const PairKey& key) { return r.key < key; };
@@ -95,8 +96,8 @@ void assign_layers(const std::vector<PairRecord>& before, const std::vector<Pair
       while (t != last_try.end() && t->key < pair.key) ++t;
       pair.impulse = 0;
       if (t != last_try.end() && t->key == pair.key && pair.w > 0) {
-        pair.impulse = dt * t->force;
-        if (pair.rub >= 0) rubs[pair.rub].slip = dt * Node(t->drag[0], t->drag[1], t->drag[2], 0);
+        pair.impulse = lasts * t->force;
+        if (pair.rub >= 0) rubs[pair.rub].slip = lasts * Node(t->drag[0], t->drag[1], t->drag[2], 0);
       }
       if (r != before.end() && r->key == pair.key) {
         pair.layer = pair.base < full ? std::min(r->layer, pair.base) : r->layer;

@@ -213,14 +213,17 @@ void put_in_order(std::vector<ContactPair>& pairs) {
   pairs.erase(std::unique(pairs.begin(), pairs.end(), [](const ContactPair& a, const ContactPair& b) { return a.key == b.key; }), pairs.end());
 }
 
+// Of a point x and its foot f on the plane, which go to x1 and f1: along the normal n1 with which the
+// step ends, (x - f) . n1 + (v_x - v_f) . n1 dt = (x1 - f1) . n1 is the gap at the end itself, as f1
+// lies on the plane, however far both slide and the plane turns.
 void add_plane_pairs(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, double reach,
                      const NearList& list, std::vector<ContactPair>& pairs) {
   for (const NearList::PlanePair& p : list.planes) {
     const PlanePose& plane = planes[p.tool];
-    const double gap = dot3(work.x[p.node] - plane.point, plane.normal);
+    const double gap = dot3(work.x[p.node] - plane.point, plane.normal) * dot3(plane.normal, plane.end_normal);
     if (gap > reach) continue;
     pairs.emplace_back(PairKey::make(PairKey::plane, p.vertex, 0, p.tool), features.vertex_surface[p.vertex], features.bodies + p.tool, gap, layer)
-        .lies({{1, -1, 0, 0}, {p.node, p.foot, -1, -1}, 2}, plane.normal);
+        .lies({{1, -1, 0, 0}, {p.node, p.foot, -1, -1}, 2}, plane.end_normal);
   }
 }
 

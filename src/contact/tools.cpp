@@ -145,7 +145,7 @@ void ToolSet::place_all(const Features& f, const std::vector<ToolMotion>& motion
 std::vector<PlanePose> ToolSet::planes(const std::vector<ToolMotion>& motion) const {
   std::vector<PlanePose> poses(motion.size());
   for (size_t t = 0; t < motion.size(); ++t)
-    if (is_plane[t]) poses[t] = {node(pose0(motion[t], point[t])), node(motion[t].rotation0 * normal[t])};
+    if (is_plane[t]) poses[t] = {node(pose0(motion[t], point[t])), node(motion[t].rotation0 * normal[t]), node(motion[t].rotation1 * normal[t])};
   return poses;
 }
 

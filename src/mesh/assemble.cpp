@@ -6,6 +6,7 @@
 #include "forming_sim/config/fault.h"
 #include "forming_sim/mesh/cell_tables.h"
 #include "forming_sim/mesh/measure.h"
+#include "forming_sim/mesh/seams.h"
 #include "forming_sim/mesh/split.h"
 #include "raw_mesh.h"
 
@@ -156,6 +157,21 @@ void lay_sets(const RawMesh& raw, const Centres& centres, Mesh& mesh) {
   }
 }
 
+// A body is whole: its cells are joined wherever they touch.
+void check_seams(const RawMesh& raw, const Mesh& mesh) {
+  const std::vector<Seam> seams = find_seams(mesh);
+  if (seams.empty()) return;
+  const auto name = [&](int n) { return n < static_cast<int>(raw.point_tags.size()) ? std::to_string(raw.point_tags[n]) : std::string("(the middle of a cell's side)"); };
+  const Seam& first = seams.front();
+  std::ostringstream text;
+  text << "cells touch without being joined, at " << seams.size() << (seams.size() == 1 ? " node" : " nodes") << " of the surface: the first is node " << name(first.node) << " at "
+       << place(mesh.nodes[first.node]) << ", which lies on the side of another cell with the nodes";
+  for (int k = 0; k < mesh.dimension; ++k) text << ' ' << name(first.facet.nodes[k]);
+  text << "; the body is torn there, and its parts would pass through each other: merge doubled nodes (Coherence Mesh in gmsh), "
+          "mesh parts that meet with the same nodes, or give them as bodies of their own, tied or sliding";
+  refuse(raw, text.str());
+}
+
 }  // namespace
 
 const RawShape& shape_of(RawKind kind) {
@@ -181,6 +197,7 @@ Mesh assemble(RawMesh raw) {
     const std::string what = error.what();  // "mesh: ...": the source takes the place of the first word
     throw Error(error.code(), raw.source + what.substr(what.find(':')));
   }
+  check_seams(raw, mesh);
   return mesh;
 }
 

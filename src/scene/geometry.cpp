@@ -10,6 +10,7 @@
 #include "forming_sim/mesh/import.h"
 #include "forming_sim/mesh/measure.h"
 #include "forming_sim/mesh/profile.h"
+#include "forming_sim/mesh/seams.h"
 #include "forming_sim/mesh/sets.h"
 #include "rules.h"
 
@@ -139,6 +140,9 @@ bool make_tool(const Scene& scene, std::size_t i, const std::vector<Fault>& know
 void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
   if (const std::size_t held = model.axisymmetric ? axis_nodes(mesh).size() : 0; held > 0)
     model.notes.push_back(std::to_string(held) + " nodes of body " + config.name + " lie on the axis of symmetry and stay on it");
+  if (const int parts = config.self_contact ? 1 : count_parts(mesh); parts > 1)
+    model.notes.push_back("body " + config.name + " consists of " + std::to_string(parts) +
+                          " parts that share no node, and they pass through each other: set its self_contact to true, or give them as bodies of their own");
   BodyModel body;
   body.name = config.name;
   body.first_node = model.node_count();

@@ -241,3 +241,18 @@ TEST(Contact2D, SlidingOffACliffDoesNotEject) {
       EXPECT_NEAR(thrown[0], thrown[1], 1e-3 * thrown[0]) << depth << " " << pressed;
     }
 }
+
+// A plane that turns fast about a far point, in long steps: its normal at the end of a step is not that of the beginning.
+TEST(Contact2D, APlaneThatTurnsFastLetsNothingThrough) {
+  World world;
+  world.add_strip(Vec3(0, -.1, 0), 10, 5, .02, .02, 2700, 0);
+  world.config.layer = 1e-5;
+  world.turning = -600;
+  world.add_plane("press", Vec3(.5, 1e-3, 0), Vec3(0, -1, 0), .3, [](double) { return Vec3(-.5, 0, 0); });
+  Contact contact = world.make();
+  for (int i = 0; i < 8; ++i) world.step(contact, 7e-5);
+  EXPECT_EQ(world.crossings, 0);
+  EXPECT_GT(world.least_gap, 0);
+  EXPECT_GT(world.last.active, 5);
+  EXPECT_NEAR(world.closure(), 0, 1e-9 * world.exchanged);
+}

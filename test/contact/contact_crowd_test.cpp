@@ -132,3 +132,22 @@ TEST(ContactCrowd, HalvedStepsKeepMomentumAndTheList) {
   EXPECT_LT((world.angular_momentum() - l).norm(), 1e-12 * scale);
   EXPECT_NEAR(world.closure(), 0, 1e-10 * world.exchanged);
 }
+
+// The tip of a needle in a narrow groove: short steps stop it with forces that a step a thousand times longer does not
+// need, and walls that face each other so squarely take more sweeps than there are to take an impulse back.
+TEST(ContactCrowd, ALongStepAfterShortOnesThrowsNothingOut) {
+  World world;
+  world.config.layer = 1e-5;
+  const double half = .005;
+  world.add_polygon({Vec3(0, .1, 0), Vec3(.1 * half, 1, 0), Vec3(-.1 * half, 1, 0)}, 1, 1e7);
+  world.add_tool("groove", polyline({Vec3(-half, 1, 0), Vec3(0, 0, 0), Vec3(half, 1, 0)}), 0, [](double) { return Vec3::Zero(); });
+  for (Node& v : world.v) v = Node(0, -50, 0, 0);
+  Contact contact = world.make();
+  for (int i = 0; i < 20000 && world.last.active == 0; ++i) world.step(contact, 1e-7, false);
+  ASSERT_GT(world.last.active, 0);
+  for (int i = 0; i < 200; ++i) world.step(contact, 1e-8, false);
+  for (int i = 0; i < 5; ++i) world.step(contact, 1e-5, false);
+  double fastest = 0;
+  for (const Node& v : world.v) fastest = std::max(fastest, v.norm());
+  EXPECT_LT(fastest, 50.5);
+}

@@ -30,7 +30,7 @@ std::vector<double> layers(std::vector<PairRecord> before, std::vector<ContactPa
   std::sort(pairs.begin(), pairs.end(), [](const ContactPair& a, const ContactPair& b) { return a.key < b.key; });
   Team team(1);
   std::vector<Rub> rubs;
-  assign_layers(before, {}, Workspace(), 1e-6, h0, h0, team, pairs, rubs);
+  assign_layers(before, {}, Workspace(), 1e-6, 1e-6, h0, h0, team, pairs, rubs);
   std::vector<double> found;
   for (const ContactPair& pair : pairs) found.push_back(pair.layer);
   return found;

@@ -33,6 +33,7 @@ struct World {
   std::vector<ContactSurface> bodies, tools;
   std::vector<Mesh> meshes;                         ///< of tools
   std::vector<std::function<Vec3(double)>> path;    ///< of tools: position over time
+  double turning = 0;                               ///< of all tools about z through their position, rad/s
   std::vector<HeldNode> held;
   NodeField held_velocity;
   ContactConfig config;
@@ -51,6 +52,8 @@ struct World {
     for (size_t t = 0; t < tools.size(); ++t) {
       all[t].position0 = path[t](t0);
       all[t].position1 = path[t](t1);
+      all[t].rotation0 = Eigen::AngleAxisd(turning * t0, Vec3::UnitZ()).toRotationMatrix();
+      all[t].rotation1 = Eigen::AngleAxisd(turning * t1, Vec3::UnitZ()).toRotationMatrix();
     }
     return all;
   }

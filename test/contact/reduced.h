@@ -48,7 +48,7 @@ class Reduced {
     }
     narrow_phase({features_, work_, world.modulus, layer_}, planes, true, reach, 0, team_, list, near_);
     if (reduce_) reduce_(work_, near_.pairs);
-    assign_layers(records_, {}, work_, dt, layer_, layer_, team_, near_.pairs, near_.rubs);
+    assign_layers(records_, {}, work_, dt, dt, layer_, layer_, team_, near_.pairs, near_.rubs);
     sweeps_.solve(dt, 1e-3 * layer_, 50, work_, ties_, near_.pairs, near_.rubs);
     RelaxedPotential potential;
     records_.clear();

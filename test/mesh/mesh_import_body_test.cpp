@@ -215,6 +215,34 @@ TEST(MeshImportBody, InlineCells) {
   EXPECT_EQ(mesh.dimension, 2);
 }
 
+// Cells that lie against each other and share no node there: two quadrilaterals one over the other, whose meeting sides
+// have nodes of their own; half joined; two over one of twice the length; and apart by a gap that contact can keep.
+TEST(MeshImportBody, CellsThatTouchAreJoined) {
+  const auto load = [](std::vector<Vec3> points, std::vector<int> cells, const char* kind = "quadrilateral") {
+    return load_body_mesh(given(kind, std::move(points), std::move(cells)), "");
+  };
+  const auto error = [&](auto... mesh) { return error_of([&] { load(mesh...); }); };
+  const std::vector<Vec3> low{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const auto with = [&](std::initializer_list<Vec3> more) {
+    std::vector<Vec3> points = low;
+    points.insert(points.end(), more);
+    return points;
+  };
+  EXPECT_NO_THROW(load(with({{1, 2, 0}, {0, 2, 0}}), {0, 1, 2, 3, 3, 2, 4, 5}));
+  const std::string doubled = error(with({{0, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}), std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7});
+  EXPECT_TRUE(has(doubled, "at 4 nodes")) << doubled;
+  EXPECT_TRUE(has(doubled, "node 2 at (1, 1, 0) m")) << doubled;
+  EXPECT_TRUE(has(doubled, "merge")) << doubled;
+  EXPECT_TRUE(has(error(with({{1, 1, 0}, {1, 2, 0}, {0, 2, 0}}), std::vector<int>{0, 1, 2, 3, 3, 4, 5, 6}), "at 2 nodes"));
+  EXPECT_TRUE(has(error(with({{.5, 1, 0}, {.5, 2, 0}, {0, 2, 0}, {1, 2, 0}}), std::vector<int>{0, 1, 2, 3, 3, 4, 5, 6, 4, 2, 7, 5}), "at 1 node of the surface: the first is node 4"));
+  EXPECT_NO_THROW(load(with({{0, 1 + 1e-6, 0}, {1, 1 + 1e-6, 0}, {1, 2, 0}, {0, 2, 0}}), {0, 1, 2, 3, 4, 5, 6, 7}));
+  std::vector<Vec3> tower = kCube;
+  for (const Vec3& p : kCube) tower.push_back(p + Vec3(0, 0, 1));
+  EXPECT_TRUE(has(error(tower, std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}, "hexahedron"), "cells touch without being joined, at 10 nodes"));
+  tower.erase(tower.begin() + 8, tower.begin() + 12);
+  EXPECT_NO_THROW(load(tower, {0, 1, 2, 3, 4, 5, 6, 7, 4, 5, 6, 7, 8, 9, 10, 11}, "hexahedron"));
+}
+
 TEST(MeshImportBody, InlineNonsenseIsRefusedByItsField) {
   const auto refused = [](const MeshConfig& c) { return error_of([&] { load_body_mesh(c, ""); }); };
   EXPECT_TRUE(has(refused(given("", kCube, {0, 1, 2, 3})), "mesh.cell_type: given \"\""));

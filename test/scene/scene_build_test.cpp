@@ -211,5 +211,28 @@ TEST(SceneBuild, FaultsOfReadingAndOfMeshesAreToldTogether) {
   EXPECT_NE(faults.front().given.find("(line "), std::string::npos);
 }
 
+// What a body without self contact does where it has more parts than one is told.
+TEST(SceneBuild, ABodyInTwoPartsIsTold) {
+  Scene scene = plate_scene();
+  scene.tools.clear();
+  scene.bodies[0].blank.reset();
+  MeshConfig mesh;
+  mesh.unit_scale = 1e-2;
+  mesh.cell_type = "tetrahedron";
+  for (double x : {0.0, 2.0})
+    for (const Vec3& p : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) mesh.points.push_back(p + x * Vec3::UnitX());
+  mesh.cells = {0, 1, 2, 3, 4, 5, 6, 7};
+  scene.bodies[0].mesh = mesh;
+  const std::vector<std::string> notes = build_model(scene).notes;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("body plate consists of 2 parts that share no node"), std::string::npos) << notes[0];
+  scene.bodies[0].self_contact = true;
+  EXPECT_TRUE(build_model(scene).notes.empty());
+  scene.bodies[0].self_contact = false;
+  scene.bodies[0].mesh->cells = {0, 1, 2, 3};
+  scene.bodies[0].mesh->points.resize(4);
+  EXPECT_TRUE(build_model(scene).notes.empty());
+}
+
 }  // namespace
 }  // namespace forming_sim

@@ -25,8 +25,9 @@ struct PairRecord {
 ///  new, h < base    h: no force at first. Where the vertex or edge of either side has just left another
 ///                   feature of the other surface, that pair's layer goes over, to one new pair, so that
 ///                   the potential, a function of h/h0, does not rise.
-/// dt: of the step; work.v: predicted velocities. full: h0.
-void assign_layers(const std::vector<PairRecord>& before, const std::vector<PairRecord>& tried, const Workspace& work, double dt, double full, double ceiling, Team& team,
+/// dt: of the step; last_dt: of the step before; work.v: predicted velocities. full: h0. The force that stops things in
+/// a short step is not that of a longer one: a pair starts from no more than the impulse that the step before had.
+void assign_layers(const std::vector<PairRecord>& before, const std::vector<PairRecord>& tried, const Workspace& work, double dt, double last_dt, double full, double ceiling, Team& team,
                    std::vector<ContactPair>& pairs, std::vector<Rub>& rubs);
 
 /// What is known of a pair at the end of a step of dt.

@@ -51,9 +51,9 @@ struct NearList {
   long size() const { return static_cast<long>(facets.size() + edges.size() + planes.size() + ties.size()); }
 };
 
-/// A plane in the world.
+/// A plane in the world as a step begins, and its normal as the step ends.
 struct PlanePose {
-  Node point = Node::Zero(), normal = Node::Zero();
+  Node point = Node::Zero(), normal = Node::Zero(), end_normal = Node::Zero();
 };
 
 /// The tools of a search.

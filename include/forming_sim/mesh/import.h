@@ -16,7 +16,8 @@ namespace forming_sim {
 /// including those that splitting adds on it; a group without a name is called
 /// group_<tag>, two groups of one name share a set. Surface found, volumes checked.
 /// Throws Error(mesh_error) for a file that is missing, not readable, of second
-/// order, or without cells, and for inverted cells, named by their nodes.
+/// order, or without cells, for inverted cells, named by their nodes, and for cells
+/// that touch without being joined (see seams.h).
 Mesh load_body_mesh(const MeshConfig& config, const std::string& base_directory);
 
 /// A tool: triangles in `surface`, coinciding nodes merged, triangles without
