@@ -39,7 +39,7 @@ void flange_time_problem(Report& report) {
       if (stage.kind != "settle") stage.duration /= factor;
     add("tool speed", factor, scene);
   }
-  for (const char* limit : {"node", "global"}) {
+  for (const char* limit : {"element", "node"}) {
     Scene scene = shipped;
     scene.time_step.limit = limit;
     add(std::string("step limit ") + limit, 1, scene);

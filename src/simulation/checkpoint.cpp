@@ -9,7 +9,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f6600000002u;
+constexpr std::uint64_t kLayout = 0x6d726f6600000003u;
 }  // namespace
 
 template <class Archive> void Simulation::Impl::exchange(Archive& a) {
@@ -21,6 +21,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   for (long* value : {&steps, &halvings, &active_pairs, &crossings, &longer_steps}) a.number(*value);
   a.raw(control);
   if (plan.time_step.limit == "global") global.exchange(a, static_cast<std::size_t>(elements.blocks()) * kLanes);
+  if (!by_cells()) departure.exchange(a, x.size());
   a.number(smallest.element);
   a.number(smallest.node);
   a.text(smallest.reason);
