@@ -93,7 +93,9 @@ std::string plan_text(const Simulation& simulation) {
   if_any(step.mass_scaling != 1, "masses times " + number_text(step.mass_scaling), "mass scaling");
 
   lines.start("step");
-  lines.add("by " + std::string(step.limit == "element" && step.raise_to > 0 ? "node" : step.limit));
+  const BodyModel* classical = model.without_tangent();
+  lines.add("by " + std::string(step.limit == "element" && step.raise_to > 0 ? "node" : step.limit) +
+            (classical ? "; not by global: the law of body " + classical->name + " is classical" : ""));
   if_any(step.raise_to > 0, "mass added for " + number_text(step.raise_to) + " s: " + number_text(100 * simulation.added_mass().fraction) + " %", "mass added for the step");
 
   lines.start("contact");

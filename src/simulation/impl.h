@@ -7,6 +7,7 @@
 #include "forming_sim/loads/boundary.h"
 #include "forming_sim/loads/pressure.h"
 #include "forming_sim/simulation/simulation.h"
+#include "simulation/departure.h"
 #include "simulation/global_limit.h"
 #include "simulation/settle.h"
 #include "simulation/stages.h"
@@ -40,6 +41,7 @@ struct Simulation::Impl {
   long steps = 0;
   StepControl control;
   GlobalLimit global;
+  Departure departure;              ///< watched where a step may come near the true limit
   CellRates rates;                  ///< when the stable step was last asked for
   StepLimit limit, smallest;
   AddedMass added;
@@ -78,6 +80,8 @@ struct Simulation::Impl {
   /// dt of the coming step: what the mesh bears, the user's limit, the stage's end.
   void choose_dt();
   void find_stable_step();
+  /// The step is the fastest cell's own: neither nodes nor the whole mesh bound it.
+  bool by_cells() const { return plan.time_step.limit == "element" && plan.time_step.raise_to == 0; }
   /// Gives mass to the nodes around which the step is below time_step.raise_to. Throws SceneError.
   void raise_step();
   [[noreturn]] void collapse(double stable, int element) const;

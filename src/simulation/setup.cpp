@@ -30,6 +30,12 @@ void hold_at_axis(const BodyModel& body, std::vector<ResolvedBoundary>& held) {
   if (!axis.nodes.empty()) held.push_back(axis);
 }
 
+/// The plan with the limit of the step that it leaves to the model.
+RunPlan with_limit(RunPlan plan, const Model& model) {
+  if (plan.time_step.limit.empty()) plan.time_step.limit = model.without_tangent() ? "node" : "global";
+  return plan;
+}
+
 }  // namespace
 
 /// Twice the volume over the surface: the thickness of a thin sheet. Axisymmetric:
@@ -52,11 +58,11 @@ double thickness_of(const BodyModel& body, bool axisymmetric) {
 }
 
 Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
-    : plan(p), model(std::move(m)), X(initial_positions_of(model)), x(X),
+    : plan(with_limit(p, m)), model(std::move(m)), X(initial_positions_of(model)), x(X),
       v(X.size(), Node::Zero()), v_before(v), f(v),
       elements(model.bodies, model.dimension, X,
                {p.time_step.mass_scaling, p.time_step.linear_viscosity, p.time_step.quadratic_viscosity,
-                p.time_step.limit != "element" || p.time_step.raise_to > 0, model.axisymmetric}, n),
+                !by_cells(), model.axisymmetric}, n),
       stages(plan.stages, model), contact_pressure(X.size(), 0.0), node_impulse(contact_pressure) {
   set_up_loads();
   raise_step();

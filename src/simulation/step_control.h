@@ -16,6 +16,8 @@ struct StepControl {
   int interval = 1, until_next = 0;
 
   bool due() const { return until_next <= 0; }
+  /// Something has come that the last bound did not foresee: ask at once, and again after one step.
+  void hurry() { interval = 1, until_next = 0; }
   /// dt: the bound now. close: it has little to spare, and is taken for what it will have fallen to
   /// by the next time if it goes on falling as it did since the last.
   void update(double dt, bool close) {

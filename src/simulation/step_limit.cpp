@@ -12,12 +12,19 @@ namespace forming_sim {
 
 namespace {
 constexpr double kCollapse = 1e-3;  ///< an element whose stable step falls to this part of the first is no element any more
+/// A step is at most this many times the last one. Steps of L and b L by turns, kicks between them of (1 + b) L/2, take a
+/// swing of frequency omega over both by a map of trace 2 - (1 + b)^2 z + (1 + b)^2 b z^2/4, z = (omega L)^2, below -2 where
+/// 4/(1 + b) < z < 4/(b (1 + b)): it grows, although each step alone is stable. So does one whose own swing makes the
+/// limit swing. Steps that fall at once and rise slowly feed neither: halved steps, and limits that come and go.
+constexpr double kRise = 1.01;
 }  // namespace
 
 void Simulation::Impl::choose_dt() {
+  if (departure.sudden()) control.hurry();
   if (control.due()) find_stable_step();
   const TimeStepConfig& config = plan.time_step;
   dt = config.safety * control.stable_dt;
+  if (!by_cells() && previous_dt > 0) dt = std::min(dt, kRise * previous_dt);
   limit.dt = dt;
   limit.element = control.element;
   limit.node = control.node;
@@ -38,8 +45,9 @@ void Simulation::Impl::find_stable_step() {
   control.node = -1;
   control.longer = false;
   const TimeStepConfig& config = plan.time_step;
-  if (config.limit == "element" && config.raise_to == 0) return control.update(cell.dt, false);
+  if (by_cells()) return control.update(cell.dt, false);
 
+  departure.look(v);
   const NodalRates nodal = elements.sum_rates(rates);
   const NodeLimit node = slowest_node(nodal, elements.nodal_mass());
   double stable = node.dt;
@@ -60,7 +68,7 @@ void Simulation::Impl::find_stable_step() {
       control.longer = true;
     }
   }
-  control.update(stable, control.longer);
+  control.update(stable, true);
 }
 
 void Simulation::Impl::raise_step() {

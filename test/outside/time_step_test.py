@@ -80,10 +80,17 @@ class TimeStep(unittest.TestCase):
         for found in plastic[1:]:
             self.assertAlmostEqual(found, plastic[0], delta=0.005 * plastic[0])
 
+    def test_the_whole_mesh_is_the_default_and_nodes_where_a_law_forbids_it(self):
+        self.assertEqual(self.run_scene({})['options']['time_step']['limit'], 'global')
+        bodies = copy.deepcopy(SCENE['bodies'])
+        bodies[0]['material']['law'] = 'classical'
+        self.assertEqual(self.call({}, 'classical', bodies=bodies).returncode, 0)
+        self.assertEqual(self.summary('classical')['options']['time_step']['limit'], 'node')
+
     def test_mass_for_the_few_is_told(self):
-        plain = self.run_scene({}, 'plain')
+        plain = self.run_scene({'limit': 'element'}, 'plain')
         want = 3.5 * plain['time_step_s']['first']
-        summary = self.run_scene({'raise_to': want}, 'raised')
+        summary = self.run_scene({'limit': 'element', 'raise_to': want}, 'raised')
         self.assertGreaterEqual(summary['time_step_s']['first'], want * (1 - 1e-9))
         self.assertLess(summary['steps'], 0.3 * plain['steps'])
         raised = summary['options']['raised_step']

@@ -24,6 +24,13 @@ TEST(Plan, NothingButCells) {
   EXPECT_EQ(plan.find("friction"), std::string::npos) << plan;
 }
 
+TEST(Plan, WhyTheStepIsNotTakenFromTheWholeMesh) {
+  OneBody run(body_of(generate_blank(strip_of(.1, .01, 10, 2)), aluminium()), 1e-3);
+  EXPECT_NE(plan_text(*run.start()).find("step         by global\n"), std::string::npos);
+  run.model.bodies[0].material.law = "classical";
+  EXPECT_NE(plan_text(*run.start()).find("step         by node; not by global: the law of body block is classical\n"), std::string::npos);
+}
+
 TEST(Plan, BytesAreThoseOfTheArrays) {
   const OneBody run(body_of(generate_blank(strip_of(.1, .01, 16, 2)), aluminium()), 1e-3);
   const std::vector<GroupPlan> groups = run.start()->groups();

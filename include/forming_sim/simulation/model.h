@@ -18,6 +18,13 @@ struct Model {
 
   /// Forces, masses and energies count per metre of width: plane strain.
   bool per_width() const { return dimension == 2 && !axisymmetric; }
+  /// The first body of the classical law, which has no elastic tangent to iterate with
+  /// (simulation/fastest_swing.h); null: there is none.
+  const BodyModel* without_tangent() const {
+    for (const BodyModel& body : bodies)
+      if (body.material.law == "classical") return &body;
+    return nullptr;
+  }
   int node_count() const { return bodies.empty() ? 0 : bodies.back().first_node + bodies.back().node_count; }
   int element_count() const { return bodies.empty() ? 0 : bodies.back().first_element + bodies.back().element_count; }
 };

@@ -1,0 +1,46 @@
+#pragma once
+// Whether the mesh may have changed more than the last look at the stable step foresaw.
+//
+// What the cells did at that look goes on at most as the step's own forecast allows for
+// (simulation/step_control.h). What comes on top of it, a body that meets a tool or a support that
+// starts, shows in the velocities first: the nodes have since departed from the motion
+// that they had by at most sum of dt max |v - v_then|. No cell is much thinner than the way
+// c dt of a wave in a stable step, so that this makes a strain of about
+//   sum over the steps of max |v - v_then| / c,
+// twice that where two neighbours depart in opposite directions. Velocities alone enter, so that
+// it costs one pass over the nodes.
+#include <algorithm>
+#include <cmath>
+
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+class Departure {
+ public:
+  static constexpr double kUnforeseenStrain = 0.01;
+
+  void look(const NodeField& v) {
+    then_ = v;
+    strain_ = 0;
+  }
+  /// After a step that ended with v, m/s; wave: the slowest of the bodies' waves, m/s.
+  void step(const NodeField& v, double wave) {
+    double most = 0;
+    for (std::size_t n = 0; n < v.size(); ++n) most = std::max(most, (v[n] - then_[n]).squaredNorm());
+    strain_ += std::sqrt(most) / wave;
+  }
+  bool sudden() const { return strain_ > kUnforeseenStrain; }
+
+  template <class Archive> void exchange(Archive& a, std::size_t nodes) {
+    then_.resize(nodes, Node::Zero());
+    a.numbers(then_.data()->data(), nodes * 4);
+    a.number(strain_);
+  }
+
+ private:
+  NodeField then_;
+  double strain_ = 0;
+};
+
+}  // namespace forming_sim
