@@ -11,7 +11,10 @@
 // it costs one pass over the nodes.
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
+#include "forming_sim/element/nodes.h"
+#include "forming_sim/parallel/team.h"
 #include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
@@ -25,9 +28,15 @@ class Departure {
     strain_ = 0;
   }
   /// After a step that ended with v, m/s; wave: the slowest of the bodies' waves, m/s.
-  void step(const NodeField& v, double wave) {
+  void step(const NodeField& v, double wave, Team& team) {
+    std::mutex one;
     double most = 0;
-    for (std::size_t n = 0; n < v.size(); ++n) most = std::max(most, (v[n] - then_[n]).squaredNorm());
+    team.share(static_cast<long>(v.size()), kNodesOfAThread, [&](long first, long last) {
+      double of_part = 0;
+      for (long n = first; n < last; ++n) of_part = std::max(of_part, (v[n] - then_[n]).squaredNorm());
+      const std::lock_guard<std::mutex> lock(one);
+      most = std::max(most, of_part);
+    });
     strain_ += std::sqrt(most) / wave;
   }
   bool sudden() const { return strain_ > kUnforeseenStrain; }

@@ -51,7 +51,7 @@ void Simulation::Impl::take_step() {
   ++steps;
   place_tools();
   most = std::max(most, work + initial);
-  if (!by_cells()) departure.step(v, elements.slowest_wave());
+  if (!by_cells()) departure.step(v, elements.slowest_wave(), elements.team());
 }
 
 void Simulation::Impl::book(const ContactStep& done) {
