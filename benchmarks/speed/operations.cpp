@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "forming_sim/element/edge_points.h"
 #include "forming_sim/element/hourglass.h"
 #include "forming_sim/material/law.h"
 #include "speed/counted.h"
@@ -107,10 +108,22 @@ template <int D, bool Ring, bool OnePointCell> double count(const SpeedFamily& f
   return static_cast<double>(element.step(motion.start + motion.per_step));
 }
 
+/// Of a simplex whose law is at its edges: its share of them, each with the sums over its nodes by which it makes its edge
+/// vectors and hands back forces. The nodes' pressures, some tens, are not counted.
+double at_edges(const SpeedFamily& family, double of_point) {
+  const Mesh mesh = block_of(family.kind, 6);
+  const auto simplices = mesh.simplices();
+  const int D = mesh.dimension;
+  const EdgePoints points = find_edge_points(simplices, positions_of(mesh), D, family.ring);
+  const double nodes = static_cast<double>(points.node.size()) / points.count();
+  return points.count() / static_cast<double>(simplices.size()) * (of_point + 4 * D * D * nodes);
+}
+
 }  // namespace
 
 double operations_of_step(const SpeedFamily& family, const SpeedMotion& motion) {
   const bool flat = shape_of(family.kind).dimension == 2;
+  if (family.average == std::string("node")) return at_edges(family, flat ? count<2, false, false>(family, motion) : count<3, false, false>(family, motion));
   if (is_one_point(family.kind)) return flat ? count<2, false, true>(family, motion) : count<3, false, true>(family, motion);
   if (flat) return family.ring ? count<2, true, false>(family, motion) : count<2, false, false>(family, motion);
   return count<3, false, false>(family, motion);

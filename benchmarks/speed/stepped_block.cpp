@@ -86,7 +86,7 @@ double SteppedBlock::step_bytes() const {
   for (const GroupPlan& g : engine_->plan()) {
     bytes += g.memory_bytes + (motion_.yields() ? g.state_bytes : 0) + g.index_bytes + 2 * g.force_bytes;
     bytes += (g.memory_bytes + 0.5 * g.index_bytes) / kLongestBoundInterval;
-    if (nodal_pressure_) bytes += g.index_bytes + 2 * g.force_bytes;  // volumes, in the slots of the forces
+    bytes += g.pressure_bytes;  // volumes, in the slots of the forces
   }
   bytes += 2 * field + nodes * sizeof(int);                 // cells read x; the sum writes f
   bytes += (3 * field + numbers) + 3 * field;               // kick: v, f, m to v; move: x, v to x

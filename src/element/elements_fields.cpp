@@ -26,6 +26,7 @@ std::vector<GroupPlan> Elements::plan() const {
     plan.cells = g.cells;
     plan.elements = static_cast<long>(g.cells) * g.cell_simplices;
     add_bytes(g, plan);
+    if (!g.edge_points.empty()) plan.pressure_bytes = plan.index_bytes + 2 * plan.force_bytes;
     // Those of a body's points at edges count as those of its first cells that ask for them.
     const bool first = std::none_of(groups.begin(), groups.end(), [&](const GroupPlan& p) { return p.body == g.body && p.edge_points > 0; });
     if (!g.edge_points.empty() && first)

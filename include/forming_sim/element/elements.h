@@ -37,6 +37,7 @@ struct GroupPlan {
   double memory_bytes = 0;   ///< state of the law, of all elements; of one-point cells and edge points their constants too
   double state_bytes = 0;    ///< the part of it that plastic flow writes
   double force_bytes = 0;    ///< sums of the cells' forces, one a node of each tile (element/cell_group.h)
+  double pressure_bytes = 0; ///< with pressures in the nodes: what the volumes of the nodes ask for besides, numbers of nodes and sums
   double index_bytes = 0;    ///< which nodes the cells have, in which slot of a tile they add to them, and which slots a node has
 };
 
