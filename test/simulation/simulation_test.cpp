@@ -123,6 +123,7 @@ TEST(Simulation, WorkOfAPulledStripIsBooked) {
 
 TEST(Simulation, DampingViscosityAndGravityAreInTheLedger) {
   OneBody run(body_of(block_of(CellKind::crossed, 4), aluminium()), 5e-4);
+  run.plan.time_step.limit = "element";  // the ledger is of second order in the step, and this body starts with a blow
   run.plan.time_step.damping = 500;
   run.plan.time_step.linear_viscosity = 0.1;
   run.plan.time_step.quadratic_viscosity = 1.2;
