@@ -169,9 +169,7 @@ std::vector<Row> contact(const Request& request) {
         rows.push_back(at_most(name, "drift of momentum", found.linear, 1e-12, found.wall_time));
         rows.push_back(just(name, "drift of angular momentum", found.angular, found.wall_time));
         rows.push_back(just(name, "energy that contact took / at the start", found.lost, found.wall_time));
-        // An elastic collision is in the fastest swings of its mesh, where the ledger is of second order in the step: .5 % of
-        // its energy with time_step.limit element, and up to three times that with the global limit's steps of 1.4 to 1.7 times.
-        rows.push_back(at_most(name, "error of the ledger", found.balance, 0.02, found.wall_time));
+        rows.push_back(at_most(name, "error of the ledger", found.balance, 0.01, found.wall_time));
         rows.push_back(just(name, "time of a step / without contact", found.step_time / free, found.wall_time));
       }
     }

@@ -27,6 +27,8 @@ TEST(Plan, NothingButCells) {
 TEST(Plan, WhyTheStepIsNotTakenFromTheWholeMesh) {
   OneBody run(body_of(generate_blank(strip_of(.1, .01, 10, 2)), aluminium()), 1e-3);
   EXPECT_NE(plan_text(*run.start()).find("step         by global\n"), std::string::npos);
+  run.plan.bodies[0].initial_velocity = Vec3::UnitX();
+  EXPECT_NE(plan_text(*run.start()).find("step         by element; global would take fewer steps"), std::string::npos);
   run.model.bodies[0].material.law = "classical";
   EXPECT_NE(plan_text(*run.start()).find("step         by node; not by global: the law of body block is classical\n"), std::string::npos);
 }

@@ -3,25 +3,29 @@
 //
 // With pressures in the nodes and the law at the edges nothing looks at one simplex alone; in a strong
 // impact some would yield until they are flat. Its own volume resists that by
-//   U = theta V0 K/4 (J - 1)^4,  p = theta K (J - 1)^3,  J = V/V0 of the simplex,
-// which is as good as nothing where the volume stays and much where J nears 0. The Taylor bar of tetrahedra
-// collapses with none, and theta from .02 to .2 give it one shape to .1 %, the moment of a bent sheet to 1e-5. A
-// share of K (J - 1) itself would have to be paid for everywhere: .5 % of it already makes Cook's
-// membrane of 8 triangles a side 2 % stiffer.
+//   U = theta V0 K/4 d^4,  p = theta K d^3,  d = J - 1 less what is free: nothing for |J - 1| <= .2, J = V/V0 of the simplex,
+// so that a body changes its volume by that much as if there were none. The Taylor bar of tetrahedra collapses
+// without, and theta from .05 to .5 give it one shape to .1 %. A share of K (J - 1) itself would have to be paid
+// for everywhere: .5 % of it already makes Cook's membrane of 8 triangles a side 2 % stiffer.
+#include "forming_sim/tensor/pack.h"
+
 namespace forming_sim {
 
-constexpr double kGuard = 0.1;  ///< theta
+constexpr double kGuard = 0.2, kFreeOfGuard = 0.2;  ///< theta; |J - 1| up to which there is none
 
-/// Over theta K.
+/// d
+template <class T> T guarded(const T& J) { return larger(J - T(1 + kFreeOfGuard), T(0)) + smaller(J - T(1 - kFreeOfGuard), T(0)); }
+
+/// p over theta K.
 template <class T> T guard_pressure(const T& J) {
-  const T strain = J - T(1);
-  return strain * strain * strain;
+  const T d = guarded(J);
+  return d * d * d;
 }
 /// d p / d J, likewise.
-template <class T> T guard_slope(const T& J) { return T(3) * (J - T(1)) * (J - T(1)); }
+template <class T> T guard_slope(const T& J) { return T(3) * guarded(J) * guarded(J); }
 /// Per initial volume, likewise.
 template <class T> T guard_energy(const T& J) {
-  const T square = (J - T(1)) * (J - T(1));
+  const T square = guarded(J) * guarded(J);
   return T(0.25) * square * square;
 }
 

@@ -13,7 +13,7 @@ constexpr int kLongestBoundInterval = 64;  ///< steps after which the elements' 
 struct TimeStepConfig {
   double safety = 0.9;
   double maximum = 0;
-  std::string limit;  ///< element | node | global; empty: global, or node where Model::without_tangent names a body
+  std::string limit;  ///< element | node | global; empty: what suits the scene (default_limit in src/simulation/setup.cpp)
   double raise_to = 0;
   double raise_limit = 0.05;
   double linear_viscosity = 0;
@@ -24,7 +24,7 @@ struct TimeStepConfig {
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(safety), Field().above(0).at_most(1).doc("fraction of the stable time step to take"));
     visit(FORMING_SIM_FIELD(maximum), Field().unit("s").at_least(0).computed("no limit but the stable step").doc("largest time step"));
-    visit(FORMING_SIM_FIELD(limit), Field().choices({"element", "node", "global"}).computed("global; node where a body's law is classical")
+    visit(FORMING_SIM_FIELD(limit), Field().choices({"element", "node", "global"}).computed("global; element where a body starts with a velocity, node where a body's law is classical")
           .doc("what the stable step is taken from. element: the fastest cell as if it stood alone, proven; node: the cells around each node together, proven too, longer where small cells lie among large ones; global: the fastest swing of the whole mesh, found by a random Lanczos run now and then and guarded by the cells in between, 1.2 to 2 times element on even meshes; not with the classical law"));
     visit(FORMING_SIM_FIELD(raise_to), Field().unit("s").at_least(0).computed("no mass is added")
           .doc("step that the run is to take at least: nodes around which the stable step at the start, times safety, is shorter get as much mass as that asks for. Gravity does not act on it. Cells that are squeezed later shorten the step again; with it, limit: element works as node"));

@@ -15,6 +15,7 @@ struct BodyLoads {
   Vec3 initial_velocity = Vec3::Zero(), initial_spin_deg_s = Vec3::Zero(), spin_centre = Vec3::Zero();
   std::vector<BoundaryConfig> boundaries;
   std::vector<PressureConfig> pressures;
+  bool moves_at_first() const { return !initial_velocity.isZero() || !initial_spin_deg_s.isZero(); }
 };
 
 struct RunPlan {
