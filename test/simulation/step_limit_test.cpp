@@ -292,6 +292,7 @@ TEST(StepLimit, RisesSlowlyAfterHalvedSteps) {
   Model model;
   RunPlan plan;
   model.dimension = 2;
+  plan.time_step.limit = "global";
   plan.contact.layer = 1e-7;  // far thinner than the way of a step, so that frozen normals ask for halved ones
   plan.stages = {form_for(1e-3)};
   for (int side = 0; side < 2; ++side) {
