@@ -12,7 +12,7 @@ void Elements::put_points_at_edges(const BodyModel& body, const NodeField& X) {
   std::vector<std::array<int, 4>> simplices;
   const Group* like = nullptr;
   for (const Group& g : groups_)
-    if (g.body == body.name && g.pressure == PressureMode::node) {
+    if (g.body == body.name && g.nodal()) {
       simplices.insert(simplices.end(), simplices_.begin() + g.first_element, simplices_.begin() + g.first_element + static_cast<long>(g.cells) * g.parts);
       like = &g;
     }
@@ -31,17 +31,12 @@ void Elements::put_points_at_edges(const BodyModel& body, const NodeField& X) {
     g.ring = axisymmetric_;
     g.cell_nodes = size;
     g.cell_simplices = 1;
-    g.cells = static_cast<int>(members.size());
-    g.blocks = (g.cells + kLanes - 1) / kLanes;
+    g.make_blocks(static_cast<int>(members.size()));
     g.pressure = PressureMode::node;
     g.solid = solid_constants(body.material, g.curves);
     g.items = dimension_ == 2 ? memory_items<2>(g.solid) : memory_items<3>(g.solid);
     g.density = like->density;
     g.body = body.name;
-    g.plastic.assign(g.blocks, 0.0);
-    g.viscous.assign(g.blocks, 0.0);
-    g.upright_storage = std::make_unique<bool[]>(g.blocks);
-    std::fill_n(g.upright_storage.get(), g.blocks, true);
     g.node_storage.resize(static_cast<std::size_t>(g.blocks) * size * kLanes);
     g.memory_storage.resize(static_cast<std::size_t>(g.blocks) * g.items);
     g.constants_storage.resize(static_cast<std::size_t>(g.blocks) * size * weights);
@@ -67,7 +62,7 @@ void Elements::put_points_at_edges(const BodyModel& body, const NodeField& X) {
   }
   auto side = points.of_simplex.begin();
   for (Group& g : groups_)
-    if (g.body == body.name && g.pressure == PressureMode::node) {
+    if (g.body == body.name && g.nodal()) {
       g.edge_points.resize(static_cast<std::size_t>(g.cells) * g.parts * edges_of_simplex(dimension_));
       for (int& at : g.edge_points) at = place[*side++];
     }

@@ -96,7 +96,7 @@ template <int D, bool Ring> void rates_of_block(const CellGroup& g, const NodalV
       const Pack radial = select(gather_vectors<D>(nodes, view.x)[0] > Pack(0.0), axial, Pack(0.0));  // no radial motion on the axis
       add_deviatoric(M, radial, axial, gradient[0], gradient[1], weight(w, D) * e.up[2][0]);
     } else {
-      add_square(S, over_mass, gradient);
+      add_product(S, over_mass, gradient, gradient);
     }
   }
   Pack largest, trace_S;

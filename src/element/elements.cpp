@@ -112,13 +112,12 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.cell_nodes = shape.nodes;
       g.cell_simplices = shape.points;
       g.parts = shape.simplices;
-      g.cells = cells.count();
-      g.blocks = (g.cells + kLanes - 1) / kLanes;
+      g.make_blocks(cells.count());
       g.pressure = mode_of(body, cells.kind);
       g.element_share = element_share_of(cells.kind);
       any_nodal_ |= g.pressure == PressureMode::node;
       g.solid = solid_constants(body.material, g.curves);
-      const bool at_edges = g.pressure == PressureMode::node;  // the law; what stays is V0
+      const bool at_edges = g.nodal();  // the law; what stays is V0
       g.items = at_edges ? 1 : D == 2 ? memory_items<2>(g.solid) : memory_items<3>(g.solid);
       g.density = body.material.density * options.mass_scaling;
       g.linear_viscosity = options.linear_viscosity;
@@ -128,10 +127,6 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.first_element = first_element;
       first_element += g.cells * shape.simplices;
       g.body = body.name;
-      g.plastic.assign(g.blocks, 0.0);
-      g.viscous.assign(g.blocks, 0.0);
-      g.upright_storage = std::make_unique<bool[]>(g.blocks);
-      std::fill_n(g.upright_storage.get(), g.blocks, true);
       g.node_storage.resize(static_cast<std::size_t>(g.blocks) * shape.nodes * kLanes);
       g.memory_storage.resize(static_cast<std::size_t>(g.blocks) * shape.points * g.items);
       if (is_one_point(cells.kind)) {
@@ -225,7 +220,7 @@ void Elements::clear_slots(const Group& g, long t) const {
 
 void Elements::nodal_pressure(const NodalView& view) const {
   over_tiles([&](const Group& g, long t) {
-    if (g.pressure != PressureMode::node || g.at_edges) return;
+    if (!g.nodal()) return;
     clear_slots(g, t);
     kernels_.nodal.volumes(g, view, g.first_block(t), g.last_block(t));
   });
@@ -240,7 +235,7 @@ void Elements::nodal_pressure(const NodalView& view) const {
 
 void Elements::forces_of_tile(const CellGroup& cells, const Group& g, const NodalView& view, long t) const {
   clear_slots(g, t);
-  const auto forces = g.at_edges ? kernels_.edge.forces : g.pressure == PressureMode::node ? kernels_.nodal.forces : kernels_.forces;
+  const auto forces = g.at_edges ? kernels_.edge.forces : g.nodal() ? kernels_.nodal.forces : kernels_.forces;
   forces(cells, view, g.first_block(t), g.last_block(t));
 }
 

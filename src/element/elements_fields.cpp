@@ -26,10 +26,10 @@ std::vector<GroupPlan> Elements::plan() const {
     plan.cells = g.cells;
     plan.elements = static_cast<long>(g.cells) * g.cell_simplices;
     add_bytes(g, plan);
-    if (!g.edge_points.empty()) plan.pressure_bytes = plan.index_bytes + 2 * plan.force_bytes;
+    if (g.nodal()) plan.pressure_bytes = plan.index_bytes + 2 * plan.force_bytes;
     // Those of a body's points at edges count as those of its first cells that ask for them.
     const bool first = std::none_of(groups.begin(), groups.end(), [&](const GroupPlan& p) { return p.body == g.body && p.edge_points > 0; });
-    if (!g.edge_points.empty() && first)
+    if (g.nodal() && first)
       for (const Group& points : groups_)
         if (points.at_edges && points.body == g.body) {
           plan.edge_points += points.cells;
@@ -71,7 +71,7 @@ double Elements::viscous_work() const {
 std::vector<double> Elements::plastic_strain() const {
   std::vector<double> p(simplices_.size()), at_edges(points_);
   for (const Group& g : groups_) {
-    if (!g.edge_points.empty()) continue;
+    if (g.nodal()) continue;
     for (int cell = 0; cell < g.cells; ++cell)
       for (int s = 0; s < g.cell_simplices; ++s) {
         const Lane* memory = g.memory_storage.data() + (static_cast<std::size_t>(cell / kLanes) * g.cell_simplices + s) * g.items;
@@ -82,7 +82,7 @@ std::vector<double> Elements::plastic_strain() const {
       }
   }
   for (const Group& g : groups_) {
-    if (g.edge_points.empty()) continue;
+    if (!g.nodal()) continue;
     const std::vector<double> means = means_over_edges(g, at_edges, 1, 0);
     std::copy(means.begin(), means.end(), p.begin() + g.first_element);
   }
@@ -103,7 +103,7 @@ ElementFields Elements::observe(const NodeField& x) const {
     team_->share(g.blocks, blocks_of_a_thread(g), [&](long first, long last) {
       const int from = static_cast<int>(first), to = static_cast<int>(last);
       if (g.at_edges) kernels_.edge.observe(g, view, from, to, stress.data()->value, ratio.data()->value, energy.data());
-      else if (!g.edge_points.empty()) kernels_.nodal.observe(g, view, from, to, stress.data()->value, ratio.data()->value, energy.data());
+      else if (g.nodal()) kernels_.nodal.observe(g, view, from, to, stress.data()->value, ratio.data()->value, energy.data());
       else kernels_.observe(g, view, from, to, stress.data()->value, ratio.data()->value, energy.data());
     });
     for (double e : energy) fields.stored_energy += e;
@@ -121,13 +121,13 @@ ElementFields Elements::observe(const NodeField& x) const {
     }
   }
   for (const Group& g : groups_)
-    for (int i = 0; i < 6 && !g.edge_points.empty(); ++i) {
+    for (int i = 0; i < 6 && g.nodal(); ++i) {
       const std::vector<double> means = means_over_edges(g, S, 6, i);
       for (std::size_t s = 0; s < means.size(); ++s) fields.stress[g.first_element + s][i] += means[s];
     }
   if (any_nodal_)  // the volumetric energy of nodal pressures belongs to the nodes
     for (const Group& g : groups_) {
-      if (g.edge_points.empty()) continue;
+      if (!g.nodal()) continue;
       std::vector<char> mine(mass_.size(), 0);
       for (int node : g.node_storage) mine[node] = 1;
       for (std::size_t n = 0; n < mine.size(); ++n)

@@ -46,7 +46,7 @@ void Elements::find_rates(const NodeField& x, const NodeField& v, CellRates& rat
     if (own.at_edges) continue;  // the simplices around it bound its stiffness
     CellGroup g = own;
     std::vector<Lane> of_simplex;
-    if (!own.edge_points.empty()) {
+    if (own.nodal()) {
       of_simplex = lanes_of_simplices(own, means_over_edges(own, of_edge, 1, 0));
       g.edge_omega2 = of_simplex.data()->value;
     }

@@ -1,6 +1,7 @@
 #pragma once
 // Cells of one body and kind, with the arrays that they own.
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -30,6 +31,17 @@ struct Elements::Group : CellGroup {
   long first_slot = 0;           ///< of all slots
   std::string body;
 
+  /// Its simplices have pressures in the nodes, and their law at the edges.
+  bool nodal() const { return pressure == PressureMode::node && !at_edges; }
+  /// So many cells, and what is kept a block of them.
+  void make_blocks(int count) {
+    cells = count;
+    blocks = (cells + kLanes - 1) / kLanes;
+    plastic.assign(blocks, 0.0);
+    viscous.assign(blocks, 0.0);
+    upright_storage = std::make_unique<bool[]>(blocks);
+    std::fill_n(upright_storage.get(), blocks, true);
+  }
   /// The memory of a point (block * cell_simplices + simplex, and lane) free of stress. edges: its edge vectors as columns.
   void start(std::size_t point, int lane, const Eigen::Matrix3d& edges, double V0) {
     Lane* memory = memory_storage.data() + point * items;

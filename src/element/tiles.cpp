@@ -19,7 +19,6 @@ void Elements::lay_tiles(int nodes) {
   std::vector<int> count(nodes + 1, 0), slot(nodes), seen(nodes, -1);
   std::vector<int> node_of_slot;  // -1: of the copies of a last cell
   int tile_number = 0;
-  const auto nodal = [](const Group& g) { return g.pressure == PressureMode::node && !g.at_edges; };
   const auto lay = [&](Group& g) {
     g.first_slot = static_cast<long>(node_of_slot.size());
     g.tile = blocks_of_a_tile(g.blocks, g.cell_simplices);
@@ -49,10 +48,10 @@ void Elements::lay_tiles(int nodes) {
     g.tile_start.push_back(static_cast<long>(node_of_slot.size()) - g.first_slot);
   };
   for (Group& g : groups_)
-    if (nodal(g)) lay(g);
+    if (g.nodal()) lay(g);
   nodal_slots_.assign(count.begin() + 1, count.end());
   for (Group& g : groups_)
-    if (!nodal(g)) lay(g);
+    if (!g.nodal()) lay(g);
   for (int n = 0; n < nodes; ++n) count[n + 1] += count[n];
   slot_start_ = count;
   for (int n = 0; n < nodes; ++n) nodal_slots_[n] += slot_start_[n];

@@ -30,10 +30,10 @@ template <class T, int D> class OnePointBound {
     for (int i = 0; i < Symmetric<T, D>::size; ++i) S[i] = H[i] = T(0);
     for (int m = 0; m < D; ++m) {
       load(constants, Cell::stiffness + m, item);
-      add(H, item, e.up[m], e.up[m]);
+      add_product(H, item, e.up[m], e.up[m]);
       for (int k = 0; k < D; ++k) {
         load(constants, Cell::inertia + kPair<D>[m][k], item);
-        add(S, item, e.up[m], e.up[k]);
+        add_product(S, item, e.up[m], e.up[k]);
       }
     }
     T trace_S;
@@ -62,14 +62,6 @@ template <class T, int D> class OnePointBound {
   StepRates<T> rates(const T& rate) const { return {omega2_, viscous_damping<T, D>(g_, sum_, V_, V_, rate)}; }
 
  private:
-  static void add(Symmetric<T, D>& S, const T& k, const Vector<T, D>& a, const Vector<T, D>& b) {
-    for (int i = 0; i < D; ++i) S[i] += k * a[i] * b[i];
-    S[3] += k * a[0] * b[1];
-    if constexpr (D == 3) {
-      S[4] += k * a[1] * b[2];
-      S[5] += k * a[2] * b[0];
-    }
-  }
   static T largest(const Symmetric<T, D>& H) {
     if constexpr (D == 3) {
       return largest_eigenvalue(H);

@@ -26,14 +26,13 @@
 
 namespace forming_sim {
 
-/// S += k g g^T
-template <class T, int D> void add_square(Symmetric<T, D>& S, const T& k, const Vector<T, D>& g) {
-  const Vector<T, D> kg = k * g;
-  for (int i = 0; i < D; ++i) S[i] += kg[i] * g[i];
-  S[3] += kg[0] * g[1];
+/// S += k a b, symmetric together with its twin b a.
+template <class T, int D> void add_product(Symmetric<T, D>& S, const T& k, const Vector<T, D>& a, const Vector<T, D>& b) {
+  for (int i = 0; i < D; ++i) S[i] += k * a[i] * b[i];
+  S[3] += k * a[0] * b[1];
   if constexpr (D == 3) {
-    S[4] += kg[1] * g[2];
-    S[5] += kg[2] * g[0];
+    S[4] += k * a[1] * b[2];
+    S[5] += k * a[2] * b[0];
   }
 }
 
@@ -145,7 +144,7 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
   static T deviatoric_bound(const Vector<T, D>* g, T& I1) {
     Symmetric<T, D> S;
     for (int i = 0; i < Symmetric<T, D>::size; ++i) S[i] = T(0.0);
-    for (int a = 0; a <= D; ++a) add_square(S, T(1), g[a]);
+    for (int a = 0; a <= D; ++a) add_product(S, T(1), g[a], g[a]);
     return shape_bound(S, I1);
   }
   const CellGroup& g_;
