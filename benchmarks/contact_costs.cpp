@@ -56,9 +56,9 @@ class PlateOverTool {
     for (Node& node : x_) node[2] -= kLayer + 1e-3;  // the tool stands a layer back
   }
 
-  /// One step with all nodes `gap` layers from the tool, at rest; adds to times().
+  /// One step with all nodes `gap` layers from the tool, along which they slide at 1 m/s; adds to times().
   ContactStep step(double gap) {
-    NodeField x = x_, v(x_.size(), Node::Zero());
+    NodeField x = x_, v(x_.size(), Node(1, 0, 0, 0));
     for (Node& node : x) node[2] += gap * kLayer;
     return contact_->advance(0, 1e-7, x, v, [&](double, NodeField& v_star) { v_star = v; }, [](double) { return std::vector<ToolMotion>(1); });
   }

@@ -19,15 +19,15 @@ Node Books::book(const Link& link, int tool, const Node& impulse) {
   Node mean = Node::Zero();
   for (int k = 0; k < link.nodes; ++k) {
     const int n = link.node[k];
-    const Node v = 0.5 * (work_.before[n] + work_.v[n]);
+    const Node& v = work_.mean[n];
     mean += link.weight[k] * v;
     if (n >= work_.body_entries) {
       const Node on_tool = link.weight[k] * impulse;
       step_.tool_work -= dot3(on_tool, v);
       step_.tool_impulse[tool] += vec3(on_tool);
       step_.tool_angular_impulse[tool] += vec3(work_.x[n]).cross(vec3(on_tool));
-    } else if (work_.projector[n]) {
-      step_.held_work += link.weight[k] * dot3(impulse - project(*work_.projector[n], impulse), v);
+    } else if (const Mat3* projector = work_.share[n].projector) {
+      step_.held_work += link.weight[k] * dot3(impulse - project(*projector, impulse), v);
     }
   }
   return mean;

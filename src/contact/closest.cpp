@@ -1,5 +1,7 @@
 #include "forming_sim/contact/closest.h"
 
+#include "forming_sim/contact/closest_pack.h"
+
 namespace forming_sim {
 
 Closest closest_on_triangle_border(const Node& p, const Node& a, const Node& b, const Node& c) {
@@ -27,17 +29,13 @@ Closest closest_on_triangle_border(const Node& p, const Node& a, const Node& b, 
 }
 
 ClosestEdges closest_on_edges(const Node& a0, const Node& a1, const Node& b0, const Node& b1) {
-  const Node u = a1 - a0, v = b1 - b0, r = a0 - b0;
-  const Node n = cross3(u, v);
-  const double n2 = dot3(n, n);
-  ClosestEdges e;
-  if (n2 > 1e-8 * dot3(u, u) * dot3(v, v)) {
-    const double s = -dot3(cross3(r, v), n) / n2, t = -dot3(cross3(r, u), n) / n2;
-    if (s > kBorder && s < 1 - kBorder && t > kBorder && t < 1 - kBorder) {
-      const Node apart = dot3(r, n) / n2 * n;
-      return {s, t, apart, dot3(apart, apart), true};
-    }
+  const CrossingEdges<double> crossing = crossing_edges(between(b0, a0), between(a0, a1), between(b0, b1));
+  if (crossing.inside) {
+    const Node apart(crossing.apart[0], crossing.apart[1], crossing.apart[2], 0);
+    return {crossing.s, crossing.t, apart, dot3(apart, apart), true};
   }
+  const Node u = a1 - a0, v = b1 - b0, r = a0 - b0;
+  ClosestEdges e;
   // Otherwise an end of one of them is closest.
   e.squared = -1;
   const auto offer = [&](double s, double t) {
@@ -50,6 +48,10 @@ ClosestEdges closest_on_edges(const Node& a0, const Node& a1, const Node& b0, co
   offer(closest_on_segment(b0, a0, a1), 0);
   offer(closest_on_segment(b1, a0, a1), 1);
   return e;
+}
+
+const ClosestKernels& closest_kernels_of(Isa isa) {
+  return isa == Isa::avx512 ? avx512::closest_kernels() : isa == Isa::avx2 ? avx2::closest_kernels() : sse2::closest_kernels();
 }
 
 }  // namespace forming_sim

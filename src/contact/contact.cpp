@@ -20,6 +20,7 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
     m.body_vertices.insert(m.body_vertices.end(), own.begin(), own.end());
   }
   m.layer = setup.config.layer > 0 ? setup.config.layer : std::min(0.05 * m.features.smallest_edge, 1e-3 * setup.thinnest);
+  m.thickest = m.layer;
   m.ceiling = std::max(m.layer, 0.05 * m.features.smallest_edge);
   m.modulus = setup.config.stiffness > 0 ? setup.config.stiffness : setup.softest_modulus;
   m.push_speed = setup.config.push_speed > 0 ? setup.config.push_speed : std::min(0.1, 1e-3 * setup.wave_speed);
@@ -75,6 +76,7 @@ void Contact::take_before(NodeField& v_before) { v_before.swap(impl_->v_star); }
 void Contact::Impl::move(double dt, NodeField& x, NodeField& v) {
   if (!near.pairs.empty() || !tie_pairs.empty())
     for (int i = 0; i < work.body_entries; ++i) v_star[work.vertex[i]] = work.v[i];
+  for (size_t i = 0; i < work.mean.size(); ++i) work.mean[i] = 0.5 * (work.before[i] + work.v[i]);
   v.swap(v_star);
   move_nodes(team, dt, v, x);
 }
@@ -176,6 +178,8 @@ void Contact::restore(const std::vector<char>& data) {
     throw Error(Code::resume_error, "the saved contact has other surfaces than this scene: resume with the scene that was saved");
   const char* from = data.data() + sizeof header;
   m.records = take<PairRecord>(header.records, from);
+  m.thickest = m.layer;
+  for (const PairRecord& record : m.records) m.thickest = std::max(m.thickest, record.layer);
   const std::vector<double> poses = take<double>(header.tools * kPose, from);
   m.previous_motion.assign(header.tools, ToolMotion());
   for (std::size_t t = 0; t < header.tools; ++t) {

@@ -57,12 +57,13 @@ double stable_step(const PowerLaw& law, const Workspace& work, const std::vector
     double free[4], all = 0;
     for (int k = 0; k < pair.nodes; ++k) {
       const int n = pair.node[k];
-      free[k] = work.inverse_mass[n] == 0 ? 0 : std::abs(pair.weight[k]) * (work.projector[n] ? project(*work.projector[n], pair.normal).norm() : 1);
+      const Share& share = work.share[n];
+      free[k] = share.inverse_mass == 0 ? 0 : std::abs(pair.weight[k]) * (share.projector ? project(*share.projector, pair.normal).norm() : 1);
       all += free[k];
     }
     for (int k = 0; k < pair.nodes; ++k) {
       const int n = pair.node[k];
-      sum[n] += law.stiffness(pair.gap, pair.stiffness) * all * free[k] * work.inverse_mass[n];
+      sum[n] += law.stiffness(pair.gap, pair.stiffness) * all * free[k] * work.share[n].inverse_mass;
       most = std::max(most, sum[n]);
     }
   }
@@ -84,8 +85,7 @@ ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x
     throw Error(Code::contact_error, text.str());
   };
   check(predicted);
-  near.pairs.clear();
-  near.close.clear();
+  near.clear();
   ensure_list(x, motion, reach, 2 * predicted);
   const PowerLaw law{config.exponent, layer};
   const double kick = 0.5 * (previous_dt + dt);
@@ -98,7 +98,7 @@ ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x
       add_plane_pairs(features, work, planes, layer, reach, list, near.pairs);
       pair_nearest_nodes(reach, travel, list, features, work, near.pairs);
     } else {
-      narrow_phase(constants(), planes, true, reach, travel, team, list, near);
+      narrow_phase(constants(), nullptr, planes, true, reach, travel, team, list, near);
     }
     const auto left_out = [&](ContactPair& pair) {
       if (pair.gap < 0) {

@@ -44,6 +44,7 @@ struct Contact::Impl {
   std::vector<int> held_of;
   // ---- what the next step depends on
   std::vector<PairRecord> records;
+  double thickest = 0;      ///< of their layers, at least `layer`
   double potential = 0;
   std::vector<double> slip; ///< of the bodies' nodes, m; empty where nothing rubs
   double previous_dt = 0;   ///< of the step before, s; 0 at the start
@@ -81,7 +82,7 @@ struct Contact::Impl {
   void moved_by(double way);
 
   // contact.cpp
-  /// Velocities back from the workspace, and x + dt v.
+  /// Velocities back from the workspace, their means for the books, and x + dt v.
   void move(double dt, NodeField& x, NodeField& v);
   /// Adds the slip of the step (step.dt: the step taken) to the nodes', and books the ties; the
   /// caller adds the pairs.
@@ -115,7 +116,7 @@ struct Contact::Impl {
   std::string name_of_vertex(int v) const;
   std::string name_of_entry(int entry) const;
   std::string name_of_other(const ContactPair& pair) const;
-  void check_unmovable(double time) const;
+  void check_unmovable(double time);
   [[noreturn]] void give_up(double time, double dt, int touch) const;
 
  private:

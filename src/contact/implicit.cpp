@@ -43,7 +43,7 @@ bool Contact::Impl::touches(double dt, const ClosePair& close) const {
     count = 1 + features.corners();
     split = 1;
   } else {
-    for (int k = 0; k < 4; ++k) n[k] = list.edges[close.entry].node[k];
+    for (int k = 0; k < 4; ++k) n[k] = list.watched[close.entry].node[k];
   }
   double most[2] = {0, 0};
   for (int k = 0; k < count; ++k) most[k >= split] = std::max(most[k >= split], moved[n[k]]);
@@ -99,9 +99,11 @@ std::string Contact::Impl::name_of_other(const ContactPair& pair) const {
   return pair.tool >= 0 ? "tool " + tools.names[pair.tool] : "body " + body_names[pair.surface];
 }
 
-void Contact::Impl::check_unmovable(double time) const {
-  for (const ContactPair& pair : near.pairs) {
-    if (pair.w > 0 || pair.end_gap > 0) continue;
+void Contact::Impl::check_unmovable(double time) {
+  for (const long i : near.unmovable) {
+    sweeps.take_back(i, i + 1, near.pairs, near.rubs);
+    const ContactPair& pair = near.pairs[i];
+    if (pair.end_gap > 0) continue;
     std::ostringstream text;
     text << "at time " << time << " s " << name_of_other(pair) << " runs over " << name_of_entry(pair.node[0])
          << ", which is held or driven against it (gap " << pair.end_gap << " m at the end of the step): let it stop short of it, or free the node";
@@ -114,8 +116,8 @@ void Contact::Impl::check_unmovable(double time) const {
   text << "at time " << time << " s contact found no step without a crossing, down to " << dt << " s (" << config.max_halvings << " halvings)";
   if (touch >= 0) {
     const ClosePair& close = near.close[touch];
-    const int a = close.group >= 0 ? list.groups[close.group].node : list.edges[close.entry].node[0];
-    const int b = close.group >= 0 ? list.facets[close.entry].node[0] : list.edges[close.entry].node[2];
+    const int a = close.group >= 0 ? list.groups[close.group].node : list.watched[close.entry].node[0];
+    const int b = close.group >= 0 ? list.facets[close.entry].node[0] : list.watched[close.entry].node[2];
     text << ": " << (close.group >= 0 ? "" : "an edge from ") << name_of_entry(a) << " and a feature with " << name_of_entry(b) << ", " << close.distance << " m apart";
   } else {
     double worst = 1e300;
@@ -138,37 +140,46 @@ void Contact::Impl::close_books(ContactStep& step) {
     ContactStep step;
     Books books;
     RelaxedPotential end;
-    double start = 0;
-    std::vector<PairRecord> records;
-    explicit Chunk(const Impl& m) : books(m.empty_books(step)) { records.reserve(kPairsOfAThread); }
+    double start = 0, thickest = 0;
+    long kept = 0;  ///< records, at the place of the chunk's first pair
+    explicit Chunk(const Impl& m) : books(m.empty_books(step)) {}
   };
   std::deque<Chunk> chunks;
   const long count = static_cast<long>(near.pairs.size());
   for (long i = 0; i < count; i += kPairsOfAThread) chunks.emplace_back(*this);
+  records.resize(count);
   team.share(static_cast<long>(chunks.size()), 1, [&](long first, long last) {
     for (long c = first; c < last; ++c) {
       Chunk& chunk = chunks[c];
-      for (long i = c * kPairsOfAThread; i < std::min(count, (c + 1) * kPairsOfAThread); ++i) {
+      const long begin = c * kPairsOfAThread, end = std::min(count, begin + kPairsOfAThread);
+      sweeps.take_back(begin, end, near.pairs, near.rubs);
+      for (long i = begin; i < end; ++i) {
         ContactPair& pair = near.pairs[i];
         chunk.books.add(pair);
         chunk.start += mild_potential(pair.gap, pair.layer, pair.stiffness);
         chunk.step.min_gap_over_layer = std::min(chunk.step.min_gap_over_layer, pair.end_gap / layer);
-        relax_layer(step.dt, push_speed * step.dt, near.rubs, pair, chunk.end, chunk.records);
+        if (!relax_layer(push_speed * step.dt, pair, chunk.end)) continue;
+        records[begin + chunk.kept++] = record_of(pair, near.rubs, step.dt);
+        chunk.thickest = std::max(chunk.thickest, pair.layer);
       }
     }
   });
   Books books = open_books(step);
   RelaxedPotential end;
   double start = 0;
-  records.clear();
+  auto kept = records.begin(), from = kept;
+  thickest = layer;
   for (const Chunk& chunk : chunks) {
+    kept = kept == from ? kept + chunk.kept : std::move(from, from + chunk.kept, kept);
+    from += std::min(kPairsOfAThread, records.end() - from);
     books.add(chunk.books);
+    thickest = std::max(thickest, chunk.thickest);
     start += chunk.start;
     end.before += chunk.end.before;
     end.after += chunk.end.after;
     step.min_gap_over_layer = std::min(step.min_gap_over_layer, chunk.step.min_gap_over_layer);
-    records.insert(records.end(), chunk.records.begin(), chunk.records.end());
   }
+  records.erase(kept, records.end());
   step.soft_start_work = end.after - end.before;
   step.potential = end.after;
   // Potential that comes or goes with the change of features counts as dissipation, of either sign.
@@ -187,8 +198,6 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
     laps.start();
     const double tool_way = step_way(motion, x);
     double bound = 2 * (both * fastest(v_star) * dt + tool_way);
-    double thickest = layer;
-    for (const PairRecord& r : records) thickest = std::max(thickest, r.layer);
     const std::vector<PlanePose> planes = tools.planes(motion);
     SweepResult swept;
     double way = 0;
@@ -196,14 +205,14 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
     for (;; bound = 1.5 * way) {
       const double reach = std::max(thickest, std::min(ceiling, 0.1 * bound)) + bound;
       ensure_list(x, motion, reach, bound);
-      near.pairs.clear();
-      near.close.clear();
+      near.clear();
       way = bound / 2;
       laps.done(&ContactTimes::list);
       if (list.size() == 0) break;
       gather(x, v, dt, motion, planes);
-      narrow_phase(constants(), planes, all, reach, travel, team, list, near);
-      assign_layers(records, tried, work, dt, previous_dt, layer, ceiling, team, near.pairs, near.rubs);
+      const Layers layers(records, tried, work, dt, previous_dt, layer, ceiling);
+      narrow_phase(constants(), &layers, planes, all, reach, travel, team, list, near);
+      layers.hand_over(near.born, near.pairs);
       laps.done(&ContactTimes::narrow);
       swept = SweepResult();
       if (!near.pairs.empty() || !tie_pairs.empty())
@@ -216,7 +225,6 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
       way = std::max(bound / 2, both * std::sqrt(most) * dt + tool_way);
       if (way <= bound) break;
     }
-    tried.clear();
     step.sweeps += swept.sweeps;
     check_unmovable(time + dt);
     const int touch = swept.open ? first_touch(dt) : -1;
@@ -225,6 +233,8 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
       moved_by(way);
       break;
     }
+    tried.clear();
+    sweeps.take_back(0, static_cast<long>(near.pairs.size()), near.pairs, near.rubs);
     for (const ContactPair& pair : near.pairs)
       if (pair.impulse > 0) tried.push_back(record_of(pair, near.rubs, dt));
     if (!all) {

@@ -1,7 +1,6 @@
 #include "forming_sim/contact/layers.h"
 
 #include <algorithm>
-#include <mutex>
 
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/law.h"
@@ -77,44 +76,40 @@ class Left {
   std::vector<Entry> entries_;
 };
 
+/// The record of a key, null: none. place: before the first call -1; keys rise from call to call.
+const PairRecord* find(const std::vector<PairRecord>& records, const PairKey& key, long& place) {
+  const long count = static_cast<long>(records.size());
+  if (place < 0) place = std::lower_bound(records.begin(), records.end(), key, [](const PairRecord& r, const PairKey& k) { return r.key < k; }) - records.begin();
+  while (place < count && records[place].key < key) ++place;
+  return place < count && records[place].key == key ? &records[place] : nullptr;
+}
+
 }  // namespace
 
-void assign_layers(const std::vector<PairRecord>& before, const std::vector<PairRecord>& tried, const Workspace& work, double dt, double last_dt, double full, double ceiling, Team& team,
-                   std::vector<ContactPair>& pairs, std::vector<Rub>& rubs) {
-  const double lasts = tried.empty() ? std::min(dt, last_dt) : dt;  // of a force from which the sweeps start
-  std::mutex one;
-  std::vector<long> born;  // inside their layer
-  const auto rising = [](const PairRecord& r, const PairKey& key) { return r.key < key; };
-  team.share(static_cast<long>(pairs.size()), kPairsOfAThread, [&](long first, long last) {
-    const std::vector<PairRecord>& last_try = tried.empty() ? before : tried;
-    auto r = std::lower_bound(before.begin(), before.end(), pairs[first].key, rising);
-    auto t = std::lower_bound(last_try.begin(), last_try.end(), pairs[first].key, rising);
-    std::vector<long> inside;
-    for (long i = first; i < last; ++i) {
-      ContactPair& pair = pairs[i];
-      while (r != before.end() && r->key < pair.key) ++r;
-      while (t != last_try.end() && t->key < pair.key) ++t;
-      pair.impulse = 0;
-      if (t != last_try.end() && t->key == pair.key && pair.w > 0) {
-        pair.impulse = lasts * t->force;
-        if (pair.rub >= 0) rubs[pair.rub].slip = lasts * Node(t->drag[0], t->drag[1], t->drag[2], 0);
-      }
-      if (r != before.end() && r->key == pair.key) {
-        pair.layer = pair.base < full ? std::min(r->layer, pair.base) : r->layer;
-      } else if (pair.gap >= pair.base) {
-        const double raised = std::min(ceiling, 0.1 * closing_speed(pair, work) * dt);
-        pair.layer = std::max(pair.base, std::min(pair.gap, raised));
-      } else {
-        pair.layer = pair.gap;
-        inside.push_back(i);
-      }
-    }
-    const std::lock_guard<std::mutex> lock(one);
-    born.insert(born.end(), inside.begin(), inside.end());
-  });
+bool Layers::give(ContactPair& pair, std::vector<Rub>& rubs, Place& place) const {
+  const PairRecord* known = find(before_, pair.key, place.before);
+  const PairRecord* last = &last_try_ == &before_ ? known : find(last_try_, pair.key, place.last_try);
+  pair.impulse = 0;
+  if (last && pair.w > 0) {
+    pair.impulse = lasts_ * last->force;
+    if (pair.rub >= 0) rubs[pair.rub].slip = lasts_ * Node(last->drag[0], last->drag[1], last->drag[2], 0);
+  }
+  if (known) {
+    pair.layer = pair.base < full_ ? std::min(known->layer, pair.base) : known->layer;
+    return false;
+  }
+  if (pair.gap < pair.base) {
+    pair.layer = pair.gap;
+    return true;
+  }
+  const double raised = std::min(ceiling_, 0.1 * closing_speed(pair, work_) * dt_);
+  pair.layer = std::max(pair.base, std::min(pair.gap, raised));
+  return false;
+}
+
+void Layers::hand_over(const std::vector<long>& born, std::vector<ContactPair>& pairs) const {
   if (born.empty()) return;
-  std::sort(born.begin(), born.end());
-  Left left(before, pairs);
+  Left left(before_, pairs);
   for (long i : born) left.inherit(pairs[i]);
 }
 
@@ -123,12 +118,12 @@ PairRecord record_of(const ContactPair& pair, const std::vector<Rub>& rubs, doub
   return {pair.key, pair.own, pair.surface, pair.layer, pair.end_gap, pair.impulse / dt, {drag[0], drag[1], drag[2]}};
 }
 
-void relax_layer(double dt, double growth, const std::vector<Rub>& rubs, ContactPair& pair, RelaxedPotential& potential, std::vector<PairRecord>& after) {
+bool relax_layer(double growth, ContactPair& pair, RelaxedPotential& potential) {
   const double old = pair.layer, before = mild_potential(pair.end_gap, old, pair.stiffness);
   pair.layer = old < pair.base ? std::min(pair.base, old + growth) : std::max(pair.base, old - growth);
   potential.before += before;
   potential.after += pair.layer == old ? before : mild_potential(pair.end_gap, pair.layer, pair.stiffness);
-  if (pair.end_gap < std::max(pair.layer, pair.base)) after.push_back(record_of(pair, rubs, dt));
+  return pair.end_gap < std::max(pair.layer, pair.base);
 }
 
 }  // namespace forming_sim

@@ -8,8 +8,6 @@
 namespace forming_sim {
 namespace {
 
-constexpr double kAwake = -std::numeric_limits<double>::infinity();
-
 /// A surface as the search asks it: its index, and where it stands.
 struct Indexed {
   int surface;
@@ -79,10 +77,10 @@ class Builder {
         const auto& q = f_.edges[other].node;
         if (a == b.surface && (other <= e || p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1])) return;
         if (f_.tied(relation, p, q)) return;
-        if (closest_on_edges(p0, p1, at(q[0]), at(q[1])).squared > radius_ * radius_) return;
+        const double squared = closest_on_edges(p0, p1, at(q[0]), at(q[1])).squared;
+        if (squared > radius_ * radius_) return;
         const auto &op = f_.edges[e].opposite, &oq = f_.edges[other].opposite;
-        list.edges.push_back({e, other, a, b.surface, {p[0], p[1], q[0], q[1]}, {op[0], op[1], oq[0], oq[1]}});
-        list.edge_wake.push_back(kAwake);
+        list.edges.push_back({e, other, a, b.surface, {p[0], p[1], q[0], q[1]}, {op[0], op[1], oq[0], oq[1]}, -1, std::sqrt(squared)});
       });
     }
   }
@@ -141,11 +139,9 @@ class Builder {
       used.push_back(-1);
     }
     work.x.assign(used.size(), Node::Zero());
-    work.v = work.before = work.x;
-    work.area.resize(work.body_entries);
-    for (int i = 0; i < work.body_entries; ++i) work.area[i] = f_.area[used[i]];
-    work.inverse_mass.assign(used.size(), 0.0);
-    work.projector.assign(used.size(), nullptr);
+    work.v = work.before = work.mean = work.x;
+    work.share.assign(used.size(), Share());
+    for (int i = 0; i < work.body_entries; ++i) work.share[i].area = f_.area[used[i]];
   }
 
   NearList list;
@@ -158,21 +154,23 @@ class Builder {
     if (f_.tied(f_.relation(own, other), std::array<int, 1>{v}, c)) return;
     const double squared = f_.dimension == 2 ? closest_on_segment_facet(p, at(c[0]), at(c[1])).squared
                                              : closest_on_triangle(p, at(c[0]), at(c[1]), at(c[2])).squared;
-    if (squared <= radius_ * radius_) found_.emplace_back(v, facet);
+    if (squared <= radius_ * radius_) found_.push_back({v, facet, std::sqrt(squared)});
   }
 
   // What was kept since the last call, by its vertices; the facets are of `surface`.
   void group(int surface) {
-    std::sort(found_.begin(), found_.end());
+    std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) { return a.vertex != b.vertex ? a.vertex < b.vertex : a.facet < b.facet; });
     for (size_t i = 0; i < found_.size();) {
-      const int v = found_[i].first, first = static_cast<int>(list.facets.size());
-      for (; i < found_.size() && found_[i].first == v; ++i) {
-        const auto& c = f_.facets[found_[i].second];
-        list.facets.push_back({found_[i].second, {c[0], c[1], c[2]}, kAwake});
+      const int v = found_[i].vertex, first = static_cast<int>(list.facets.size());
+      double nearest = found_[i].distance;
+      for (; i < found_.size() && found_[i].vertex == v; ++i) {
+        const auto& c = f_.facets[found_[i].facet];
+        list.facets.push_back({found_[i].facet, {c[0], c[1], c[2]}, found_[i].distance});
+        nearest = std::min(nearest, found_[i].distance);
       }
       const int near_first = static_cast<int>(list.neighbours.size());
       for (int k = f_.first_neighbour[v]; k < f_.first_neighbour[v + 1]; ++k) list.neighbours.push_back(f_.neighbours[k]);
-      list.groups.push_back({v, v, surface, first, static_cast<int>(list.facets.size()), near_first, static_cast<int>(list.neighbours.size()), kAwake});
+      list.groups.push_back({v, v, surface, first, static_cast<int>(list.facets.size()), near_first, static_cast<int>(list.neighbours.size()), nearest});
     }
     found_.clear();
   }
@@ -181,7 +179,11 @@ class Builder {
   const NodeField& x_;
   const PlacedTools& tools_;
   double radius_;
-  std::vector<std::pair<int, int>> found_;  ///< vertex, facet
+  struct Found {
+    int vertex, facet;
+    double distance;
+  };
+  std::vector<Found> found_;
 };
 
 // Of a box that is turned with its frame, one that holds it.
@@ -192,6 +194,18 @@ Box moved(const Box& box, const ToolMotion& motion) {
 }
 
 }  // namespace
+
+void NearList::watch(double reach, double travel) {
+  if (travel + reach <= watched_until) return;
+  for (const EdgePair& e : watched) edge_wake[e.listed] = e.wake;
+  watched.clear();
+  watched_until = travel + 2 * reach;
+  for (size_t i = 0; i < edges.size(); ++i)
+    if (edge_wake[i] <= watched_until * (1 + 1e-12)) {
+      watched.push_back(edges[i]);
+      watched.back().wake = edge_wake[i];
+    }
+}
 
 Box box_of(const Features& f, int surface, const NodeField& x, const NodeField& place) {
   Box box;
@@ -257,6 +271,10 @@ NearList build_list(const Features& f, const NodeField& x, const PlacedTools& to
   std::sort(build.list.planes.begin(), build.list.planes.end(), [](const auto& p, const auto& q) {
     return p.vertex != q.vertex ? p.vertex < q.vertex : p.tool < q.tool;
   });
+  for (size_t i = 0; i < build.list.edges.size(); ++i) {
+    build.list.edges[i].listed = static_cast<int>(i);
+    build.list.edge_wake.push_back(build.list.edges[i].wake);
+  }
   for (size_t i = 0; i < ties.size(); ++i)
     if (ties[i].tool < 0 || tools.present[ties[i].tool])
       build.list.ties.push_back({static_cast<int>(i), {ties[i].vertex, ties[i].corner[0], ties[i].corner[1], ties[i].corner[2]}});

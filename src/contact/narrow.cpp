@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "forming_sim/contact/closest.h"
+#include "forming_sim/contact/closest_pack.h"
 
 namespace forming_sim {
 namespace {
@@ -17,36 +18,52 @@ constexpr double kWedge = 1e-3;
 
 bool rising(const ContactPair& a, const ContactPair& b) { return a.key < b.key; }
 
+const ClosestKernels& widest_kernels() {
+  static const ClosestKernels& kernels = closest_kernels_of(choose_isa());
+  return kernels;
+}
+
+constexpr int kFacetsAtOnce = 64;  ///< whose closest points are found together, or a few more
+constexpr int kEdgesAtOnce = 256;
+
+/// How far things are looked at.
+struct Range {
+  double reach;   ///< pairs nearer than this are kept
+  double travel;  ///< bound on all relative motion since the list was built
+  double awake;   ///< entries that wake later sleep
+};
+
 class Phase {
  public:
-  Phase(const PairConstants& constants, bool all, Narrow& result)
-      : constants_(constants), f_(constants.features), work_(constants.work), layer_(constants.layer), all_(all), out_(result), finished_(result.pairs.size()) {}
+  Phase(const PairConstants& constants, const Layers* layers, bool all, const Range& range, Narrow& result)
+      : constants_(constants), layers_(layers), f_(constants.features), work_(constants.work), layer_(constants.layer), all_(all), range_(range), out_(result), finished_(result.pairs.size()) {}
 
-  /// Looks at the facets of the group that are awake; sets when they need be looked at again.
-  void group(NearList& list, int index, double reach, double travel, double awake) {
-    NearList::VertexGroup& g = list.groups[index];
-    const Node& p = work_.x[g.node];
-    const double reach2 = reach * reach;
-    hits_.clear();
-    g.wake = std::numeric_limits<double>::infinity();
-    for (int i = g.first; i < g.last; ++i) {
-      NearList::FacetEntry& e = list.facets[i];
-      if (e.wake <= awake) {
-        const Closest c = f_.dimension == 2 ? closest_on_segment_facet(p, work_.x[e.node[0]], work_.x[e.node[1]])
-                                            : closest_on_triangle(p, work_.x[e.node[0]], work_.x[e.node[1]], work_.x[e.node[2]]);
-        const double distance = std::sqrt(c.squared);
-        e.wake = travel + distance;
-        if (c.squared <= reach2) {
-          hits_.push_back({c, i, feature_of(c, e.facet), false});
-          out_.close.emplace_back(i, index, distance);
-        }
-      }
-      g.wake = std::min(g.wake, e.wake);
+  /// Looks at the facets that are awake of the groups first ... last - 1; sets when they need be looked at again.
+  void vertices(NearList& list, long first, long last) {
+    for (long i = first; i < last; ++i) {
+      NearList::VertexGroup& g = list.groups[i];
+      if (g.wake > range_.awake) continue;
+      if (candidates_.size() >= kFacetsAtOnce) meet_facets(list);
+      g.wake = std::numeric_limits<double>::infinity();
+      for (int e = g.first; e < g.last; ++e)
+        if (list.facets[e].wake <= range_.awake)
+          candidates_.push_back({static_cast<int>(i), e});
+        else
+          g.wake = std::min(g.wake, list.facets[e].wake);
     }
-    if (hits_.empty()) return;
-    if (g.vertex != vertex_) finish_vertex();
-    vertex_ = g.vertex;
-    choose(list, g);
+    meet_facets(list);
+    finish_vertex();
+  }
+
+  /// Likewise at pairs of edges that are watched.
+  void edges(NearList& list, long first, long last) {
+    int awake[kEdgesAtOnce], count = 0;
+    for (long i = first; i < last; ++i) {
+      awake[count] = static_cast<int>(i);
+      count += list.watched[i].wake <= range_.awake;
+      if (count == kEdgesAtOnce) meet_edges(list, awake, count), count = 0;
+    }
+    meet_edges(list, awake, count);
   }
 
   /// Before the next vertex, or at the end of all: in their order, complete.
@@ -64,39 +81,113 @@ class Phase {
   }
   std::vector<ContactPair>& corners() { return corners_; }
   void finish() {
-    for (; finished_ < out_.pairs.size(); ++finished_) constants_.set(out_.pairs[finished_], out_.rubs);
-  }
-
-  double edges(const NearList& list, int index, double reach) {
-    const NearList::EdgePair& e = list.edges[index];
-    const Node &a0 = work_.x[e.node[0]], &a1 = work_.x[e.node[1]], &b0 = work_.x[e.node[2]], &b1 = work_.x[e.node[3]];
-    const ClosestEdges c = closest_on_edges(a0, a1, b0, b1);
-    const double distance = std::sqrt(c.squared);
-    if (distance > reach) return distance;
-    out_.close.emplace_back(index, -1, distance);
-    if (!c.crossing || !(distance > 0)) return distance;
-    const Node normal = c.apart / distance;
-    const double base = outside(a0, a1, e.opposite, -normal) && outside(b0, b1, e.opposite + 2, normal) ? layer_ : layer_ / 2;
-    if (!offered(base, distance)) return distance;
-    ContactPair& pair = out_.pairs.emplace_back(PairKey::make(PairKey::edge_edge, e.first, 0, e.second), e.own, e.surface, distance, base);
-    pair.nodes = 4;
-    pair.weight[0] = 1 - c.s;
-    pair.weight[1] = c.s;
-    pair.weight[2] = c.t - 1;
-    pair.weight[3] = -c.t;
-    for (int k = 0; k < 4; ++k) pair.node[k] = e.node[k];
-    pair.normal = normal;
-    finish();
-    return distance;
+    for (; finished_ < out_.pairs.size(); ++finished_) {
+      ContactPair& pair = out_.pairs[finished_];
+      constants_.set(pair, out_.rubs);
+      if (!(pair.w > 0)) out_.unmovable.push_back(static_cast<long>(finished_));
+      if (layers_ && layers_->give(pair, out_.rubs, place_)) out_.born.push_back(static_cast<long>(finished_));
+    }
   }
 
  private:
+  struct Candidate {
+    int group, entry;
+  };
   struct Hit {
     Closest closest;
     int entry;
     std::uint64_t feature;
     bool taken;
   };
+
+  // The closest points of the candidates, in lanes where there are triangles; then group by group what they are.
+  void meet_facets(NearList& list) {
+    const long count = static_cast<long>(candidates_.size());
+    faces_.resize(f_.dimension == 3 ? (count + kLanes - 1) / kLanes : 0);
+    for (size_t p = 0; p < faces_.size(); ++p) {
+      for (int l = 0; l < kLanes; ++l) {
+        const Candidate& c = candidates_[std::min<long>(p * kLanes + l, count - 1)];
+        faces_[p].point[l] = list.groups[c.group].node;
+        for (int k = 0; k < 3; ++k) faces_[p].corner[k][l] = list.facets[c.entry].node[k];
+      }
+    }
+    kernels_.faces(work_.x.front().data(), faces_.data(), static_cast<long>(faces_.size()));
+    for (long i = 0; i < count;) {
+      const int group = candidates_[i].group;
+      NearList::VertexGroup& g = list.groups[group];
+      hits_.clear();
+      for (; i < count && candidates_[i].group == group; ++i) {
+        NearList::FacetEntry& e = list.facets[candidates_[i].entry];
+        const Closest c = closest(g, e, i);
+        const double distance = std::sqrt(c.squared);
+        e.wake = range_.travel + distance;
+        g.wake = std::min(g.wake, e.wake);
+        if (distance > range_.reach) continue;
+        hits_.push_back({c, candidates_[i].entry, feature_of(c, e.facet), false});
+        out_.close.emplace_back(candidates_[i].entry, group, distance);
+      }
+      if (hits_.empty()) continue;
+      if (g.vertex != vertex_) finish_vertex();
+      vertex_ = g.vertex;
+      choose(list, g);
+    }
+    candidates_.clear();
+  }
+
+  Closest closest(const NearList::VertexGroup& g, const NearList::FacetEntry& e, long candidate) const {
+    const Node& p = work_.x[g.node];
+    if (f_.dimension == 2) return closest_on_segment_facet(p, work_.x[e.node[0]], work_.x[e.node[1]]);
+    const FacePack& pack = faces_[candidate / kLanes];
+    const long l = candidate % kLanes;
+    if (pack.inside[l] == 0) return closest_on_triangle_border(p, work_.x[e.node[0]], work_.x[e.node[1]], work_.x[e.node[2]]);
+    Closest c;
+    c.feature = Closest::face;
+    for (int k = 0; k < 3; ++k) c.weight[k] = pack.weight[k][l];
+    c.apart = Node(pack.apart[0][l], pack.apart[1][l], pack.apart[2][l], 0);
+    c.squared = pack.squared[l];
+    return c;
+  }
+
+  void meet_edges(NearList& list, const int* awake, int count) {
+    EdgePack packs[kEdgesAtOnce / kLanes];
+    const int filled = (count + kLanes - 1) / kLanes;
+    for (int i = 0; i < filled * kLanes; ++i) {
+      const NearList::EdgePair& e = list.watched[awake[std::min(i, count - 1)]];
+      EdgePack& pack = packs[i / kLanes];
+      for (int k = 0; k < 4; ++k) {
+        pack.node[k][i % kLanes] = e.node[k];
+        pack.opposite[k][i % kLanes] = e.opposite[k] >= 0 ? e.opposite[k] : e.node[k / 2 * 2];
+      }
+    }
+    kernels_.edges(work_.x.front().data(), kWedge, packs, filled);
+    for (int i = 0; i < count; ++i) {
+      const EdgePack& pack = packs[i / kLanes];
+      const int l = i % kLanes;
+      list.watched[awake[i]].wake = range_.travel + (pack.inside[l] != 0 ? cross(list, awake[i], pack, l) : pass(list, awake[i]));
+    }
+  }
+
+  // Closest at an end of one of them: vertices see that. Returns the distance.
+  double pass(const NearList& list, int index) {
+    const NearList::EdgePair& e = list.watched[index];
+    const double distance = std::sqrt(closest_on_edges(work_.x[e.node[0]], work_.x[e.node[1]], work_.x[e.node[2]], work_.x[e.node[3]]).squared);
+    if (distance <= range_.reach) out_.close.emplace_back(index, -1, distance);
+    return distance;
+  }
+
+  double cross(const NearList& list, int index, const EdgePack& pack, int l) {
+    const NearList::EdgePair& e = list.watched[index];
+    const double distance = pack.distance[l], base = pack.outside[l] != 0 ? layer_ : layer_ / 2;
+    if (distance > range_.reach) return distance;
+    out_.close.emplace_back(index, -1, distance);
+    if (!(distance > 0) || !offered(base, distance)) return distance;
+    const double s = pack.s[l], t = pack.t[l];
+    out_.pairs.emplace_back(PairKey::make(PairKey::edge_edge, e.first, 0, e.second), e.own, e.surface, distance, base,
+                            Link{{1 - s, s, t - 1, -t}, {e.node[0], e.node[1], e.node[2], e.node[3]}, 4},
+                            Node(pack.normal[0][l], pack.normal[1][l], pack.normal[2][l], 0));
+    finish();
+    return distance;
+  }
 
   std::uint64_t feature_of(const Closest& c, int facet) const {
     int id = facet;
@@ -174,39 +265,38 @@ class Phase {
     if (!offered(base, gap)) return;
     (corners ? corners_ : out_.pairs)
         .emplace_back(corners ? PairKey::make(PairKey::vertex_vertex, first, 0, second) : PairKey::make(PairKey::vertex_facet, first, c.feature, second), own,
-                      surface, gap, base)
-        .lies(link, normal);
+                      surface, gap, base, link, normal);
   }
 
   bool offered(double base, double gap) const { return all_ || base == layer_ || gap < base; }
 
-  // Does `away` from the edge ab, across it, point out of the slab of every facet at the edge?
-  // `inward`, across the edge too, has the length |r x u| / |u|.
-  bool outside(const Node& a, const Node& b, const int* opposite, const Node& away) const {
-    for (int k = 0; k < 2; ++k) {
-      if (opposite[k] < 0) continue;
-      const Node r = work_.x[opposite[k]] - a;
-      const double within = dot3(away, r);
-      if (!(within > 0)) continue;
-      const Node u = b - a, n = cross3(r, u);
-      if (within * within * dot3(u, u) > kWedge * kWedge * dot3(n, n)) return false;
-    }
-    return true;
-  }
-
   const PairConstants& constants_;
+  const Layers* layers_;
   const Features& f_;
   const Workspace& work_;
   double layer_;
   bool all_;
+  const Range range_;
   Narrow& out_;
-  std::vector<Hit> hits_;
+  const ClosestKernels& kernels_ = widest_kernels();
+  std::vector<Candidate> candidates_;  ///< listed pairs that are awake, group by group
+  std::vector<FacePack> faces_;        ///< the same in lanes
+  std::vector<Hit> hits_;              ///< of a group
   std::vector<ContactPair> corners_;  ///< pairs of two vertices
   int vertex_ = -1;                   ///< whose pairs are being found
   size_t finished_;                   ///< so many pairs are in order and complete
+  Layers::Place place_;
 };
 
 }  // namespace
+
+void Narrow::clear() {
+  pairs.clear();
+  born.clear();
+  unmovable.clear();
+  rubs.clear();
+  close.clear();
+}
 
 void put_in_order(std::vector<ContactPair>& pairs) {
   std::sort(pairs.begin(), pairs.end(), rising);
@@ -222,8 +312,8 @@ void add_plane_pairs(const Features& features, const Workspace& work, const std:
     const PlanePose& plane = planes[p.tool];
     const double gap = dot3(work.x[p.node] - plane.point, plane.normal) * dot3(plane.normal, plane.end_normal);
     if (gap > reach) continue;
-    pairs.emplace_back(PairKey::make(PairKey::plane, p.vertex, 0, p.tool), features.vertex_surface[p.vertex], features.bodies + p.tool, gap, layer)
-        .lies({{1, -1, 0, 0}, {p.node, p.foot, -1, -1}, 2}, plane.end_normal);
+    pairs.emplace_back(PairKey::make(PairKey::plane, p.vertex, 0, p.tool), features.vertex_surface[p.vertex], features.bodies + p.tool, gap, layer,
+                       Link{{1, -1, 0, 0}, {p.node, p.foot, -1, -1}, 2}, plane.end_normal);
   }
 }
 
@@ -234,6 +324,9 @@ constexpr long kGroupsOfAThread = 500, kEdgesOfAThread = 1000;  ///< fewer are n
 /// Appends what another thread has found.
 void join(const Narrow& share, Narrow& result) {
   const int rubs = static_cast<int>(result.rubs.size());
+  const long pairs = static_cast<long>(result.pairs.size());
+  for (long i : share.born) result.born.push_back(pairs + i);
+  for (long i : share.unmovable) result.unmovable.push_back(pairs + i);
   for (const ContactPair& pair : share.pairs) {
     result.pairs.push_back(pair);
     if (pair.rub >= 0) result.pairs.back().rub += rubs;
@@ -253,7 +346,7 @@ template <class Together, class Work> void share_out(Team& team, long count, lon
     for (start[s] = s * count / shares; start[s] > 0 && start[s] < count && together(start[s]);) ++start[s];
   team.share(shares, 1, [&](long first, long last) {
     for (long s = first; s < last; ++s) {
-      if (s > 0) result.shares[s - 1].pairs.clear(), result.shares[s - 1].rubs.clear(), result.shares[s - 1].close.clear();
+      if (s > 0) result.shares[s - 1].clear();
       work(static_cast<int>(s), s == 0 ? result : result.shares[s - 1], start[s], start[s + 1]);
     }
   });
@@ -262,30 +355,26 @@ template <class Together, class Work> void share_out(Team& team, long count, lon
 
 }  // namespace
 
-void narrow_phase(const PairConstants& constants, const std::vector<PlanePose>& planes, bool all, double reach, double travel, Team& team,
-                  NearList& list, Narrow& result) {
-  result.pairs.clear();
-  result.rubs.clear();
-  result.close.clear();
-  add_plane_pairs(constants.features, constants.work, planes, constants.layer, reach, list, result.pairs);
-  for (ContactPair& pair : result.pairs) constants.set(pair, result.rubs);
+void narrow_phase(const PairConstants& constants, const Layers* layers, const std::vector<PlanePose>& planes, bool all, double reach, double travel,
+                  Team& team, NearList& list, Narrow& result) {
+  result.clear();
   // Distances are computed to rounding; the factor keeps the bound on its safe side.
-  const double awake = (travel + reach) * (1 + 1e-12);
+  const Range range{reach, travel, (travel + reach) * (1 + 1e-12)};
+  Phase on_planes(constants, layers, all, range, result);
+  add_plane_pairs(constants.features, constants.work, planes, constants.layer, reach, list, result.pairs);
+  on_planes.finish();
   std::vector<std::vector<ContactPair>> corners(team.size());
   const auto same_vertex = [&](long i) { return list.groups[i].vertex == list.groups[i - 1].vertex; };
   share_out(team, static_cast<long>(list.groups.size()), kGroupsOfAThread, same_vertex, result, [&](int share, Narrow& into, long first, long last) {
-    Phase phase(constants, all, into);
-    for (long i = first; i < last; ++i)
-      if (list.groups[i].wake <= awake) phase.group(list, static_cast<int>(i), reach, travel, awake);
-    phase.finish_vertex();
+    Phase phase(constants, layers, all, range, into);
+    phase.vertices(list, first, last);
     corners[share].swap(phase.corners());
   });
   for (std::size_t s = 1; s < corners.size(); ++s) corners[0].insert(corners[0].end(), corners[s].begin(), corners[s].end());
-  Phase(constants, all, result).finish_corners(corners[0]);
-  share_out(team, static_cast<long>(list.edges.size()), kEdgesOfAThread, [](long) { return false; }, result, [&](int, Narrow& into, long first, long last) {
-    Phase phase(constants, all, into);
-    for (long i = first; i < last; ++i)
-      if (list.edge_wake[i] <= awake) list.edge_wake[i] = travel + phase.edges(list, static_cast<int>(i), reach);
+  Phase(constants, layers, all, range, result).finish_corners(corners[0]);
+  list.watch(reach, travel);
+  share_out(team, static_cast<long>(list.watched.size()), kEdgesOfAThread, [](long) { return false; }, result, [&](int, Narrow& into, long first, long last) {
+    Phase(constants, layers, all, range, into).edges(list, first, last);
   });
 }
 

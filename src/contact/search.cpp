@@ -80,9 +80,9 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
   travel = used = 0;
   ++builds;
   for (int i = 0; i < work.body_entries; ++i) {
-    work.inverse_mass[i] = inverse_mass[work.vertex[i]];
+    work.share[i].inverse_mass = inverse_mass[work.vertex[i]];
     const int h = held_of[work.vertex[i]];
-    work.projector[i] = h >= 0 ? &held[h].projector : nullptr;
+    work.share[i].projector = h >= 0 ? &held[h].projector : nullptr;
   }
   tie_pairs.clear();
   for (const NearList::TieEntry& entry : list.ties) {

@@ -21,9 +21,9 @@ constexpr double kMostOmega = 1.9;
 double over_relaxation(double rate) { return std::min(kMostOmega, 2 / (1 + std::sqrt(1 - rate))); }
 
 /// Calls each(n) for the nodes of a pair that can move.
-template <class Each> void each_mover(const Workspace& work, const ContactPair& pair, Each&& each) {
+template <class Each> void each_mover(const ContactPair& pair, Each&& each) {
   for (int k = 0; k < pair.nodes; ++k)
-    if (work.inverse_mass[pair.node[k]] > 0) each(pair.node[k]);
+    if (pair.movers >> k & 1) each(pair.node[k]);
 }
 
 int first_free(std::uint64_t taken) { return ~taken == 0 ? kBits : __builtin_ctzll(~taken); }
@@ -48,13 +48,13 @@ const PairKernels& pair_kernels_of(Isa isa) {
 Sweeps::Sweeps(Team& team, const char* kernels) : team_(team), kernels_(pair_kernels_of(choose_isa(kernels))) {}
 
 // Every tile takes the first colour that none of its nodes has yet.
-void Sweeps::cut(const Workspace& work, const std::vector<ContactPair>& pairs) {
+void Sweeps::cut(std::size_t nodes, const std::vector<ContactPair>& pairs) {
   const long count = static_cast<long>(pairs.size());
-  const long size = std::clamp((count / kTilesAimedAt + kLanes - 1) / kLanes * kLanes, kLeastPairsOfATile, kMostPairsOfATile);
+  const long size = tile_size_ = std::clamp((count / kTilesAimedAt + kLanes - 1) / kLanes * kLanes, kLeastPairsOfATile, kMostPairsOfATile);
   tile_count_ = (count + size - 1) / size;
   tiles_of_a_thread_ = std::max(1L, kPairsOfAThread / size);
   if (static_cast<long>(tiles_.size()) < tile_count_) tiles_.resize(tile_count_);
-  taken_.assign(work.inverse_mass.size(), 0);
+  taken_.assign(nodes, 0);
   place_.resize(pairs.size());
   std::vector<std::vector<long>> of_colour(kBits), left_over;
   for (long t = 0; t < tile_count_; ++t) {
@@ -62,14 +62,14 @@ void Sweeps::cut(const Workspace& work, const std::vector<ContactPair>& pairs) {
     tile.first = t * size;
     tile.last = std::min(count, tile.first + size);
     std::uint64_t taken = 0;
-    for (long i = tile.first; i < tile.last; ++i) each_mover(work, pairs[i], [&](int n) { taken |= taken_[n]; });
+    for (long i = tile.first; i < tile.last; ++i) each_mover(pairs[i], [&](int n) { taken |= taken_[n]; });
     const int colour = first_free(taken);
     if (colour == kBits) {
       left_over.push_back({t});
       continue;
     }
     of_colour[colour].push_back(t);
-    for (long i = tile.first; i < tile.last; ++i) each_mover(work, pairs[i], [&](int n) { taken_[n] |= std::uint64_t{1} << colour; });
+    for (long i = tile.first; i < tile.last; ++i) each_mover(pairs[i], [&](int n) { taken_[n] |= std::uint64_t{1} << colour; });
   }
   of_colour.insert(of_colour.end(), left_over.begin(), left_over.end());
   order_.clear();
@@ -94,16 +94,16 @@ template <class Work> void Sweeps::each_tile(Work&& work) {
 // Every pair takes the first colour that none of its nodes has in this tile; a colour fills packs of its own, so that
 // packs that follow each other mostly do not wait for each other's nodes. Tiles of the same colour do so at the same
 // time: none writes to a node of another.
-void Sweeps::pack(Tile& tile, const Workspace& work, const std::vector<ContactPair>& pairs, const std::vector<Rub>& rubs) {
-  for (long i = tile.first; i < tile.last; ++i) each_mover(work, pairs[i], [&](int n) { taken_[n] = 0; });
+void Sweeps::pack(Tile& tile, const std::vector<ContactPair>& pairs, const std::vector<Rub>& rubs) {
+  for (long i = tile.first; i < tile.last; ++i) each_mover(pairs[i], [&](int n) { taken_[n] = 0; });
   long of_colour[kBits + 1] = {};  // the last: pairs left over
   bool any_rubs = false;
   for (long i = tile.first; i < tile.last; ++i) {
     const ContactPair& pair = pairs[i];
     std::uint64_t taken = 0;
-    each_mover(work, pair, [&](int n) { taken |= taken_[n]; });
+    each_mover(pair, [&](int n) { taken |= taken_[n]; });
     const int colour = first_free(taken);
-    if (colour < kBits) each_mover(work, pair, [&](int n) { taken_[n] |= std::uint64_t{1} << colour; });
+    if (colour < kBits) each_mover(pair, [&](int n) { taken_[n] |= std::uint64_t{1} << colour; });
     any_rubs = any_rubs || pair.rub >= 0;
     place_[i] = colour;
     ++of_colour[colour];
@@ -137,8 +137,8 @@ void Sweeps::pack(Tile& tile, const Workspace& work, const std::vector<ContactPa
       const bool used = k < pair.nodes;
       p.node[k][l] = used ? pair.node[k] : 0;
       p.weight[k][l] = used ? pair.weight[k] : 0;
-      if (used && work.projector[pair.node[k]]) p.held = 1;
     }
+    if (pair.held) p.held = 1;
     p.nodes = std::max(p.nodes, pair.nodes);
     for (int j = 0; j < 3; ++j) p.normal[j][l] = pair.normal[j];
     p.gap[l] = pair.gap;
@@ -155,29 +155,30 @@ void Sweeps::pack(Tile& tile, const Workspace& work, const std::vector<ContactPa
   }
 }
 
-void Sweeps::take_back(const Tile& tile, std::vector<ContactPair>& pairs, std::vector<Rub>& rubs) const {
-  for (long i = tile.first; i < tile.last; ++i) {
+void Sweeps::take_back(long first, long last, std::vector<ContactPair>& pairs, std::vector<Rub>& rubs) const {
+  for (long i = first; i < last; ++i) {
     ContactPair& pair = pairs[i];
-    const long pack = place_[i] / kLanes;
+    const Tile& tile = tiles_[i / tile_size_];
+    const PairPack& p = tile.packs[place_[i] / kLanes];
     const int l = static_cast<int>(place_[i] % kLanes);
-    pair.impulse = tile.packs[pack].impulse[l];
-    pair.end_gap = tile.packs[pack].end_gap[l];
+    pair.impulse = p.impulse[l];
+    pair.end_gap = p.end_gap[l];
     if (pair.rub < 0) continue;
-    const RubPack& r = tile.rubs[pack];
+    const RubPack& r = tile.rubs[place_[i] / kLanes];
     rubs[pair.rub].slip = Node(r.slip[0][l], r.slip[1][l], r.slip[2][l], 0);
   }
 }
 
-SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, std::vector<ContactPair>& pairs,
-                          std::vector<Rub>& rubs) {
-  cut(work, pairs);
-  projector_.resize(work.projector.size());
-  for (std::size_t i = 0; i < projector_.size(); ++i) projector_[i] = work.projector[i] ? work.projector[i]->data() : nullptr;
+SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, const std::vector<ContactPair>& pairs,
+                          const std::vector<Rub>& rubs) {
+  cut(work.share.size(), pairs);
+  projector_.resize(work.share.size());
+  for (std::size_t i = 0; i < projector_.size(); ++i) projector_[i] = work.share[i].projector ? work.share[i].projector->data() : nullptr;
   // While the sweeps last, a node's inverse mass stands beside its velocity.
-  for (std::size_t i = 0; i < work.v.size(); ++i) work.v[i][3] = work.inverse_mass[i];
+  for (std::size_t i = 0; i < work.v.size(); ++i) work.v[i][3] = work.share[i].inverse_mass;
   const Movers movers{work.v.front().data(), projector_.data()};
   each_tile([&](Tile& tile) {
-    pack(tile, work, pairs, rubs);
+    pack(tile, pairs, rubs);
     kernels_.start(movers, tile.packs.data(), tile.rub(), static_cast<long>(tile.packs.size()));
   });
   SweepResult result;
@@ -206,7 +207,6 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
     result.open = open;
     if (result.open || result.sweeps >= most) break;
   }
-  each_tile([&](Tile& tile) { take_back(tile, pairs, rubs); });
   for (Node& v : work.v) v[3] = 0;
   return result;
 }

@@ -172,9 +172,10 @@ void prepare_tie(const Workspace& work, TiePair& pair) {
   double total = 0;
   for (int k = 0; k < pair.nodes; ++k) {
     const int n = pair.node[k];
-    const double b2m = pair.weight[k] * pair.weight[k] * work.inverse_mass[n];
+    const Share& share = work.share[n];
+    const double b2m = pair.weight[k] * pair.weight[k] * share.inverse_mass;
     total += b2m;
-    w += work.projector[n] ? Mat3(b2m * *work.projector[n]) : Mat3(b2m * Mat3::Identity());
+    w += share.projector ? Mat3(b2m * *share.projector) : Mat3(b2m * Mat3::Identity());
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(w);
   pair.mass.setZero();
@@ -197,7 +198,7 @@ double sweep_tie(double dt, Workspace& work, TiePair& pair) {
   const Node impulse = node(pair.mass * vec3(change));
   pair.impulse += impulse;
   push(pair, impulse, work, work.v);
-  return dt * change.norm();
+  return dt * vec3(change).norm();  // the fourth components hold masses
 }
 
 }  // namespace forming_sim

@@ -7,6 +7,7 @@
 
 #include "contact/point_bodies.h"
 #include "forming_sim/contact/closest.h"
+#include "forming_sim/contact/closest_pack.h"
 #include "forming_sim/contact/continuous.h"
 #include "forming_sim/contact/crossing.h"
 #include "forming_sim/contact/narrow.h"
@@ -55,6 +56,98 @@ TEST(ContactClosest, EdgesAgainstSampling) {
       for (int t = 0; t <= 150; ++t) best = std::min(best, (a + s / 150. * (b - a) - c - t / 150. * (d - c)).norm());
     EXPECT_LE(std::sqrt(q.squared), best + 1e-12);
     EXPECT_GT(std::sqrt(q.squared), best - 2e-2);
+  }
+}
+
+namespace {
+
+const std::vector<Isa>& vector_widths() {
+  static const std::vector<Isa> all = [] {
+    std::vector<Isa> runs{Isa::sse2};
+    for (Isa isa : {Isa::avx2, Isa::avx512})
+      if (isa <= choose_isa()) runs.push_back(isa);
+    return runs;
+  }();
+  return all;
+}
+
+/// Does the direction lie outside the slab of the facet that has the edge ab and the corner c, by its slope across the edge?
+double slope_into_slab(const Node& a, const Node& b, const Node& c, const Node& away) {
+  const Node along = (b - a).normalized(), r = c - a, inward = r - r.dot(along) * along;
+  return away.normalized().dot(inward.normalized());
+}
+
+}  // namespace
+
+TEST(ContactClosest, FacesInLanesAreThoseOneByOne) {
+  for (const Isa isa : vector_widths()) {
+    long inside = 0;
+    for (int turn = 0; turn < 300; ++turn) {
+      NodeField x;
+      FacePack pack;
+      for (int l = 0; l < kLanes; ++l) {
+        for (int k = 0; k < 4; ++k) x.push_back(random_node(3));
+        pack.point[l] = 4 * l;
+        for (int k = 0; k < 3; ++k) pack.corner[k][l] = 4 * l + 1 + k;
+        if (l == 5) x[4 * l] = .5 * (x[4 * l + 1] + x[4 * l + 2]) + Node((x[4 * l + 2] - x[4 * l + 1]).cross3(x[4 * l + 3] - x[4 * l + 1]));  // over an edge
+        if (l == 6) x[4 * l + 3] = 2 * x[4 * l + 2] - x[4 * l + 1];                                                                          // no area
+      }
+      closest_kernels_of(isa).faces(x.front().data(), &pack, 1);
+      for (int l = 0; l < kLanes; ++l) {
+        const Closest c = closest_on_triangle(x[4 * l], x[4 * l + 1], x[4 * l + 2], x[4 * l + 3]);
+        ASSERT_EQ(pack.inside[l] == 1, c.feature == Closest::face) << "lane " << l << " of turn " << turn;
+        if (pack.inside[l] == 0) continue;
+        ++inside;
+        EXPECT_NEAR(pack.squared[l], c.squared, 1e-12);
+        for (int k = 0; k < 3; ++k) {
+          EXPECT_NEAR(pack.weight[k][l], c.weight[k], 1e-12);
+          EXPECT_NEAR(pack.apart[k][l], c.apart[k], 1e-12);
+        }
+      }
+    }
+    EXPECT_GT(inside, 200);
+  }
+}
+
+TEST(ContactClosest, EdgesInLanesAreThoseOneByOne) {
+  const double wedge = 1e-3;
+  for (const Isa isa : vector_widths()) {
+    long crossing = 0, outside = 0, not_outside = 0;
+    for (int turn = 0; turn < 600; ++turn) {
+      NodeField x;
+      EdgePack pack;
+      for (int l = 0; l < kLanes; ++l) {
+        for (int k = 0; k < 8; ++k) x.push_back(random_node(3));
+        for (int k = 0; k < 4; ++k) {
+          pack.node[k][l] = 8 * l + k;
+          pack.opposite[k][l] = l % 2 && k % 2 ? pack.node[k / 2 * 2][l] : 8 * l + 4 + k;  // some edges have one facet
+        }
+        if (l == 6) x[8 * l + 3] = x[8 * l + 2] + 3 * (x[8 * l + 1] - x[8 * l]);  // parallel
+        if (l == 7) x[8 * l + 1] = x[8 * l];                                      // a point
+      }
+      closest_kernels_of(isa).edges(x.front().data(), wedge, &pack, 1);
+      for (int l = 0; l < kLanes; ++l) {
+        const Node *a = &x[8 * l], *b = a + 2;
+        const ClosestEdges c = closest_on_edges(a[0], a[1], b[0], b[1]);
+        ASSERT_EQ(pack.inside[l] == 1, c.crossing) << "lane " << l << " of turn " << turn;
+        if (!c.crossing) continue;
+        ++crossing;
+        EXPECT_NEAR(pack.s[l], c.s, 1e-10);
+        EXPECT_NEAR(pack.t[l], c.t, 1e-10);
+        EXPECT_NEAR(pack.distance[l], std::sqrt(c.squared), 1e-10);
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(pack.distance[l] * pack.normal[k][l], c.apart[k], 1e-10);
+        bool out = true;
+        for (int k = 0; k < 4; ++k) {
+          const Node* edge = k < 2 ? a : b;
+          if (pack.opposite[k][l] != pack.node[k / 2 * 2][l]) out = out && !(slope_into_slab(edge[0], edge[1], x[pack.opposite[k][l]], k < 2 ? Node(-c.apart) : c.apart) > wedge);
+        }
+        EXPECT_EQ(pack.outside[l] == 1, out) << "lane " << l << " of turn " << turn;
+        (out ? outside : not_outside)++;
+      }
+    }
+    EXPECT_GT(crossing, 200);
+    EXPECT_GT(outside, 20);
+    EXPECT_GT(not_outside, 100);
   }
 }
 

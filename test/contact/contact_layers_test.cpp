@@ -1,11 +1,13 @@
 // What thickness a pair's layer has when the pair is born, and from which pair it takes it over.
 #include <gtest/gtest.h>
 
+#include "contact/give_layers.h"
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/layers.h"
 #include "forming_sim/contact/law.h"
 
 using namespace forming_sim;
+using contact_test::give_layers;
 
 namespace {
 
@@ -28,9 +30,9 @@ PairKey on_edge(int edge, int other) { return PairKey::make(PairKey::edge_edge, 
 std::vector<double> layers(std::vector<PairRecord> before, std::vector<ContactPair> pairs) {
   std::sort(before.begin(), before.end(), [](const PairRecord& a, const PairRecord& b) { return a.key < b.key; });
   std::sort(pairs.begin(), pairs.end(), [](const ContactPair& a, const ContactPair& b) { return a.key < b.key; });
-  Team team(1);
   std::vector<Rub> rubs;
-  assign_layers(before, {}, Workspace(), 1e-6, 1e-6, h0, h0, team, pairs, rubs);
+  const Workspace work;
+  give_layers(Layers(before, {}, work, 1e-6, 1e-6, h0, h0), pairs, rubs);
   std::vector<double> found;
   for (const ContactPair& pair : pairs) found.push_back(pair.layer);
   return found;

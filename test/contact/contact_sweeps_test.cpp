@@ -28,8 +28,7 @@ struct Heap {
       const bool tool = i >= work.body_entries;
       work.vertex.push_back(i);
       work.v.push_back(Node(number(random) - 0.5, number(random) - 0.5, number(random) - 0.5, 0));
-      work.inverse_mass.push_back(tool ? 0 : 1 / (0.5 + number(random)));
-      work.projector.push_back(!tool && i % 7 == 3 ? &held : nullptr);
+      work.share.push_back({tool ? 0 : 1 / (0.5 + number(random)), 0, !tool && i % 7 == 3 ? &held : nullptr});
     }
     for (int i = 0; i < count; ++i) {
       ContactPair pair;
@@ -49,9 +48,12 @@ struct Heap {
       double any = 0;
       for (int k = 0; k < pair.nodes; ++k) {
         const int n = pair.node[k];
-        const double b2m = pair.weight[k] * pair.weight[k] * work.inverse_mass[n];
+        const Share& share = work.share[n];
+        const double b2m = pair.weight[k] * pair.weight[k] * share.inverse_mass;
         any += b2m;
-        pair.w += work.projector[n] ? b2m * pair.normal.dot(project(*work.projector[n], pair.normal)) : b2m;
+        pair.w += share.projector ? b2m * pair.normal.dot(project(*share.projector, pair.normal)) : b2m;
+        if (share.inverse_mass > 0) pair.movers |= 1 << k;
+        pair.held = pair.held || share.projector;
       }
       if (i % 2) {
         pair.rub = static_cast<int>(rubs.size());
@@ -64,7 +66,9 @@ struct Heap {
     std::vector<TiePair> ties;
     Team one(1);
     Sweeps sweeps(team ? *team : one, kernels);
-    return sweeps.solve(kDt, tolerance, most, work, ties, pairs, rubs);
+    const SweepResult result = sweeps.solve(kDt, tolerance, most, work, ties, pairs, rubs);
+    sweeps.take_back(0, static_cast<long>(pairs.size()), pairs, rubs);
+    return result;
   }
 };
 

@@ -2,6 +2,7 @@
 // A step of mild contact put together from the package's parts, with only those
 // pairs that the test leaves in and no continuous check: what each safeguard is
 // worth shows when it is missing. Tools stand where they are given, not set back.
+#include "contact/give_layers.h"
 #include "contact/point_bodies.h"
 #include "forming_sim/contact/crossing.h"
 #include "forming_sim/contact/layers.h"
@@ -44,15 +45,17 @@ class Reduced {
       const bool rigid = features_.rigid(v);
       work_.x[i] = rigid ? start[v - features_.body_nodes] : world.x[v];
       work_.v[i] = rigid ? Node((end[v - features_.body_nodes] - work_.x[i]) / dt) : world.v[v];
-      work_.inverse_mass[i] = rigid ? 0 : 1 / world.mass[v];
+      work_.share[i].inverse_mass = rigid ? 0 : 1 / world.mass[v];
     }
-    narrow_phase({features_, work_, world.modulus, layer_}, planes, true, reach, 0, team_, list, near_);
+    narrow_phase({features_, work_, world.modulus, layer_}, nullptr, planes, true, reach, 0, team_, list, near_);
     if (reduce_) reduce_(work_, near_.pairs);
-    assign_layers(records_, {}, work_, dt, dt, layer_, layer_, team_, near_.pairs, near_.rubs);
+    give_layers({records_, {}, work_, dt, dt, layer_, layer_}, near_.pairs, near_.rubs);
     sweeps_.solve(dt, 1e-3 * layer_, 50, work_, ties_, near_.pairs, near_.rubs);
     RelaxedPotential potential;
     records_.clear();
-    for (ContactPair& pair : near_.pairs) relax_layer(dt, .1 * dt, near_.rubs, pair, potential, records_);
+    sweeps_.take_back(0, static_cast<long>(near_.pairs.size()), near_.pairs, near_.rubs);
+    for (ContactPair& pair : near_.pairs)
+      if (relax_layer(.1 * dt, pair, potential)) records_.push_back(record_of(pair, near_.rubs, dt));
     for (int i = 0; i < work_.body_entries; ++i) world.v[work_.vertex[i]] = work_.v[i];
     for (size_t i = 0; i < world.x.size(); ++i) world.x[i] += dt * world.v[i];
     world.time += dt;

@@ -4,13 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forming_sim/contact/inside.h"
 #include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
-
-/// Closer to the border of a feature than this fraction of its size counts as
-/// on the border, so that a point over a shared edge belongs to the edge alone.
-constexpr double kBorder = 1e-10;
 
 /// On which feature of a facet the closest point lies. Corner and edge carry a
 /// number: edge k joins corners k and (k+1) mod 3.
@@ -26,6 +23,8 @@ inline double dot3(const Node& a, const Node& b) { return a[0] * b[0] + a[1] * b
 inline Node cross3(const Node& a, const Node& b) {
   return Node(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0);
 }
+
+inline Vector<double, 3> between(const Node& from, const Node& to) { return {{to[0] - from[0], to[1] - from[1], to[2] - from[2]}}; }
 
 /// Parameter in [0, 1] of the point of segment ab closest to p; 0 where a = b.
 inline double closest_on_segment(const Node& p, const Node& a, const Node& b) {
@@ -58,23 +57,16 @@ inline Closest closest_on_segment_facet(const Node& p, const Node& a, const Node
 Closest closest_on_triangle_border(const Node& p, const Node& a, const Node& b, const Node& c);
 
 inline Closest closest_on_triangle(const Node& p, const Node& a, const Node& b, const Node& c) {
-  const Node u = b - a, v = c - a, r = p - a;
-  // By cross products, which stay accurate for needles.
-  const Node n = cross3(u, v);
-  const double area2 = dot3(n, n);
-  const double beta = dot3(cross3(r, v), n), gamma = dot3(cross3(u, r), n);  // times area2
-  const double border = kBorder * area2;
-  if (area2 > 1e-12 * dot3(u, u) * dot3(v, v) && beta > border && gamma > border && area2 - beta - gamma > border) {
-    Closest f;
-    f.feature = Closest::face;
-    f.weight[1] = beta / area2;
-    f.weight[2] = gamma / area2;
-    f.weight[0] = 1 - f.weight[1] - f.weight[2];
-    f.apart = dot3(r, n) / area2 * n;
-    f.squared = dot3(f.apart, f.apart);
-    return f;
-  }
-  return closest_on_triangle_border(p, a, b, c);
+  const OverFace<double> over = over_face(between(a, p), between(a, b), between(a, c));
+  if (!over.inside) return closest_on_triangle_border(p, a, b, c);
+  Closest f;
+  f.feature = Closest::face;
+  f.weight[1] = over.beta;
+  f.weight[2] = over.gamma;
+  f.weight[0] = 1 - over.beta - over.gamma;
+  f.apart = Node(over.apart[0], over.apart[1], over.apart[2], 0);
+  f.squared = dot3(f.apart, f.apart);
+  return f;
 }
 
 /// Closest points a0 + s (a1 - a0) and b0 + t (b1 - b0) of two segments.

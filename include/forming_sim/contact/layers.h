@@ -1,10 +1,10 @@
 #pragma once
 // How thick the layer of each pair is: the soft start of pairs that are born
 // inside it, the raise for fast closing, and what is kept from step to step.
+#include <algorithm>
 #include <vector>
 
 #include "forming_sim/contact/pair.h"
-#include "forming_sim/parallel/team.h"
 
 namespace forming_sim {
 
@@ -18,17 +18,35 @@ struct PairRecord {
   double drag[3] = {0, 0, 0};   ///< of friction, N
 };
 
-/// Sets `layer` of all pairs, and impulse and slip of known ones to those of the step before, from which
-/// the sweeps start, or where the step was `tried` already to those that this found; all lists in the order of the keys.
+/// What the pairs of a step are given from the step before: `layer`, and of known ones impulse and slip, from which
+/// the sweeps start, or where the step was `tried` already those that this found; all lists in the order of the keys.
 ///  known            as it was; never more than half a layer for edges out of their wedge
 ///  new, h >= base   base, or .1 of the closing motion of the step where that is more, but not above h or `ceiling`
 ///  new, h < base    h: no force at first. Where the vertex or edge of either side has just left another
 ///                   feature of the other surface, that pair's layer goes over, to one new pair, so that
 ///                   the potential, a function of h/h0, does not rise.
-/// dt: of the step; last_dt: of the step before; work.v: predicted velocities. full: h0. The force that stops things in
-/// a short step is not that of a longer one: a pair starts from no more than the impulse that the step before had.
-void assign_layers(const std::vector<PairRecord>& before, const std::vector<PairRecord>& tried, const Workspace& work, double dt, double last_dt, double full, double ceiling, Team& team,
-                   std::vector<ContactPair>& pairs, std::vector<Rub>& rubs);
+/// The force that stops things in a short step is not that of a longer one: a pair starts from no more than
+/// the impulse that the step before had.
+class Layers {
+ public:
+  /// dt: of the step; last_dt: of the step before; work.v: predicted velocities. full: h0.
+  Layers(const std::vector<PairRecord>& before, const std::vector<PairRecord>& tried, const Workspace& work, double dt, double last_dt, double full, double ceiling)
+      : before_(before), last_try_(tried.empty() ? before : tried), work_(work), dt_(dt), lasts_(tried.empty() ? std::min(dt, last_dt) : dt), full_(full), ceiling_(ceiling) {}
+
+  /// How far the lists have been gone through.
+  struct Place {
+    long before = -1, last_try = -1;
+  };
+  /// Gives to one pair. Keys rise from call to call with the same `place`. Returns whether the pair is born inside its layer.
+  bool give(ContactPair& pair, std::vector<Rub>& rubs, Place& place) const;
+  /// Then, once all have been given: from the pairs that are gone to those born inside their layer (`born`: which, rising).
+  void hand_over(const std::vector<long>& born, std::vector<ContactPair>& pairs) const;
+
+ private:
+  const std::vector<PairRecord>&before_, &last_try_;
+  const Workspace& work_;
+  double dt_, lasts_, full_, ceiling_;  // lasts: of a force from which the sweeps start, s
+};
 
 /// What is known of a pair at the end of a step of dt.
 PairRecord record_of(const ContactPair& pair, const std::vector<Rub>& rubs, double dt);
@@ -38,8 +56,8 @@ PairRecord record_of(const ContactPair& pair, const std::vector<Rub>& rubs, doub
 struct RelaxedPotential {
   double before = 0, after = 0;
 };
-/// Lets the layer of a pair grow (or shrink) to its base by at most `growth`, adds its
-/// potential, and keeps the pair in `after` where it is inside. dt: of the step that ends.
-void relax_layer(double dt, double growth, const std::vector<Rub>& rubs, ContactPair& pair, RelaxedPotential& potential, std::vector<PairRecord>& after);
+/// Lets the layer of a pair grow (or shrink) to its base by at most `growth`, and adds its
+/// potential. Returns whether the pair ended the step inside its layer, and must be remembered.
+bool relax_layer(double growth, ContactPair& pair, RelaxedPotential& potential);
 
 }  // namespace forming_sim

@@ -1,6 +1,7 @@
 #pragma once
 // Which features are near enough to be watched: built now and then with a
 // margin, good until the margin is used up.
+#include <limits>
 #include <vector>
 
 #include "forming_sim/contact/features.h"
@@ -24,11 +25,13 @@ struct NearList {
     int near_first, near_last; ///< of `neighbours`
     double wake;               ///< the least of its facets
   };
-  struct EdgePair {
+  struct alignas(64) EdgePair {  ///< each in one line of the cache
     int first, second;         ///< edges
     int own, surface;          ///< theirs
     int node[4];
     int opposite[4];           ///< third corners of the first two facets at either edge, -1: none
+    int listed;                ///< index in `edges`
+    double wake;               ///< as of facets; counts where the pair is watched
   };
   struct PlanePair {
     int vertex, node, foot;    ///< foot: place in the workspace of the plane's nearest point
@@ -43,10 +46,15 @@ struct NearList {
   std::vector<int> neighbours; ///< of the groups' vertices, in the workspace
   std::vector<VertexGroup> groups;
   std::vector<EdgePair> edges;
-  std::vector<double> edge_wake;   ///< of each of them, as of facets
+  std::vector<double> edge_wake;   ///< of each of them that is not watched, as of facets
+  std::vector<EdgePair> watched;   ///< those of them that can come near while travel + reach <= watched_until, in the same order
+  double watched_until = -std::numeric_limits<double>::infinity();
   std::vector<PlanePair> planes;
   std::vector<TieEntry> ties;
   double radius = 0;           ///< every pair of features not in here was farther apart, m
+
+  /// Watches all that `reach` asks for, and as much again.
+  void watch(double reach, double travel);
 
   long size() const { return static_cast<long>(facets.size() + edges.size() + planes.size() + ties.size()); }
 };

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "forming_sim/contact/constants.h"
+#include "forming_sim/contact/layers.h"
 #include "forming_sim/contact/list.h"
 #include "forming_sim/parallel/team.h"
 
@@ -17,7 +18,7 @@ namespace forming_sim {
 
 /// A listed vertex-facet or edge-edge pair near enough to be met in this step.
 struct ClosePair {
-  int entry;        ///< index in NearList::facets or edges
+  int entry;        ///< index in NearList::facets or watched
   int group;        ///< index in NearList::groups; -1: edges
   double distance;  ///< now, m
 
@@ -26,9 +27,13 @@ struct ClosePair {
 
 struct Narrow {
   std::vector<ContactPair> pairs;  ///< in the order of their keys, each once
+  std::vector<long> born;          ///< which of them are new and inside their layer
+  std::vector<long> unmovable;     ///< which of them nothing can move
   std::vector<Rub> rubs;           ///< of those that rub
   std::vector<ClosePair> close;    ///< for the continuous check
   std::vector<Narrow> shares;      ///< what the other threads of a team find, before it is joined to the above
+
+  void clear();
 };
 
 /// All pairs nearer than `reach`. Entries that were farther than reach + the
@@ -39,9 +44,10 @@ struct Narrow {
 /// thick: such a pair pushes askew, and is needed only where nothing else has
 /// held. It counts only once it is inside its layer: where a fast step would end
 /// along a frozen, askew normal says little. `all`: without this restriction
-/// (for a step that met something). The pairs have geometry, key and constants.
-void narrow_phase(const PairConstants& constants, const std::vector<PlanePose>& planes, bool all, double reach, double travel, Team& team,
-                  NearList& list, Narrow& result);
+/// (for a step that met something). The pairs have geometry, key and constants and, where `layers` are given, what
+/// these give but for what is handed over.
+void narrow_phase(const PairConstants& constants, const Layers* layers, const std::vector<PlanePose>& planes, bool all, double reach, double travel,
+                  Team& team, NearList& list, Narrow& result);
 
 /// Adds the pairs of vertices with the planes that they are nearer to than `reach`, or behind;
 /// geometry and key only.

@@ -41,10 +41,12 @@ struct Rub {
 };
 
 struct ContactPair : Link {
-  Node normal = Node::Zero();  ///< from the second feature to the first, length 1
   int rub = -1;                ///< index of its friction, -1: none
   int own = -1, surface = -1;  ///< surfaces of the first and of the second feature
+  Node normal = Node::Zero();  ///< from the second feature to the first, length 1
   int tool = -1;
+  std::uint8_t movers = 0;     ///< bit k: node k can move
+  bool held = false;           ///< some directions of some of them cannot
   double gap = 0;              ///< h at the start of the step, m
   double layer = 0;            ///< h0 of this pair, m
   double base = 0;             ///< h0 it tends to
@@ -55,11 +57,8 @@ struct ContactPair : Link {
   PairKey key;
 
   ContactPair() = default;
-  ContactPair(const PairKey& name, int own_surface, int other_surface, double h, double h0) : own(own_surface), surface(other_surface), gap(h), base(h0), key(name) {}
-  void lies(const Link& link, const Node& along) {
-    static_cast<Link&>(*this) = link;
-    normal = along;
-  }
+  ContactPair(const PairKey& name, int own_surface, int other_surface, double h, double h0, const Link& link, const Node& along)
+      : Link(link), own(own_surface), surface(other_surface), normal(along), gap(h), base(h0), key(name) {}
 };
 
 constexpr long kPairsOfAThread = 256;  ///< fewer are not worth another thread
@@ -75,14 +74,20 @@ struct Tie {
   int corners() const { return corner[0] < 0 ? 0 : corner[2] < 0 ? 2 : 3; }
 };
 
+/// What a node brings to its pairs.
+struct Share {
+  double inverse_mass = 0;          ///< 1/kg; 0: of a tool, or held in all directions
+  double area = 0;                  ///< of nodes of bodies: Features::area
+  const Mat3* projector = nullptr;  ///< of held nodes, else null
+};
+
 /// The nodes of all listed pairs, gathered so that pairs address them densely.
 struct Workspace {
   std::vector<int> vertex;     ///< feature vertex of each entry, rising; then the feet of plane pairs (-1)
   int body_entries = 0;        ///< the first so many are nodes of bodies
   NodeField x, v, before;      ///< at the start of the step; running; before the kick
-  std::vector<double> inverse_mass;
-  std::vector<double> area;            ///< of nodes of bodies: Features::area
-  std::vector<const Mat3*> projector;  ///< of held nodes, else null
+  NodeField mean;              ///< of the velocities before the kick and at the end, once a step is taken
+  std::vector<Share> share;
 };
 
 }  // namespace forming_sim

@@ -34,9 +34,11 @@ class Sweeps {
 
   /// From the impulses and slips that the pairs come with, sweeps until every pair ends with a gap > 0 and nothing changes
   /// by more than `tolerance`, at most `most` times; in each sweep ties come before pairs. Changes
-  /// work.v, the impulses and end_gap of the pairs, the slip of the rubs.
-  SweepResult solve(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, std::vector<ContactPair>& pairs,
-                    std::vector<Rub>& rubs);
+  /// work.v and the ties' impulses; what was found of the pairs is for take_back to fetch.
+  SweepResult solve(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, const std::vector<ContactPair>& pairs,
+                    const std::vector<Rub>& rubs);
+  /// Sets impulse and end_gap of the pairs first ... last - 1, and their slips in `rubs`.
+  void take_back(long first, long last, std::vector<ContactPair>& pairs, std::vector<Rub>& rubs) const;
 
  private:
   struct Tile {
@@ -47,16 +49,15 @@ class Sweeps {
     const RubPack* rub() const { return rubs.empty() ? nullptr : rubs.data(); }
     RubPack* rub() { return rubs.empty() ? nullptr : rubs.data(); }
   };
-  void cut(const Workspace& work, const std::vector<ContactPair>& pairs);
-  void pack(Tile& tile, const Workspace& work, const std::vector<ContactPair>& pairs, const std::vector<Rub>& rubs);
-  void take_back(const Tile& tile, std::vector<ContactPair>& pairs, std::vector<Rub>& rubs) const;
+  void cut(std::size_t nodes, const std::vector<ContactPair>& pairs);
+  void pack(Tile& tile, const std::vector<ContactPair>& pairs, const std::vector<Rub>& rubs);
   /// Calls work(tile) for all tiles, colour by colour; tiles of a colour by all threads.
   template <class Work> void each_tile(Work&& work);
 
   Team& team_;
   const PairKernels& kernels_;
   std::vector<Tile> tiles_;            ///< the first tile_count_ are in use; the others keep their memory
-  long tile_count_ = 0, tiles_of_a_thread_ = 1;
+  long tile_count_ = 0, tile_size_ = 0, tiles_of_a_thread_ = 1;
   std::vector<long> order_;            ///< of the tiles, by colour
   std::vector<long> colour_ends_;      ///< places in order_
   std::vector<std::uint64_t> taken_;   ///< per node: colours of its tiles, then of its pairs in a tile; one bit each

@@ -1,0 +1,40 @@
+#pragma once
+// Listed pairs in lanes: the closest points of kLanes of them at a time, where these lie
+// inside the features (inside.h). Compiled once per vector width.
+#include "forming_sim/tensor/isa.h"
+#include "forming_sim/tensor/pack.h"
+
+namespace forming_sim {
+
+/// Points and triangles.
+struct alignas(64) FacePack {
+  int point[kLanes], corner[3][kLanes];         ///< nodes
+  double weight[3][kLanes];                     ///< found: of the corners
+  double apart[3][kLanes], squared[kLanes];     ///< found: from the foot to the point, m; its length squared
+  double inside[kLanes];                        ///< found: 1 where the foot is inside the triangle; else the rest means nothing
+};
+
+/// Two edges each.
+struct alignas(64) EdgePack {
+  int node[4][kLanes];                          ///< ends of the first and of the second
+  int opposite[4][kLanes];                      ///< third corners of two facets at either; where there is none, an end of the edge
+  double s[kLanes], t[kLanes];                  ///< found
+  double distance[kLanes], normal[3][kLanes];   ///< found: m; from the second to the first, length 1
+  double inside[kLanes];                        ///< found: 1 where the closest points are inside both; else the rest means nothing
+  double outside[kLanes];                       ///< found: 1 where each, seen from the facets of the other, lies outside their slabs
+};
+
+struct ClosestKernels {
+  /// places: records of four doubles, one a node.
+  void (*faces)(const double* places, FacePack* packs, long count);
+  /// wedge: slope up to which facets count as level.
+  void (*edges)(const double* places, double wedge, EdgePack* packs, long count);
+};
+
+const ClosestKernels& closest_kernels_of(Isa isa);
+
+namespace sse2 { const ClosestKernels& closest_kernels(); }
+namespace avx2 { const ClosestKernels& closest_kernels(); }
+namespace avx512 { const ClosestKernels& closest_kernels(); }
+
+}  // namespace forming_sim

@@ -1,0 +1,51 @@
+#pragma once
+// Closest points that lie inside both features: a point over a face, and two edges that
+// cross. T: double, or a Pack of eight such pairs.
+#include "forming_sim/tensor/tensor.h"
+
+namespace forming_sim {
+
+/// Closer to the border of a feature than this fraction of its size counts as
+/// on the border, so that a point over a shared edge belongs to the edge alone.
+constexpr double kBorder = 1e-10;
+
+template <class T> using Truth = decltype(T() > T());
+
+/// Of a point and a triangle.
+template <class T> struct OverFace {
+  T beta, gamma;        ///< weights of the second and third corner
+  Vector<T, 3> apart;   ///< from the foot to the point, m
+  Truth<T> inside;      ///< the foot is inside the triangle, and that has an area (an angle above 1e-6)
+};
+/// r: from corner a to the point; u, v: from a to the other corners. By cross products, which stay accurate for needles.
+template <class T> OverFace<T> over_face(const Vector<T, 3>& r, const Vector<T, 3>& u, const Vector<T, 3>& v) {
+  const Vector<T, 3> n = cross(u, v);
+  const T area2 = dot(n, n), beta = dot(cross(r, v), n), gamma = dot(cross(u, r), n);  // the last two times area2
+  const T border = T(kBorder) * area2, over = T(1.0) / area2;
+  OverFace<T> f;
+  f.beta = beta * over;
+  f.gamma = gamma * over;
+  f.apart = (dot(r, n) * over) * n;
+  f.inside = (area2 > T(1e-12) * dot(u, u) * dot(v, v)) & (beta > border) & (gamma > border) & (area2 - beta - gamma > border);
+  return f;
+}
+
+/// Of the segments a0 + s u and b0 + t v.
+template <class T> struct CrossingEdges {
+  T s, t;
+  Vector<T, 3> apart;   ///< from the point on b to that on a, m
+  Truth<T> inside;      ///< both points inside their segments, and these not parallel (sin^2 > 1e-8)
+};
+/// r = a0 - b0.
+template <class T> CrossingEdges<T> crossing_edges(const Vector<T, 3>& r, const Vector<T, 3>& u, const Vector<T, 3>& v) {
+  const Vector<T, 3> n = cross(u, v);
+  const T n2 = dot(n, n), over = T(1.0) / n2, low(kBorder), high(1.0 - kBorder);
+  CrossingEdges<T> e;
+  e.s = -dot(cross(r, v), n) * over;
+  e.t = -dot(cross(r, u), n) * over;
+  e.apart = (dot(r, n) * over) * n;
+  e.inside = (n2 > T(1e-8) * dot(u, u) * dot(v, v)) & (e.s > low) & (high > e.s) & (e.t > low) & (high > e.t);
+  return e;
+}
+
+}  // namespace forming_sim
