@@ -98,7 +98,7 @@ ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x
       add_plane_pairs(features, work, planes, layer, reach, list, near.pairs);
       pair_nearest_nodes(reach, travel, list, features, work, near.pairs);
     } else {
-      narrow_phase(constants(), nullptr, planes, true, reach, travel, team, list, near);
+      narrow_phase(constants(), nullptr, planes, true, {reach, 0, travel}, team, list, near);
     }
     const auto left_out = [&](ContactPair& pair) {
       if (pair.gap < 0) {

@@ -211,7 +211,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
       if (list.size() == 0) break;
       gather(x, v, dt, motion, planes);
       const Layers layers(records, tried, work, dt, previous_dt, layer, ceiling);
-      narrow_phase(constants(), &layers, planes, all, reach, travel, team, list, near);
+      narrow_phase(constants(), &layers, planes, all, {reach, bound, travel}, team, list, near);
       layers.hand_over(near.born, near.pairs);
       laps.done(&ContactTimes::narrow);
       swept = SweepResult();

@@ -26,27 +26,20 @@ const ClosestKernels& widest_kernels() {
 constexpr int kFacetsAtOnce = 64;  ///< whose closest points are found together, or a few more
 constexpr int kEdgesAtOnce = 256;
 
-/// How far things are looked at.
-struct Range {
-  double reach;   ///< pairs nearer than this are kept
-  double travel;  ///< bound on all relative motion since the list was built
-  double awake;   ///< entries that wake later sleep
-};
-
 class Phase {
  public:
   Phase(const PairConstants& constants, const Layers* layers, bool all, const Range& range, Narrow& result)
-      : constants_(constants), layers_(layers), f_(constants.features), work_(constants.work), layer_(constants.layer), all_(all), range_(range), out_(result), finished_(result.pairs.size()) {}
+      : constants_(constants), layers_(layers), f_(constants.features), work_(constants.work), layer_(constants.layer), all_(all), range_(range), awake_((range.travel + range.reach) * (1 + 1e-12)), out_(result), finished_(result.pairs.size()) {}
 
   /// Looks at the facets that are awake of the groups first ... last - 1; sets when they need be looked at again.
   void vertices(NearList& list, long first, long last) {
     for (long i = first; i < last; ++i) {
       NearList::VertexGroup& g = list.groups[i];
-      if (g.wake > range_.awake) continue;
+      if (g.wake > awake_) continue;
       if (candidates_.size() >= kFacetsAtOnce) meet_facets(list);
       g.wake = std::numeric_limits<double>::infinity();
       for (int e = g.first; e < g.last; ++e)
-        if (list.facets[e].wake <= range_.awake)
+        if (list.facets[e].wake <= awake_)
           candidates_.push_back({static_cast<int>(i), e});
         else
           g.wake = std::min(g.wake, list.facets[e].wake);
@@ -60,7 +53,7 @@ class Phase {
     int awake[kEdgesAtOnce], count = 0;
     for (long i = first; i < last; ++i) {
       awake[count] = static_cast<int>(i);
-      count += list.watched[i].wake <= range_.awake;
+      count += list.watched[i].wake <= awake_;
       if (count == kEdgesAtOnce) meet_edges(list, awake, count), count = 0;
     }
     meet_edges(list, awake, count);
@@ -124,7 +117,7 @@ class Phase {
         g.wake = std::min(g.wake, e.wake);
         if (distance > range_.reach) continue;
         hits_.push_back({c, candidates_[i].entry, feature_of(c, e.facet), false});
-        out_.close.emplace_back(candidates_[i].entry, group, distance);
+        watch_touch(candidates_[i].entry, group, distance);
       }
       if (hits_.empty()) continue;
       if (g.vertex != vertex_) finish_vertex();
@@ -167,11 +160,15 @@ class Phase {
     }
   }
 
+  void watch_touch(int entry, int group, double distance) {
+    if (0.999 * distance <= range_.closing) out_.close.emplace_back(entry, group, distance);
+  }
+
   // Closest at an end of one of them: vertices see that. Returns the distance.
   double pass(const NearList& list, int index) {
     const NearList::EdgePair& e = list.watched[index];
     const double distance = std::sqrt(closest_on_edges(work_.x[e.node[0]], work_.x[e.node[1]], work_.x[e.node[2]], work_.x[e.node[3]]).squared);
-    if (distance <= range_.reach) out_.close.emplace_back(index, -1, distance);
+    watch_touch(index, -1, distance);
     return distance;
   }
 
@@ -179,7 +176,7 @@ class Phase {
     const NearList::EdgePair& e = list.watched[index];
     const double distance = pack.distance[l], base = pack.outside[l] != 0 ? layer_ : layer_ / 2;
     if (distance > range_.reach) return distance;
-    out_.close.emplace_back(index, -1, distance);
+    watch_touch(index, -1, distance);
     if (!(distance > 0) || !offered(base, distance)) return distance;
     const double s = pack.s[l], t = pack.t[l];
     out_.pairs.emplace_back(PairKey::make(PairKey::edge_edge, e.first, 0, e.second), e.own, e.surface, distance, base,
@@ -277,6 +274,7 @@ class Phase {
   double layer_;
   bool all_;
   const Range range_;
+  const double awake_;  ///< entries that wake later sleep; distances are computed to rounding, the factor keeps the bound on its safe side
   Narrow& out_;
   const ClosestKernels& kernels_ = widest_kernels();
   std::vector<Candidate> candidates_;  ///< listed pairs that are awake, group by group
@@ -355,13 +353,11 @@ template <class Together, class Work> void share_out(Team& team, long count, lon
 
 }  // namespace
 
-void narrow_phase(const PairConstants& constants, const Layers* layers, const std::vector<PlanePose>& planes, bool all, double reach, double travel,
-                  Team& team, NearList& list, Narrow& result) {
+void narrow_phase(const PairConstants& constants, const Layers* layers, const std::vector<PlanePose>& planes, bool all, const Range& range, Team& team,
+                  NearList& list, Narrow& result) {
   result.clear();
-  // Distances are computed to rounding; the factor keeps the bound on its safe side.
-  const Range range{reach, travel, (travel + reach) * (1 + 1e-12)};
   Phase on_planes(constants, layers, all, range, result);
-  add_plane_pairs(constants.features, constants.work, planes, constants.layer, reach, list, result.pairs);
+  add_plane_pairs(constants.features, constants.work, planes, constants.layer, range.reach, list, result.pairs);
   on_planes.finish();
   std::vector<std::vector<ContactPair>> corners(team.size());
   const auto same_vertex = [&](long i) { return list.groups[i].vertex == list.groups[i - 1].vertex; };
@@ -372,7 +368,7 @@ void narrow_phase(const PairConstants& constants, const Layers* layers, const st
   });
   for (std::size_t s = 1; s < corners.size(); ++s) corners[0].insert(corners[0].end(), corners[s].begin(), corners[s].end());
   Phase(constants, layers, all, range, result).finish_corners(corners[0]);
-  list.watch(reach, travel);
+  list.watch(range.reach, range.travel);
   share_out(team, static_cast<long>(list.watched.size()), kEdgesOfAThread, [](long) { return false; }, result, [&](int, Narrow& into, long first, long last) {
     Phase(constants, layers, all, range, into).edges(list, first, last);
   });

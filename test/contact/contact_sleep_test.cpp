@@ -66,10 +66,10 @@ TEST(ContactSearch, SleepingPairsAreMissedByNone) {
     double travel = 0;
     long steps = 0, pairs = 0, came = 0, asleep = 0, watched = 0;
     for (; travel + reach <= radius; travel += farthest, ++steps) {
-      narrow_phase({scene.features, work, 1, layer}, nullptr, scene.planes, true, reach, travel, two, list, near);
+      narrow_phase({scene.features, work, 1, layer}, nullptr, scene.planes, true, {reach, .9 * reach, travel}, two, list, near);
       NearList fresh = scene.list(reach, work_now);
       const std::size_t before = now.pairs.size();
-      narrow_phase({scene.features, work_now, 1, layer}, nullptr, scene.planes, true, reach, 0, one, fresh, now);
+      narrow_phase({scene.features, work_now, 1, layer}, nullptr, scene.planes, true, {reach, .9 * reach, 0}, one, fresh, now);
       ASSERT_EQ(near.pairs.size(), now.pairs.size()) << "step " << steps;
       for (std::size_t i = 0; i < now.pairs.size(); ++i) {
         ASSERT_EQ(near.pairs[i].key, now.pairs[i].key) << "step " << steps;
@@ -107,12 +107,12 @@ TEST(ContactSearch, WithoutTheCountOfTheWayPairsAreMissed) {
   Narrow near, now;
   Team one(1);
   for (int step = 0; step < 2; ++step) {
-    narrow_phase({scene.features, work, 1, .02}, nullptr, scene.planes, true, reach, 0, one, list, near);
+    narrow_phase({scene.features, work, 1, .02}, nullptr, scene.planes, true, {reach, .9 * reach, 0}, one, list, near);
     for (int i = 0; i < scene.features.body_nodes; ++i) scene.world.x[i] -= Node(0, 0, .04, 0);
     scene.gather(work);
   }
   NearList fresh = scene.list(reach, work_now);
-  narrow_phase({scene.features, work_now, 1, .02}, nullptr, scene.planes, true, reach, 0, one, fresh, now);
-  narrow_phase({scene.features, work, 1, .02}, nullptr, scene.planes, true, reach, 0, one, list, near);
+  narrow_phase({scene.features, work_now, 1, .02}, nullptr, scene.planes, true, {reach, .9 * reach, 0}, one, fresh, now);
+  narrow_phase({scene.features, work, 1, .02}, nullptr, scene.planes, true, {reach, .9 * reach, 0}, one, list, near);
   EXPECT_LT(near.pairs.size(), now.pairs.size());
 }

@@ -47,7 +47,7 @@ class Reduced {
       work_.v[i] = rigid ? Node((end[v - features_.body_nodes] - work_.x[i]) / dt) : world.v[v];
       work_.share[i].inverse_mass = rigid ? 0 : 1 / world.mass[v];
     }
-    narrow_phase({features_, work_, world.modulus, layer_}, nullptr, planes, true, reach, 0, team_, list, near_);
+    narrow_phase({features_, work_, world.modulus, layer_}, nullptr, planes, true, {reach, 0, 0}, team_, list, near_);
     if (reduce_) reduce_(work_, near_.pairs);
     give_layers({records_, {}, work_, dt, dt, layer_, layer_}, near_.pairs, near_.rubs);
     sweeps_.solve(dt, 1e-3 * layer_, 50, work_, ties_, near_.pairs, near_.rubs);

@@ -16,6 +16,13 @@
 
 namespace forming_sim {
 
+/// How far a step looks.
+struct Range {
+  double reach;    ///< pairs nearer than this are found, m
+  double closing;  ///< bound on how much nearer any two features come in the step, m
+  double travel;   ///< bound on all relative motion since the list was built, m
+};
+
 /// A listed vertex-facet or edge-edge pair near enough to be met in this step.
 struct ClosePair {
   int entry;        ///< index in NearList::facets or watched
@@ -30,15 +37,14 @@ struct Narrow {
   std::vector<long> born;          ///< which of them are new and inside their layer
   std::vector<long> unmovable;     ///< which of them nothing can move
   std::vector<Rub> rubs;           ///< of those that rub
-  std::vector<ClosePair> close;    ///< for the continuous check
+  std::vector<ClosePair> close;    ///< for the continuous check: those that can touch in this step
   std::vector<Narrow> shares;      ///< what the other threads of a team find, before it is joined to the above
 
   void clear();
 };
 
 /// All pairs nearer than `reach`. Entries that were farther than reach + the
-/// distance travelled since they were last looked at are skipped: `travel` is
-/// a bound on all relative motion since the list was built.
+/// distance travelled since they were last looked at are skipped.
 /// Where one of the two features is not the nearest of its own surface (another
 /// corner or facet of it lies nearer to the other's point) the layer is half as
 /// thick: such a pair pushes askew, and is needed only where nothing else has
@@ -46,8 +52,8 @@ struct Narrow {
 /// along a frozen, askew normal says little. `all`: without this restriction
 /// (for a step that met something). The pairs have geometry, key and constants and, where `layers` are given, what
 /// these give but for what is handed over.
-void narrow_phase(const PairConstants& constants, const Layers* layers, const std::vector<PlanePose>& planes, bool all, double reach, double travel,
-                  Team& team, NearList& list, Narrow& result);
+void narrow_phase(const PairConstants& constants, const Layers* layers, const std::vector<PlanePose>& planes, bool all, const Range& range, Team& team,
+                  NearList& list, Narrow& result);
 
 /// Adds the pairs of vertices with the planes that they are nearer to than `reach`, or behind;
 /// geometry and key only.
