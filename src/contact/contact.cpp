@@ -41,7 +41,8 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
   m.sides = find_sides(m.layer, m.features, x, at_start);
   set_back(m.layer, m.sides, setup, m.features, m.tools, m.warnings);
   check_start(m.layer, m.sides, setup, x, at_start, m.features, m.tools, m.warnings);
-  keep_ties(x, at_start, m.ties);
+  m.tools.place_all(m.features, at_start, false, place);  // set back
+  keep_ties(m.features, x, place, at_start, m.ties);
   if (m.method == Impl::Method::geometric) m.know_sides();
   m.tool_index = std::make_unique<ToolIndex>(m.features, m.features.place, std::vector<bool>(setup.tools.size(), true));
 }

@@ -277,7 +277,7 @@ NearList build_list(const Features& f, const NodeField& x, const PlacedTools& to
   }
   for (size_t i = 0; i < ties.size(); ++i)
     if (ties[i].tool < 0 || tools.present[ties[i].tool])
-      build.list.ties.push_back({static_cast<int>(i), {ties[i].vertex, ties[i].corner[0], ties[i].corner[1], ties[i].corner[2]}});
+      build.list.ties.push_back({static_cast<int>(i), {ties[i].node[0], ties[i].node[1], ties[i].node[2], ties[i].node[3]}});
   build.number(work);
   build.list.radius = any ? radius : std::max(radius, clear);
   return std::move(build.list);

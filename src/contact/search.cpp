@@ -106,7 +106,7 @@ void Contact::Impl::gather(const NodeField& x, const NodeField& v, double dt, co
     work.before[entry] = previous_dt > 0 ? (work.x[entry] - node(pose0(previous_motion[tool], p))) / previous_dt : work.v[entry];
   };
   size_t feet = list.planes.size();
-  for (const TiePair& tie : tie_pairs) feet += tie.tool >= 0;
+  for (const TiePair& tie : tie_pairs) feet += tie.to_tool;
   const size_t last = work.vertex.size() - feet;
   int surface = features.bodies;
   for (size_t i = work.body_entries; i < last; ++i) {
@@ -122,7 +122,7 @@ void Contact::Impl::gather(const NodeField& x, const NodeField& v, double dt, co
     work.x[p.foot] = foot;  // to the last bit
   }
   for (const TiePair& tie : tie_pairs)
-    if (tie.tool >= 0) place_on_tool(tie.node[1], tie.tool, ties[tie.tie].kept);
+    if (tie.to_tool) place_on_tool(tie.node[1], tie.tool, ties[tie.tie].kept);
   for (TiePair& tie : tie_pairs) aim_tie(ties[tie.tie], work, tie);
 }
 

@@ -43,16 +43,39 @@ Closest closest_on_facet(const Features& f, const Node& p, const Node* const cor
   return f.dimension == 2 ? closest_on_segment_facet(p, *corner[0], *corner[1]) : closest_on_triangle(p, *corner[0], *corner[1], *corner[2]);
 }
 
-// Unit vectors of a facet: along its first side, across in it, normal to it.
-Mat3 frame_of(int corners, const Node* const corner[3]) {
-  Mat3 frame = Mat3::Identity();
-  const Vec3 along = vec3(*corner[1] - *corner[0]).normalized();
+// The frame that goes with the second feature of a tie: of a facet, or of an edge and the direction of the one across it.
+// place(k): of the k-th node.
+template <class Place> Mat3 frame_of(const Tie& tie, Place&& place) {
+  const bool edges = tie.node[3] >= 0 && tie.weight[1] > 0;
+  const Vec3 along = vec3(edges ? Node(place(3) - place(2)) : Node(place(2) - place(1))).normalized();
   Vec3 normal = Vec3::UnitZ();
-  if (corners == 3) normal = along.cross(vec3(*corner[2] - *corner[0])).normalized();
+  if (tie.nodes == 4) normal = along.cross(vec3(edges ? Node(place(1) - place(0)) : Node(place(3) - place(1)))).normalized();
+  Mat3 frame;
   frame.col(0) = along;
   frame.col(1) = normal.cross(along);
   frame.col(2) = normal;
   return frame;
+}
+
+Tie tie_to_facet(const Features& f, int vertex, int facet, const Closest& closest) {
+  Tie tie;
+  tie.node[0] = vertex;
+  tie.weight[0] = 1;
+  for (int k = 0; k < f.corners(); ++k) {
+    tie.node[1 + k] = f.facets[facet][k];
+    tie.weight[1 + k] = -closest.weight[k];
+  }
+  tie.nodes = 1 + f.corners();
+  return tie;
+}
+
+Tie tie_to_tool(int vertex, int tool) {
+  Tie tie;
+  tie.node[0] = vertex;
+  tie.weight[0] = 1;
+  tie.nodes = 1;
+  tie.tool = tool;
+  return tie;
 }
 
 [[noreturn]] void refuse(const ContactSetup& setup, const Features& f, const TiedPair& pair) {
@@ -95,74 +118,93 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
   const NearList list = build_list(f, x, {ToolIndex(f, place, all), {}, all, is_plane, planes}, {}, radius, work);
   const auto at = [&](int v) -> const Node& { return v < f.body_nodes ? x[v] : place[v - f.body_nodes]; };
   for (const TiedPair& pair : pairs) {
-    std::vector<bool> zone(f.vertex_count, false);
+    std::vector<bool> zone(f.vertex_count, false), tied(f.vertex_count, false);
     const std::size_t before = ties.size();
+    std::vector<std::pair<Tie, int>> of_second;  // and the facet
     for (const auto& g : list.groups) {
       const int own = f.vertex_surface[g.vertex];
       if (!(own == pair.first && g.surface == pair.second) && !(own == pair.second && g.surface == pair.first)) continue;
-      Tie tie;
-      double least = pair.distance * pair.distance;
-      bool near = false;
+      Closest nearest;
+      int facet = -1;
       for (int i = g.first; i < g.last; ++i) {
         const auto& c = f.facets[list.facets[i].facet];
         const Node* const corner[3] = {&at(c[0]), &at(c[1]), &at(c[f.corners() - 1])};
         const Closest q = closest_on_facet(f, at(g.vertex), corner);
-        if (q.squared > least || (near && q.squared == least)) continue;
-        near = true;
-        least = q.squared;
-        for (int k = 0; k < f.corners(); ++k) {
-          tie.corner[k] = c[k];
-          tie.weight[k] = q.weight[k];
-        }
+        if (q.squared > pair.distance * pair.distance || (facet >= 0 && q.squared >= nearest.squared)) continue;
+        nearest = q;
+        facet = list.facets[i].facet;
       }
-      if (!near) continue;
+      if (facet < 0) continue;
       zone[g.vertex] = true;
-      for (int v : tie.corner)
-        if (v >= 0) zone[v] = true;
-      if (own != pair.first) continue;
-      tie.vertex = g.vertex;
-      if (pair.second >= f.bodies) {
-        std::fill(tie.corner, tie.corner + 3, -1);
-        tie.tool = pair.second - f.bodies;
+      for (int k = 0; k < f.corners(); ++k) zone[f.facets[facet][k]] = true;
+      if (own == pair.second) {
+        of_second.push_back({tie_to_facet(f, g.vertex, facet, nearest), facet});
+        continue;
       }
-      ties.push_back(tie);
+      tied[g.vertex] = true;
+      ties.push_back(pair.second >= f.bodies ? tie_to_tool(g.vertex, pair.second - f.bodies) : tie_to_facet(f, g.vertex, facet, nearest));
     }
     for (const auto& p : list.planes) {
       if (f.vertex_surface[p.vertex] != pair.first || f.bodies + p.tool != pair.second) continue;
       if (std::abs(dot3(at(p.vertex) - planes[p.tool].point, planes[p.tool].normal)) > pair.distance) continue;
-      Tie tie;
-      tie.vertex = p.vertex;
-      tie.tool = p.tool;
       zone[p.vertex] = true;
-      ties.push_back(tie);
+      ties.push_back(tie_to_tool(p.vertex, p.tool));
     }
     if (ties.size() == before) refuse(setup, f, pair);
+    // The rim: a facet of the first that reaches out of what is tied would turn into the second about its tied vertices.
+    for (const auto& [tie, facet] : of_second) {
+      const auto& c = f.facets[facet];
+      if (tied[c[0]] && tied[c[1]] && tied[c[f.corners() - 1]]) continue;
+      ties.push_back(tie);
+      if (pair.second >= f.bodies) ties.back().tool = pair.second - f.bodies;
+    }
+    for (const auto& e : list.edges) {
+      const bool own = f.edges[e.first].surface == pair.first && f.edges[e.second].surface == pair.second;
+      if (!own && !(f.edges[e.first].surface == pair.second && f.edges[e.second].surface == pair.first)) continue;
+      const int* const p = f.edges[own ? e.first : e.second].node;
+      const int* const q = f.edges[own ? e.second : e.first].node;
+      if (tied[p[0]] == tied[p[1]]) continue;
+      const ClosestEdges c = closest_on_edges(at(p[0]), at(p[1]), at(q[0]), at(q[1]));
+      if (!c.crossing || c.squared > pair.distance * pair.distance) continue;
+      Tie tie;
+      const double weight[4] = {1 - c.s, c.s, c.t - 1, -c.t};
+      const int node[4] = {p[0], p[1], q[0], q[1]};
+      std::copy(weight, weight + 4, tie.weight);
+      std::copy(node, node + 4, tie.node);
+      tie.nodes = 4;
+      zone[q[0]] = zone[q[1]] = true;
+      if (pair.second >= f.bodies) tie.tool = pair.second - f.bodies;
+      ties.push_back(tie);
+    }
     f.relation(pair.first, pair.second).tie = f.relation(pair.second, pair.first).tie = static_cast<int>(f.tied_zones.size());
     f.tied_zones.push_back(std::move(zone));
   }
   return ties;
 }
 
-void keep_ties(const NodeField& x, const std::vector<ToolMotion>& motion, std::vector<Tie>& ties) {
+void keep_ties(const Features& f, const NodeField& x, const NodeField& place, const std::vector<ToolMotion>& motion, std::vector<Tie>& ties) {
   for (Tie& tie : ties) {
-    if (tie.tool >= 0) {
-      tie.kept = motion[tie.tool].rotation0.transpose() * (vec3(x[tie.vertex]) - motion[tie.tool].position0);
+    const auto at = [&](int k) -> const Node& { return tie.node[k] < f.body_nodes ? x[tie.node[k]] : place[tie.node[k] - f.body_nodes]; };
+    if (tie.to_tool()) {
+      tie.kept = motion[tie.tool].rotation0.transpose() * (vec3(at(0)) - motion[tie.tool].position0);
       continue;
     }
-    Node r = x[tie.vertex];
-    for (int k = 0; k < tie.corners(); ++k) r -= tie.weight[k] * x[tie.corner[k]];
-    const Node* const corner[3] = {&x[tie.corner[0]], &x[tie.corner[1]], &x[tie.corner[tie.corners() - 1]]};
-    tie.kept = frame_of(tie.corners(), corner).transpose() * vec3(r);
+    Node r = tie.weight[0] * at(0);
+    for (int k = 1; k < tie.nodes; ++k) r += tie.weight[k] * at(k);
+    tie.kept = frame_of(tie, at).transpose() * vec3(r);
   }
 }
 
 TiePair link_tie(const Tie& tie, int index, const int* entries) {
   TiePair pair;
+  static_cast<Link&>(pair) = tie;
   pair.tie = index;
   pair.tool = tie.tool;
-  pair.nodes = 1 + (tie.tool >= 0 ? 1 : tie.corners());
-  pair.weight[0] = 1;
-  for (int k = 1; k < pair.nodes; ++k) pair.weight[k] = tie.tool >= 0 ? -1 : -tie.weight[k - 1];
+  pair.to_tool = tie.to_tool();
+  if (pair.to_tool) {
+    pair.nodes = 2;
+    pair.weight[1] = -1;
+  }
   std::copy(entries, entries + pair.nodes, pair.node);
   return pair;
 }
@@ -188,9 +230,8 @@ void prepare_tie(const Workspace& work, TiePair& pair) {
 void aim_tie(const Tie& tie, const Workspace& work, TiePair& pair) {
   pair.impulse.setZero();
   pair.missing = -relative(pair, work.x);
-  if (tie.tool >= 0) return;
-  const Node* const corner[3] = {&work.x[pair.node[1]], &work.x[pair.node[2]], &work.x[pair.node[pair.nodes - 1]]};
-  pair.missing += node(frame_of(tie.corners(), corner) * tie.kept);
+  if (pair.to_tool) return;
+  pair.missing += node(frame_of(tie, [&](int k) -> const Node& { return work.x[pair.node[k]]; }) * tie.kept);
 }
 
 double sweep_tie(double dt, Workspace& work, TiePair& pair) {

@@ -91,7 +91,90 @@ TEST(ContactPairs, TiedBodiesStayTogether) {
   EXPECT_NEAR(world.dissipated, 0, 1e-5 * before);
 }
 
-// The same without the tie: the strips fly apart.
+// A strip is tied below a stiff block and reaches out of it, the corner of the block in the middle of a cell of the strip; its free end
+// is bent up around the corner. The cell that is tied at one of its ends only must not turn into the block.
+TEST(ContactPairs, TheRimOfATieDoesNotTurnIn) {
+  World world;
+  world.config.layer = 1e-4;
+  world.config.pairs = {pair("body0", "body1", "tied")};
+  world.add_strip(Vec3(0, -.22, 0), 9, 1, .22, .22, 2800, 2e8);
+  world.add_strip(Vec3(.1, 0, 0), 3, 2, .3, .3, 28000, 2e10);
+  const int inside = 10 + 4, outside = 10 + 5, corner = 20 + 3;  // at .88 and 1.1 on the strip, at 1 on the block
+  for (int i = 0; i < 20; ++i) world.v[i][1] = 60 * std::max(0., world.x[i][0] - 1);
+  const Vec3 p = world.momentum();
+  const double l = world.angular_momentum().z();
+  Contact contact = world.make();
+  double deepest = 0, turned = 0;
+  for (int i = 0; i < 1500; ++i) {
+    world.step(contact, 2e-5, i % 100 == 0);
+    const Vec3 along = vec3(world.x[outside] - world.x[inside]), block = vec3(world.x[corner] - world.x[corner - 1]);
+    const Vec3 up = Vec3::UnitZ().cross(along).normalized();
+    deepest = std::max(deepest, -up.dot(vec3(world.x[corner] - world.x[inside])));
+    turned = std::max(turned, block.cross(vec3(world.x[19] - world.x[outside])).z() / (block.norm() * .88));
+  }
+  EXPECT_GT(turned, .3);  // the free end, against the block
+  EXPECT_LT(deepest, 1e-6);
+  EXPECT_EQ(world.crossings, 0);
+  EXPECT_LT((world.momentum() - p).norm(), 1e-9 * p.norm());
+  EXPECT_NEAR(world.angular_momentum().z() / l, 1, 1e-3);
+  EXPECT_NEAR(world.closure(), 0, 1e-9 * world.exchanged);
+}
+
+// The same in space: no vertex of the block lies over the cells of the rim, but its lower edges cross theirs.
+TEST(ContactPairs, TheRimOfATieDoesNotTurnInInSpace) {
+  World world;
+  world.dimension = 3;
+  world.config.layer = 1e-4;
+  world.config.pairs = {pair("body0", "body1", "tied")};
+  world.add_box(Vec3(0, 0, -.22), 9, 3, 1, .22, 2800, 1e8);
+  world.add_box(Vec3(-.3, -.3, 0), 1, 1, 1, 1.3, 28000, 1e10);
+  // The block ends at x = 1: strip nodes at .88 are tied, those at 1.1 are not.
+  const auto top = [](int i, int j) { return 40 + j * 10 + i; };
+  const int below = 80 + 1, behind = 80 + 3;  // ends of the block's lower edge at x = 1
+  for (int i = 0; i < 80; ++i) world.v[i][2] = 60 * std::max(0., world.x[i][0] - 1);
+  const Vec3 p = world.momentum();
+  Contact contact = world.make();
+  double deepest = 0, turned = 0;
+  for (int i = 0; i < 1000; ++i) {
+    world.step(contact, 2e-5, i % 100 == 0);
+    const Vec3 edge = vec3(world.x[behind] - world.x[below]);
+    for (int j = 0; j < 4; ++j) {
+      const Vec3 along = vec3(world.x[top(5, j)] - world.x[top(4, j)]), apart = vec3(world.x[top(4, j)] - world.x[below]);
+      const Vec3 up = along.cross(edge).normalized();
+      deepest = std::max(deepest, up.dot(apart));  // of the strip's edge above the block's
+      turned = std::max(turned, vec3(world.x[top(9, j)] - world.x[top(5, j)]).normalized().z());
+    }
+  }
+  EXPECT_GT(turned, .2);
+  EXPECT_LT(deepest, 1e-6);
+  EXPECT_EQ(world.crossings, 0);
+  EXPECT_LT((world.momentum() - p).norm(), 1e-9 * p.norm());
+  EXPECT_NEAR(world.closure(), 0, 1e-9 * world.exchanged);
+}
+
+// And below a rigid tool, whose corner is a vertex that nothing moves.
+TEST(ContactPairs, TheRimOfATieToAToolDoesNotTurnIn) {
+  World world;
+  world.config.layer = 1e-4;
+  world.config.pairs = {pair("body0", "anvil", "tied")};
+  world.add_strip(Vec3(0, -.22, 0), 9, 1, .22, .22, 2800, 2e8);
+  world.add_tool("anvil", polyline({{-.5, 0, 0}, {1, 0, 0}, {1, .6, 0}, {-.5, .6, 0}}, true), 0, [](double t) { return Vec3(0, -2 * t, 0); });
+  for (int i = 0; i < 20; ++i) world.v[i][1] = -2 + 60 * std::max(0., world.x[i][0] - 1);
+  Contact contact = world.make();
+  double farthest = 0, turned = 0;
+  for (int i = 0; i < 1500; ++i) {
+    world.step(contact, 2e-5, i % 100 == 0);
+    const Vec3 corner(1, -2 * world.time, 0), along = vec3(world.x[15] - world.x[14]);
+    farthest = std::max(farthest, std::abs(Vec3::UnitZ().cross(along).normalized().dot(corner - vec3(world.x[14]))));
+    turned = std::max(turned, vec3(world.x[19] - world.x[15]).normalized().y());
+  }
+  EXPECT_GT(turned, .3);
+  EXPECT_LT(farthest, 1e-6);
+  EXPECT_EQ(world.crossings, 0);
+  EXPECT_NEAR(world.closure(), 0, 1e-9 * world.exchanged);
+}
+
+// Two strips without a tie fly apart.
 TEST(ContactPairs, UntiedBodiesPart) {
   World world = two_strips(1e-3);
   for (size_t i = 0; i < world.x.size(); ++i) world.v[i] = 100 * Node(-world.x[i][1], world.x[i][0], 0, 0);

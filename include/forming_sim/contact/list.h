@@ -40,7 +40,7 @@ struct NearList {
   /// A tie between bodies, or with a tool that is present.
   struct TieEntry {
     int tie;
-    int node[4];               ///< the vertex; then the facet's corners, or the foot: the place on the tool
+    int node[4];               ///< as the tie's; of one to a tool the second is the foot: the place on the tool
   };
   std::vector<FacetEntry> facets;
   std::vector<int> neighbours; ///< of the groups' vertices, in the workspace

@@ -63,15 +63,12 @@ struct ContactPair : Link {
 
 constexpr long kPairsOfAThread = 256;  ///< fewer are not worth another thread
 
-/// A vertex that is tied; see ties.h.
-struct Tie {
-  int vertex = -1;
-  int corner[3] = {-1, -1, -1};    ///< feature vertices of the facet it is tied to; unused: -1
-  double weight[3] = {0, 0, 0};
-  int tool = -1;                   ///< tied to this tool instead
-  Vec3 kept = Vec3::Zero();        ///< r in the frame of the facet, or the vertex' place in that of the tool, m
+/// Points of two features that are tied, or a vertex that is tied to a tool; see ties.h. A Link of feature vertices.
+struct Tie : Link {
+  int tool = -1;                   ///< the one that takes part
+  Vec3 kept = Vec3::Zero();        ///< r in the frame of the features, or the vertex' place in that of the tool, m
 
-  int corners() const { return corner[0] < 0 ? 0 : corner[2] < 0 ? 2 : 3; }
+  bool to_tool() const { return nodes == 1; }
 };
 
 /// What a node brings to its pairs.

@@ -3,7 +3,9 @@
 //
 // A tie keeps r = x_vertex - sum w_k x_k (w_k: weights of the nearest point of a
 // facet at the start) at the place it had in the frame of that facet; of a rigid
-// tool in the frame of the tool. Its impulse makes the end of the step exact,
+// tool in the frame of the tool. At the rim, where a facet reaches out of what is tied, vertices of the other surface
+// are tied to it, and edges that cross are tied where they cross: else it would turn into the other body about
+// its tied vertices, which do not see that body. The impulse of a tie makes the end of the step exact,
 //   r + dt (v_vertex - sum w_k v_k) = r_kept,
 // in the sweeps of contact, all others held. Nothing drifts, the stable step is
 // not changed (a constraint only removes motion), and no work is done but that
@@ -18,7 +20,8 @@ namespace forming_sim {
 /// A tie in a step: nodes of the workspace, as a pair has them.
 struct TiePair : Link {
   int tie = -1;
-  int tool = -1;
+  int tool = -1;                   ///< whose nodes these are in part
+  bool to_tool = false;            ///< a vertex, and its place on the tool
   Node missing = Node::Zero();     ///< r_kept - r at the start of the step, m
   Mat3 mass = Mat3::Zero();        ///< inverse of sum b^2 P/m over the directions that can move, kg
   Node impulse = Node::Zero();     ///< N s
@@ -27,17 +30,16 @@ struct TiePair : Link {
 /// Finds what the pairs of kind tied tie, with the bodies at x and the tools'
 /// vertices at `place`, as the user gave them; sets `tie` of the relations and
 /// the tied zones of the features. Of two bodies the vertices of the one with
-/// the shorter edges are tied. Throws Error(invalid_scene) where nothing of a
+/// the shorter edges are tied, and those of the other at the rim. Throws Error(invalid_scene) where nothing of a
 /// pair is near enough, with the distance.
 std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const NodeField& place, const std::vector<bool>& is_plane,
                            const std::vector<PlanePose>& planes, Features& features);
 
-/// Remembers the places at which the ties are kept: x and the tools' poses now.
-void keep_ties(const NodeField& x, const std::vector<ToolMotion>& motion, std::vector<Tie>& ties);
+/// Remembers the places at which the ties are kept: x, the tools' vertices at `place`, and their poses now.
+void keep_ties(const Features& features, const NodeField& x, const NodeField& place, const std::vector<ToolMotion>& motion, std::vector<Tie>& ties);
 
 /// Fills nodes and weights from the workspace's numbers, and the masses; called
-/// where the list was built. `entries`: place in the workspace of each tie's
-/// vertex, its corners, or its foot.
+/// where the list was built. `entries`: place in the workspace of each of the tie's nodes, and of its foot.
 TiePair link_tie(const Tie& tie, int index, const int* entries);
 void prepare_tie(const Workspace& work, TiePair& pair);
 
