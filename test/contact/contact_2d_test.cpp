@@ -157,7 +157,7 @@ TEST(Contact2D, FastImpactNeverCrosses) {
         EXPECT_EQ(world.halvings, 0) << speed << " " << layer;
       }
       EXPECT_GT(world.momentum().y(), 0);  // it rebounds
-      EXPECT_GE(world.dissipated, -1e-3 * world.exchanged);
+      EXPECT_GE(world.dissipated, -1e-6 * world.exchanged);
       EXPECT_NEAR(world.closure(), 0, 1e-12 * world.exchanged) << speed << " " << layer;
     }
 }

@@ -54,7 +54,7 @@ TEST(ContactEnergy, LedgerClosesAndNothingIsCreated) {
     }
     EXPECT_GT(world.exchanged, 0);
     EXPECT_GT(world.friction, 0);
-    EXPECT_GT(world.dissipated, -1e-3 * world.exchanged);
+    EXPECT_GT(world.dissipated, -1e-6 * world.exchanged);
     EXPECT_EQ(world.crossings, 0);
   }
 }
