@@ -74,8 +74,7 @@ void edges_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s, V
       for (int a = 0; a < Cell::nodes; ++a) edge[2][0] += weight(constants, OnePoint<D, true>::hoop + a) * x[a][0];
     }
   } else {
-    for (int m = 0; m < D; ++m)
-      for (int i = 0; i < D; ++i) edge[m][i] = x[Cell::table[s][m + 1]][i];
+    repeat<D>([&](auto m) { edge[m] = x[Cell::table[s][m + 1]]; });
     if constexpr (Cell::ring) edge[2] = {{x[kApex<Cell>][0] + Pack(1.0 / 3) * (edge[0][0] + edge[1][0]), Pack(0.0)}};
   }
 }

@@ -74,12 +74,15 @@ void pressures(const CellGroup& g, long block, const Pack* V, const Pack* J, Pac
   for (int s = 0; s < Cell::simplices; ++s) p[s] = mean + theta * K * (J[s] - Pack(1.0));
 }
 
-/// Simplices of a cell that go through the law together.
-template <class Cell> using Together = std::conditional_t<!kOneRegister || Cell::one_point || Cell::simplices % 2 == 1, Pack, Twin<Pack>>;
+/// What a kernel of the forces is made for, so that it is as lean as it can be: the law of material/von_mises.h with a single
+/// layer, or with several; all others, and the laws of one-point cells, are told apart at run time.
+enum class Made { one_layer, layers, any };
 
-/// OneLayer: the law is one of material/von_mises.h with a single layer, for which the
-/// kernel is made as lean as it can be; all others, and the laws of one-point cells, are told apart at run time.
-template <class Cell, bool OneLayer>
+/// Simplices of a cell that go through the law together.
+template <class Cell, Made made>
+using Together = std::conditional_t<!kOneRegister || made == Made::any || Cell::simplices % 2 == 1, Pack, Twin<Pack>>;
+
+template <class Cell, Made made>
 [[gnu::flatten]] void forces_of_block(const CellGroup& g, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
   const double* constants = constants_of<Cell>(g, block);
@@ -93,7 +96,7 @@ template <class Cell, bool OneLayer>
   simplex_volumes<Cell>(constants, x, V);
   volume_ratios<Cell>(g, block, V, J);
   Vector<Pack, D> v[Cell::nodes];  // only where the law asks for velocities
-  const bool classical = !OneLayer && g.solid.law == Law::classical;
+  const bool classical = made == Made::any && g.solid.law == Law::classical;
   if (classical) gather_ways<Cell>(nodes, view.v, v);
   if (classical) classical_pressures<Cell>(g, view, block, x, v, p);
   else pressures<Cell>(g, block, V, J, p);
@@ -106,22 +109,24 @@ template <class Cell, bool OneLayer>
 
   Pack dissipated(0.0), hoops(0.0);
   Mask upright = J[0] > Pack(0.0);
-  constexpr int together = points_in<Together<Cell>>;
+  using Points = Together<Cell, made>;
+  constexpr int together = points_in<Points>;
   for (int first = 0; first < Cell::simplices; first += together) {
     CellEdges<Cell> edges[together];
     double* memory[together];
-    Together<Cell> ratio;
-    for (int i = 0; i < together; ++i) {
+    Points ratio;
+    repeat<together>([&](auto i) {
       edges_of<Cell>(constants, x, first + i, edges[i].x);
       if (Cell::one_point || classical) find_reciprocal(edges[i]);
       else find_areas(edges[i]);
       memory[i] = memory_of<Cell>(g, block, first + i);
       part_of(ratio, i) = J[first + i];
       upright = upright & (J[first + i] > Pack(0.0));
-    }
-    PointResponse<Together<Cell>, D> points;
-    if constexpr (OneLayer) points = layer_step(g.solid, 0, stress_factor(g.solid, ratio), edges, ratio, memory, Keep::yes);
-    else if (!Cell::one_point && of_von_mises(g.solid.law)) points = von_mises_step(g.solid, edges, ratio, memory, Keep::yes);
+    });
+    PointResponse<Points, D> points;
+    if constexpr (made == Made::one_layer) points = layer_step(g.solid, 0, stress_factor(g.solid, ratio), edges, ratio, memory, Keep::yes);
+    if constexpr (made == Made::layers) points = von_mises_step(g.solid, edges, ratio, memory, Keep::yes);
+#pragma GCC unroll 2
     for (int i = 0; i < together; ++i) {
       const int s = first + i;
       const CellEdges<Cell>& e = edges[i];
@@ -135,7 +140,7 @@ template <class Cell, bool OneLayer>
         for (int m = 0; m < D; ++m)
           for (int c = 0; c < D; ++c) force[m][c] = Pack(0.0);
         hourglass.add_forces(V0, force, f);
-      } else if (OneLayer || of_von_mises(g.solid.law)) {
+      } else if constexpr (made != Made::any) {
         point = points.of(i);
       } else {
         point = point_step(g.solid, e, classical ? w : nullptr, J[s], memory[i], Keep::yes);
@@ -259,13 +264,17 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   for (int l = 0; l < in_use; ++l) energy[block] += stored[l];
 }
 
+template <class Cell, Made made> void forces_of_blocks(const CellGroup& g, const NodalView& view, int first, int last) {
+  for (int b = first; b < last; ++b) forces_of_block<Cell, made>(g, view, b);
+}
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
-  const bool one_layer = of_von_mises(g.solid.law) && g.solid.layers == 1;
   with_cell(g, [&](auto cell) {
-    for (int b = first; b < last; ++b) {
-      if (one_layer && !decltype(cell)::one_point) forces_of_block<decltype(cell), !decltype(cell)::one_point>(g, view, b);
-      else forces_of_block<decltype(cell), false>(g, view, b);
+    using Cell = decltype(cell);
+    if constexpr (!Cell::one_point) {
+      if (of_von_mises(g.solid.law) && g.solid.layers == 1) return forces_of_blocks<Cell, Made::one_layer>(g, view, first, last);
+      if (of_von_mises(g.solid.law)) return forces_of_blocks<Cell, Made::layers>(g, view, first, last);
     }
+    forces_of_blocks<Cell, Made::any>(g, view, first, last);
   });
 }
 void rates(const CellGroup& g, const NodalView& view, int first, int last, BlockRates* out) {
