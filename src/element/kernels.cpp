@@ -45,9 +45,12 @@ void classical_pressures(const CellGroup& g, const NodalView& view, long block, 
   }
 }
 
-/// J = V/V0 of every simplex of the block.
-template <class Cell> void volume_ratios(const CellGroup& g, long block, const Pack* V, Pack* J) {
-  for (int s = 0; s < Cell::simplices; ++s) J[s] = V[s] / initial_volume(g, memory_of<Cell>(g, block, s));
+/// V and J = V/V0 of every simplex of the block.
+template <class Cell> void find_volumes(const CellGroup& g, long block, const double* constants, const Vector<Pack, kD<Cell>>* x, Pack* V, Pack* J) {
+  for (int s = 0; s < Cell::simplices; ++s) {
+    V[s] = volume_of<Cell>(constants, x, s);
+    J[s] = V[s] / initial_volume(g, memory_of<Cell>(g, block, s));
+  }
 }
 
 /// p of every simplex of the block: K (V/V0 - 1) of the cell (with a share of the
@@ -78,9 +81,12 @@ void pressures(const CellGroup& g, long block, const Pack* V, const Pack* J, Pac
 /// layer, or with several; all others, and the laws of one-point cells, are told apart at run time.
 enum class Made { one_layer, layers, any };
 
-/// Simplices of a cell that go through the law together.
+/// Simplices of a cell that go through the law together, so that one has work to do while another waits for a root or a
+/// division: as many as there are registers for.
 template <class Cell, Made made>
-using Together = std::conditional_t<!kOneRegister || made == Made::any || Cell::simplices % 2 == 1, Pack, Twin<Pack>>;
+constexpr int kTogether = !kOneRegister || made == Made::any ? 1 : Cell::dimension == 2 && Cell::simplices % 4 == 0 ? 4 : Cell::simplices % 2 == 0 ? 2 : 1;
+template <class Cell, Made made>
+using Together = std::conditional_t<kTogether<Cell, made> == 1, Pack, Several<Pack, kTogether<Cell, made>>>;
 
 template <class Cell, Made made>
 [[gnu::flatten]] void forces_of_block(const CellGroup& g, const NodalView& view, long block) {
@@ -93,8 +99,7 @@ template <class Cell, Made made>
     for (int i = 0; i < D; ++i) f[a][i] = Pack(0.0);
 
   Pack V[Cell::simplices], J[Cell::simplices], p[Cell::simplices];
-  simplex_volumes<Cell>(constants, x, V);
-  volume_ratios<Cell>(g, block, V, J);
+  find_volumes<Cell>(g, block, constants, x, V, J);
   Vector<Pack, D> v[Cell::nodes];  // only where the law asks for velocities
   const bool classical = made == Made::any && g.solid.law == Law::classical;
   if (classical) gather_ways<Cell>(nodes, view.v, v);
@@ -126,7 +131,7 @@ template <class Cell, Made made>
     PointResponse<Points, D> points;
     if constexpr (made == Made::one_layer) points = layer_step(g.solid, 0, stress_factor(g.solid, ratio), edges, ratio, memory, Keep::yes);
     if constexpr (made == Made::layers) points = von_mises_step(g.solid, edges, ratio, memory, Keep::yes);
-#pragma GCC unroll 2
+#pragma GCC unroll 4  // a turn of its own for each: repeat() would not do, whose calls are not flattened
     for (int i = 0; i < together; ++i) {
       const int s = first + i;
       const CellEdges<Cell>& e = edges[i];
@@ -227,8 +232,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   Vector<Pack, D> x[Cell::nodes];
   gather_ways<Cell>(nodes, view.x, x);
   Pack V[Cell::simplices], J[Cell::simplices], p[Cell::simplices];
-  simplex_volumes<Cell>(constants, x, V);
-  volume_ratios<Cell>(g, block, V, J);
+  find_volumes<Cell>(g, block, constants, x, V, J);
   pressures<Cell>(g, block, V, J, p);
   Pack stored(0.0), cell_V(0.0), cell_V0(0.0);
   const double own = g.pressure == PressureMode::element ? 1 : g.element_share;

@@ -20,7 +20,7 @@
 // Memory of a point: G^X and p of every layer, one layer after the other.
 #include "forming_sim/material/constants.h"
 #include "forming_sim/tensor/tensor.h"
-#include "forming_sim/tensor/twin.h"
+#include "forming_sim/tensor/several.h"
 
 namespace forming_sim {
 
@@ -130,9 +130,11 @@ template <class T, int D> Symmetric<T, D> load_memory(const double* from) {
   return G;
 }
 
-/// One step of layer k of points_in<T> points (tensor/twin.h), whose memories of that layer start at `memory`; factor: stress_factor(m, J).
+/// One step of layer k of points_in<T> points (tensor/several.h), whose memories of that layer start at `memory`; factor: stress_factor(m, J);
+/// metric: G^x of the points where it is at hand, else null.
 template <class T, int D, bool Ring>
-PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, const Edges<PartOf<T>, D, Ring>* e, const T& J, double* const* memory, Keep keep) {
+PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, const Edges<PartOf<T>, D, Ring>* e, const T& J, double* const* memory, Keep keep,
+                               const Symmetric<PartOf<T>, D>* metric = nullptr) {
   using Part = PartOf<T>;
   constexpr int size = Symmetric<T, D>::size;
   Symmetric<T, D> B;
@@ -146,8 +148,8 @@ PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, 
   const PointResponse<T, D> r = update_layer(m.layer[k].hardening, factor, B, J, p);
   if (keep == Keep::yes && any(p > before))
     repeat<points_in<T>>([&](auto i) {
-      const Symmetric<Part, D> A = area_metric(e[i]), G = load_memory<Part, D>(memory[i]);
-      const Part a = part_of(r.kept, i), share = (Part(1) - a) / (e[i].volume * e[i].volume);
+      const Symmetric<Part, D> A = metric ? metric[i] : area_metric(e[i]), G = load_memory<Part, D>(read_again(memory[i]));
+      const Part a = part_of(r.kept, i), share = metric ? Part(1) - a : (Part(1) - a) / (e[i].volume * e[i].volume);
       repeat<size>([&](auto c) { store(memory[i], c, a * G[c] + share * A[c]); });  // (3.54)
       store(memory[i], size, part_of(p, i));
     });
@@ -168,9 +170,15 @@ PointResponse<T, D> von_mises_step(const SolidConstants& m, const Edges<PartOf<T
   repeat<Symmetric<T, D>::size>([&](auto i) { sum.S[i] = T(0); });
   sum.dissipation = T(0);
   double* of_layer[points_in<T>];
-  for (int i = 0; i < points_in<T>; ++i) of_layer[i] = memory[i];
+  Symmetric<PartOf<T>, D> metric[points_in<T>];
+  repeat<points_in<T>>([&](auto i) {
+    of_layer[i] = memory[i];
+    metric[i] = area_metric(e[i]);
+    const PartOf<T> scale = PartOf<T>(1) / (e[i].volume * e[i].volume);
+    repeat<Symmetric<T, D>::size>([&](auto c) { metric[i][c] *= scale; });
+  });
   for (int k = 0; k < m.layers; ++k) {
-    const PointResponse<T, D> r = layer_step(m, k, factor, e, J, of_layer, keep);
+    const PointResponse<T, D> r = layer_step(m, k, factor, e, J, of_layer, keep, metric);
     for (double*& at : of_layer) at += kLayerItems<D> * lanes_of<PartOf<T>>;
     const T w(m.layer[k].weight);
     repeat<Symmetric<T, D>::size>([&](auto i) { sum.S[i] += w * r.S[i]; });

@@ -147,7 +147,7 @@ template <class T, int D, bool Ring> void find_areas(Edges<T, D, Ring>& e) {
 template <class T, int D, bool Ring> void find_reciprocal(Edges<T, D, Ring>& e) {
   find_areas(e);
   const T inverse = T(1) / e.volume;
-  for (int m = 0; m < kEdges<D, Ring>; ++m) e.up[m] = inverse * e.area[m];
+  repeat<kEdges<D, Ring>>([&](auto m) { e.up[m] = inverse * e.area[m]; });
 }
 
 /// What the length of an element follows from: its volume; in a ring, too, the area of its section.
