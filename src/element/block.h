@@ -46,8 +46,13 @@ template <class Cell> void refer_to_apex(Vector<Pack, kD<Cell>>* x) {
       if (a != kApex<Cell>) x[a] = x[a] - x[kApex<Cell>];
 }
 template <class Cell> void gather_ways(const int* nodes, const double* field, Vector<Pack, kD<Cell>>* out) {
-  gather<Cell>(nodes, field, out);
-  refer_to_apex<Cell>(out);
+  if constexpr (Cell::one_point) {
+    gather<Cell>(nodes, field, out);
+  } else {
+    const Vector<Pack, kD<Cell>> apex = gather_vectors<kD<Cell>>(nodes + kApex<Cell> * kLanes, field);
+    for (int a = 0; a < Cell::nodes; ++a) out[a] = gather_vectors<kD<Cell>>(nodes + a * kLanes, field) - apex;
+    out[kApex<Cell>] = apex;
+  }
 }
 
 /// Constants of a block of one-point cells; null elsewhere.
@@ -65,17 +70,16 @@ template <class Cell>
 void edges_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s, Vector<Pack, kD<Cell>>* edge) {
   constexpr int D = kD<Cell>;
   if constexpr (Cell::one_point) {  // x_m = sum_a w_ma x_a
-    for (int m = 0; m < D; ++m) {
+    repeat<D>([&](auto m) {
       edge[m] = weight(constants, m) * x[0];
-      for (int a = 1; a < Cell::nodes; ++a) edge[m] += weight(constants, a * D + m) * x[a];
-    }
+      repeat<Cell::nodes - 1>([&](auto a) { edge[m] += weight(constants, (a + 1) * D + m) * x[a + 1]; });
+    });
     if constexpr (Cell::ring) {  // x_3 = sum_a o_a r_a
       edge[2] = {{Pack(0.0), Pack(0.0)}};
       for (int a = 0; a < Cell::nodes; ++a) edge[2][0] += weight(constants, OnePoint<D, true>::hoop + a) * x[a][0];
     }
   } else {
-    for (int m = 0; m < D; ++m)
-      for (int i = 0; i < D; ++i) edge[m][i] = x[Cell::table[s][m + 1]][i];
+    repeat<D>([&](auto m) { edge[m] = x[Cell::table[s][m + 1]]; });
     if constexpr (Cell::ring) edge[2] = {{x[kApex<Cell>][0] + Pack(1.0 / 3) * (edge[0][0] + edge[1][0]), Pack(0.0)}};
   }
 }
@@ -84,16 +88,18 @@ void edges_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s, V
 template <class Cell>
 void spread(const double* constants, const Vector<Pack, kD<Cell>>* force, Vector<Pack, kD<Cell>>* f) {
   constexpr int D = kD<Cell>;
-  for (int a = 0; a < Cell::nodes; ++a)
-    for (int m = 0; m < D; ++m) f[a] += weight(constants, a * D + m) * force[m];
+  repeat<Cell::nodes>([&](auto a) {
+    repeat<D>([&](auto m) { f[a] += weight(constants, a * D + m) * force[m]; });
+  });
 }
 
+template <class Cell> Pack volume_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s) {
+  Vector<Pack, kD<Cell>> edge[kE<Cell>];
+  edges_of<Cell>(constants, x, s, edge);
+  return simplex_volume<Pack, kD<Cell>, Cell::ring>(edge);
+}
 template <class Cell> void simplex_volumes(const double* constants, const Vector<Pack, kD<Cell>>* x, Pack* V) {
-  for (int s = 0; s < Cell::simplices; ++s) {
-    Vector<Pack, kD<Cell>> edge[kE<Cell>];
-    edges_of<Cell>(constants, x, s, edge);
-    V[s] = simplex_volume<Pack, kD<Cell>, Cell::ring>(edge);
-  }
+  for (int s = 0; s < Cell::simplices; ++s) V[s] = volume_of<Cell>(constants, x, s);
 }
 
 /// The forces on edges are in balance with those on the apex, where all of them start; of rings but for the thirds of the hoops' forces, `hoops` their sum.

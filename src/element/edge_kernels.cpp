@@ -119,7 +119,7 @@ void forces(const CellGroup& g, const NodalView& view, int first, int last) {
   with_dimension(g, [&](auto D, auto ring) {
     int b = first;
     if (kOneRegister && of_von_mises(g.solid.law))
-      for (; b + 1 < last; b += 2) forces_of_blocks<D, ring, Twin<Pack>>(g, view, b);
+      for (; b + 1 < last; b += 2) forces_of_blocks<D, ring, Several<Pack, 2>>(g, view, b);
     for (; b < last; ++b) forces_of_blocks<D, ring, Pack>(g, view, b);
   });
 }

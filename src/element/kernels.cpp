@@ -45,9 +45,12 @@ void classical_pressures(const CellGroup& g, const NodalView& view, long block, 
   }
 }
 
-/// J = V/V0 of every simplex of the block.
-template <class Cell> void volume_ratios(const CellGroup& g, long block, const Pack* V, Pack* J) {
-  for (int s = 0; s < Cell::simplices; ++s) J[s] = V[s] / initial_volume(g, memory_of<Cell>(g, block, s));
+/// V and J = V/V0 of every simplex of the block.
+template <class Cell> void find_volumes(const CellGroup& g, long block, const double* constants, const Vector<Pack, kD<Cell>>* x, Pack* V, Pack* J) {
+  for (int s = 0; s < Cell::simplices; ++s) {
+    V[s] = volume_of<Cell>(constants, x, s);
+    J[s] = V[s] / initial_volume(g, memory_of<Cell>(g, block, s));
+  }
 }
 
 /// p of every simplex of the block: K (V/V0 - 1) of the cell (with a share of the
@@ -74,12 +77,18 @@ void pressures(const CellGroup& g, long block, const Pack* V, const Pack* J, Pac
   for (int s = 0; s < Cell::simplices; ++s) p[s] = mean + theta * K * (J[s] - Pack(1.0));
 }
 
-/// Simplices of a cell that go through the law together.
-template <class Cell> using Together = std::conditional_t<!kOneRegister || Cell::one_point || Cell::simplices % 2 == 1, Pack, Twin<Pack>>;
+/// What a kernel of the forces is made for, so that it is as lean as it can be: the law of material/von_mises.h with a single
+/// layer, or with several; all others, and the laws of one-point cells, are told apart at run time.
+enum class Made { one_layer, layers, any };
 
-/// OneLayer: the law is one of material/von_mises.h with a single layer, for which the
-/// kernel is made as lean as it can be; all others, and the laws of one-point cells, are told apart at run time.
-template <class Cell, bool OneLayer>
+/// Simplices of a cell that go through the law together, so that one has work to do while another waits for a root or a
+/// division: as many as there are registers for.
+template <class Cell, Made made>
+constexpr int kTogether = !kOneRegister || made == Made::any ? 1 : Cell::dimension == 2 && Cell::simplices % 4 == 0 ? 4 : Cell::simplices % 2 == 0 ? 2 : 1;
+template <class Cell, Made made>
+using Together = std::conditional_t<kTogether<Cell, made> == 1, Pack, Several<Pack, kTogether<Cell, made>>>;
+
+template <class Cell, Made made>
 [[gnu::flatten]] void forces_of_block(const CellGroup& g, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
   const double* constants = constants_of<Cell>(g, block);
@@ -90,10 +99,9 @@ template <class Cell, bool OneLayer>
     for (int i = 0; i < D; ++i) f[a][i] = Pack(0.0);
 
   Pack V[Cell::simplices], J[Cell::simplices], p[Cell::simplices];
-  simplex_volumes<Cell>(constants, x, V);
-  volume_ratios<Cell>(g, block, V, J);
+  find_volumes<Cell>(g, block, constants, x, V, J);
   Vector<Pack, D> v[Cell::nodes];  // only where the law asks for velocities
-  const bool classical = !OneLayer && g.solid.law == Law::classical;
+  const bool classical = made == Made::any && g.solid.law == Law::classical;
   if (classical) gather_ways<Cell>(nodes, view.v, v);
   if (classical) classical_pressures<Cell>(g, view, block, x, v, p);
   else pressures<Cell>(g, block, V, J, p);
@@ -106,22 +114,24 @@ template <class Cell, bool OneLayer>
 
   Pack dissipated(0.0), hoops(0.0);
   Mask upright = J[0] > Pack(0.0);
-  constexpr int together = points_in<Together<Cell>>;
+  using Points = Together<Cell, made>;
+  constexpr int together = points_in<Points>;
   for (int first = 0; first < Cell::simplices; first += together) {
     CellEdges<Cell> edges[together];
     double* memory[together];
-    Together<Cell> ratio;
-    for (int i = 0; i < together; ++i) {
+    Points ratio;
+    repeat<together>([&](auto i) {
       edges_of<Cell>(constants, x, first + i, edges[i].x);
       if (Cell::one_point || classical) find_reciprocal(edges[i]);
       else find_areas(edges[i]);
       memory[i] = memory_of<Cell>(g, block, first + i);
       part_of(ratio, i) = J[first + i];
       upright = upright & (J[first + i] > Pack(0.0));
-    }
-    PointResponse<Together<Cell>, D> points;
-    if constexpr (OneLayer) points = layer_step(g.solid, 0, stress_factor(g.solid, ratio), edges, ratio, memory, Keep::yes);
-    else if (!Cell::one_point && of_von_mises(g.solid.law)) points = von_mises_step(g.solid, edges, ratio, memory, Keep::yes);
+    });
+    PointResponse<Points, D> points;
+    if constexpr (made == Made::one_layer) points = layer_step(g.solid, 0, stress_factor(g.solid, ratio), edges, ratio, memory, Keep::yes);
+    if constexpr (made == Made::layers) points = von_mises_step(g.solid, edges, ratio, memory, Keep::yes);
+#pragma GCC unroll 4  // a turn of its own for each: repeat() would not do, whose calls are not flattened
     for (int i = 0; i < together; ++i) {
       const int s = first + i;
       const CellEdges<Cell>& e = edges[i];
@@ -135,7 +145,7 @@ template <class Cell, bool OneLayer>
         for (int m = 0; m < D; ++m)
           for (int c = 0; c < D; ++c) force[m][c] = Pack(0.0);
         hourglass.add_forces(V0, force, f);
-      } else if (OneLayer || of_von_mises(g.solid.law)) {
+      } else if constexpr (made != Made::any) {
         point = points.of(i);
       } else {
         point = point_step(g.solid, e, classical ? w : nullptr, J[s], memory[i], Keep::yes);
@@ -222,8 +232,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   Vector<Pack, D> x[Cell::nodes];
   gather_ways<Cell>(nodes, view.x, x);
   Pack V[Cell::simplices], J[Cell::simplices], p[Cell::simplices];
-  simplex_volumes<Cell>(constants, x, V);
-  volume_ratios<Cell>(g, block, V, J);
+  find_volumes<Cell>(g, block, constants, x, V, J);
   pressures<Cell>(g, block, V, J, p);
   Pack stored(0.0), cell_V(0.0), cell_V0(0.0);
   const double own = g.pressure == PressureMode::element ? 1 : g.element_share;
@@ -259,13 +268,17 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   for (int l = 0; l < in_use; ++l) energy[block] += stored[l];
 }
 
+template <class Cell, Made made> void forces_of_blocks(const CellGroup& g, const NodalView& view, int first, int last) {
+  for (int b = first; b < last; ++b) forces_of_block<Cell, made>(g, view, b);
+}
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
-  const bool one_layer = of_von_mises(g.solid.law) && g.solid.layers == 1;
   with_cell(g, [&](auto cell) {
-    for (int b = first; b < last; ++b) {
-      if (one_layer && !decltype(cell)::one_point) forces_of_block<decltype(cell), !decltype(cell)::one_point>(g, view, b);
-      else forces_of_block<decltype(cell), false>(g, view, b);
+    using Cell = decltype(cell);
+    if constexpr (!Cell::one_point) {
+      if (of_von_mises(g.solid.law) && g.solid.layers == 1) return forces_of_blocks<Cell, Made::one_layer>(g, view, first, last);
+      if (of_von_mises(g.solid.law)) return forces_of_blocks<Cell, Made::layers>(g, view, first, last);
     }
+    forces_of_blocks<Cell, Made::any>(g, view, first, last);
   });
 }
 void rates(const CellGroup& g, const NodalView& view, int first, int last, BlockRates* out) {

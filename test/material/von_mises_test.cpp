@@ -166,37 +166,52 @@ TEST(VonMises, EightPointsAtOnceAreEightPoints) {
   EXPECT_LT(yielding, kLanes);
 }
 
-/// A step of two elements at once (tensor/twin.h), of which one or both yield, against one after the other.
-TEST(VonMises, TwoElementsAtOnceAreTwoElements) {
+/// A step of N elements at once (tensor/several.h), of which some or all yield, against one after the other.
+template <int N> void compare_with_one_after_the_other(int layers, double last) {
   SolidConstants solid = solid_of(70.5e9, 0.34, voce(192.1e6, 429.8e6, 8.504));
-  solid.layers = 2;
-  solid.layer[0].weight = solid.layer[1].weight = 0.5;
-  solid.layer[1].hardening = perfect(300e6);
-  for (double second : {0.0, 0.004, 0.02}) {
-    const double stretch[2] = {0.01, second};
-    Edges<double, 3> e[2];
-    std::vector<double> together[2], alone[2];
-    double* memory[2];
-    Twin<double> J;
-    for (int i = 0; i < 2; ++i) {
-      e[i].x[0] = {{1 + stretch[i], 0.2 * stretch[i], 0}};
-      e[i].x[1] = {{0, 1 - 0.5 * stretch[i], 0}};
-      e[i].x[2] = {{0, 0, 1}};
-      find_areas(e[i]);
-      J.part[i] = 6 * e[i].volume;
-      for (int k = 0; k < solid.layers; ++k) together[i].insert(together[i].end(), {1, 1, 1, 0, 0, 0, 0.01 * k});
-      alone[i] = together[i];
-      memory[i] = together[i].data();
-    }
-    const PointResponse<Twin<double>, 3> both = von_mises_step(solid, e, J, memory, Keep::yes);
-    for (int i = 0; i < 2; ++i) {
-      const PointResponse<double, 3> one = von_mises_step(solid, e[i], J.part[i], alone[i].data(), Keep::yes);
-      EXPECT_EQ(alone[i][6] > 0, stretch[i] > 0) << "element " << i;
-      for (int c = 0; c < 6; ++c) EXPECT_NEAR(both.of(i).S[c], one.S[c], 1e-3);
-      EXPECT_NEAR(both.of(i).dissipation, one.dissipation, 1e-11 * one.dissipation);
-      for (std::size_t item = 0; item < alone[i].size(); ++item) EXPECT_NEAR(together[i][item], alone[i][item], 1e-13);
-    }
+  solid.layers = layers;
+  for (int k = 0; k < layers; ++k) solid.layer[k].weight = 1.0 / layers;
+  if (layers > 1) solid.layer[1].hardening = perfect(300e6);
+  Edges<double, 3> e[N];
+  double stretch[N];
+  std::vector<double> together[N], alone[N];
+  double* memory[N];
+  Several<double, N> J;
+  for (int i = 0; i < N; ++i) {
+    stretch[i] = i + 1 == N ? last : 0.01 + 0.002 * i;
+    e[i].x[0] = {{1 + stretch[i], 0.2 * stretch[i], 0}};
+    e[i].x[1] = {{0, 1 - 0.5 * stretch[i], 0}};
+    e[i].x[2] = {{0, 0, 1}};
+    find_areas(e[i]);
+    J.part[i] = 6 * e[i].volume;
+    for (int k = 0; k < layers; ++k) together[i].insert(together[i].end(), {1, 1, 1, 0, 0, 0, 0.01 * k});
+    alone[i] = together[i];
+    memory[i] = together[i].data();
   }
+  const PointResponse<Several<double, N>, 3> all = von_mises_step(solid, e, J, memory, Keep::yes);
+  for (int i = 0; i < N; ++i) {
+    const PointResponse<double, 3> one = von_mises_step(solid, e[i], J.part[i], alone[i].data(), Keep::yes);
+    EXPECT_EQ(alone[i][6] > 0, stretch[i] > 0) << "element " << i;
+    for (int c = 0; c < 6; ++c) EXPECT_NEAR(all.of(i).S[c], one.S[c], 1e-3);
+    EXPECT_NEAR(all.of(i).dissipation, one.dissipation, 1e-11 * one.dissipation);
+    for (std::size_t item = 0; item < alone[i].size(); ++item) EXPECT_NEAR(together[i][item], alone[i][item], 1e-13);
+  }
+}
+TEST(VonMises, SeveralElementsAtOnceAreSeveralElements) {
+  for (int layers : {1, 2})
+    for (double last : {0.0, 0.004, 0.02}) {
+      compare_with_one_after_the_other<2>(layers, last);
+      compare_with_one_after_the_other<4>(layers, last);
+    }
+}
+
+// By its series on both sides of 1, and beyond where that is right.
+TEST(VonMises, PowerOfTheVolumeRatio) {
+  for (double d : {-0.9, -0.05, -0.0201, -0.0199, -0.01, -1e-5, 0.0, 1e-5, 0.01, 0.0199, 0.0201, 0.1, 3.0})
+    EXPECT_NEAR(power_minus_five_thirds(1 + d) * std::pow(1 + d, 5.0 / 3), 1, std::abs(d) < 0.02 ? 5e-16 : 2e-14) << d;
+  portable::Pack J(1.001);
+  J.v[2] = 1.3;  // one lane far away
+  for (int lane : {1, 2}) EXPECT_NEAR(power_minus_five_thirds(J)[lane] * std::pow(J[lane], 5.0 / 3), 1, 2e-14);
 }
 
 TEST(Pack, ExponentialAndCubeRoot) {

@@ -52,18 +52,18 @@ template <class T, int D, bool Ring = false> class Hourglass {
   Hourglass(const SolidConstants& m, const double* constants, const Edges<T, D, Ring>& e, const Vector<T, D>* x) : moduli_(m), edges_(e), fibres_(constants) {
     Vector<T, D> sum[Cell::modes];
     sum_modes<T, D>(x, sum);
-    for (int k = 0; k < Cell::modes; ++k) {
-      for (int i = 0; i < D; ++i) {
+    repeat<Cell::modes>([&](auto k) {
+      repeat<D>([&](auto i) {
         T start;
         load(constants, Cell::start + k * D + i, start);
         rise_[k][i] = dot(e.up[i], sum[k]);
         z_[k][i] = rise_[k][i] - start;
-      }
-    }
+      });
+    });
     strain_.from(z_, fibres_);
     if constexpr (Ring) hoop_ = HoopStrain<T>(constants, e, x, strain_);
     constants_ = constants;
-    for (int d = 0; d < 3; ++d) stress_.warp[d] = T(0);
+    repeat<3>([&](auto d) { stress_.warp[d] = T(0); });
   }
 
   /// Stresses of a body without plasticity.
@@ -94,11 +94,11 @@ template <class T, int D, bool Ring = false> class Hourglass {
     Vector<T, D> g[Cell::modes];
     stress_.gradient(fibres_, g);
     Vector<T, D> r[Cell::modes];
-    for (int k = 0; k < Cell::modes; ++k) {
+    repeat<Cell::modes>([&](auto k) {
       r[k] = (V0 * g[k][0]) * edges_.up[0];  // dU / d(sum_a h_a x_a)
-      for (int m = 1; m < D; ++m) r[k] += (V0 * g[k][m]) * edges_.up[m];
-      for (int m = 0; m < D; ++m) on_edges[m] += rise_[k][m] * r[k];  // d x^m = -(x^m . d x_k) x^k
-    }
+      repeat<D - 1>([&](auto m) { r[k] += (V0 * g[k][m + 1]) * edges_.up[m + 1]; });
+      repeat<D>([&](auto m) { on_edges[m] += rise_[k][m] * r[k]; });  // d x^m = -(x^m . d x_k) x^k
+    });
     take_modes<T, D>(r, on_corners);
     if constexpr (Ring)
       for (int d = 0; d < 2; ++d) {
@@ -126,23 +126,21 @@ template <class T, int D, bool Ring = false> class Hourglass {
 
   static Strain load_plastic(const double* memory) {
     Strain ep;
-    for (int d = 0; d < D; ++d) {
+    repeat<D>([&](auto d) {
       load(memory, d * kPlaneItems<D>, ep.plane[d].a);
       load(memory, d * kPlaneItems<D> + 1, ep.plane[d].b);
       if constexpr (D == 3) load(memory, d * kPlaneItems<D> + 2, ep.plane[d].shear);
-    }
-    if constexpr (D == 3)
-      for (int d = 0; d < 3; ++d) load(memory, 3 * kPlaneItems<D> + d, ep.warp[d]);
+    });
+    if constexpr (D == 3) repeat<3>([&](auto d) { load(memory, 3 * kPlaneItems<D> + d, ep.warp[d]); });
     return ep;
   }
   static void store_plastic(const Strain& ep, double* memory) {
-    for (int d = 0; d < D; ++d) {
+    repeat<D>([&](auto d) {
       store(memory, d * kPlaneItems<D>, ep.plane[d].a);
       store(memory, d * kPlaneItems<D> + 1, ep.plane[d].b);
       if constexpr (D == 3) store(memory, d * kPlaneItems<D> + 2, ep.plane[d].shear);
-    }
-    if constexpr (D == 3)
-      for (int d = 0; d < 3; ++d) store(memory, 3 * kPlaneItems<D> + d, ep.warp[d]);
+    });
+    if constexpr (D == 3) repeat<3>([&](auto d) { store(memory, 3 * kPlaneItems<D> + d, ep.warp[d]); });
   }
 
   /// The cell's axes E_m turned as its edges are: the orthonormal vectors nearest to the edges' directions,
@@ -220,14 +218,14 @@ template <class T, int D, bool Ring = false> class Hourglass {
     const Axes axes(edges_);
     const auto plane = [&](int d) { return PlaneOf<T, D>(axes.e, fibres_, d); };
     MeanFlow<T, D> mean{point.S, {}, T(2) * factor, yield.value, yield.slope, T(0)};
-    for (int i = 0; i < size; ++i) mean.strain[i] = T(0);
+    repeat<size>([&](auto i) { mean.strain[i] = T(0); });
     T rise[D], share[D], most(0);  // p'; 1 where the coordinate's variation takes part, else 0
-    for (int d = 0; d < D; ++d) {
+    repeat<D>([&](auto d) {
       load(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise[d]);
       const T excess = normal<T, D>(mean, moduli_.stress(strain_.plane[d] - ep.plane[d]), rise[d], plane(d)).excess;
       share[d] = select(excess > T(1e-12), T(1), T(0));
       most = larger(most, share[d]);
-    }
+    });
     const bool together = any(most > T(0));
     if (together) {
       // From the trial on: what the law has returned is taken back.
@@ -235,11 +233,11 @@ template <class T, int D, bool Ring = false> class Hourglass {
       const T dp = sqrt(T(1.5) * contract(mean.S, mean.S)) * returned / (T(1.5) * mean.modulus);
       for (int i = 0; i < size; ++i) mean.flow(i, -(returned / mean.modulus * mean.S[i]));
       mean.harden(-dp);
-      for (int d = 0; d < D; ++d) {
-        if (!any(share[d] > T(0))) continue;
+      repeat<D>([&](auto d) {
+        if (!any(share[d] > T(0))) return;
         dissipation_ += T(layer.weight) * flow_to_surface<T, D>(mean, moduli_, strain_.plane[d], share[d], ep.plane[d], rise[d], plane(d));
         store(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise[d]);
-      }
+      });
       flow_of_mean(mean);
       take_mean_flow(m, factor, J, mean.strain, mean.p, point, memory);
     }
@@ -252,29 +250,28 @@ template <class T, int D, bool Ring = false> class Hourglass {
   bool may_yield(const Symmetric<T, D>& S, const YieldStress<T>& yield, const Strain& ep, const double* hourglass_memory) const {
     const T one = T(1) / yield.value, n2 = T(1.5) * contract(S, S) * one * one;
     T q2[D], back[D], most(0);  // of each coordinate: squared face stress and the shift by p', over sigma_s
-    for (int d = 0; d < D; ++d) {
+    repeat<D>([&](auto d) {
       T rise;
       load(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise);
       const Plane<T> s = moduli_.stress(strain_.plane[d] - ep.plane[d]);
       q2[d] = (s.a * s.a + s.b * s.b - s.a * s.b + T(3) * s.shear * s.shear) * one * one;
       back[d] = absolute(yield.slope * rise) * one;
       most = larger(most, q2[d] + back[d] * back[d] * n2);
-    }
+    });
     if (!any(T(1.5) * (n2 + T(2 * kFaceStress * kFaceStress) * most) > T(1))) return false;
     const T n = sqrt(n2);
     most = T(0);
-    for (int d = 0; d < D; ++d) {
+    repeat<D>([&](auto d) {
       const T m = T(kFaceStress) * (sqrt(q2[d]) + back[d] * n);
       most = larger(most, n2 + n * m + m * m);
-    }
+    });
     return any(most > T(1 + 1e-12));
   }
 
   /// The last mode, of hexahedra; whether it flows.
   bool relax_all(const LayerConstants& layer, const T& limit, const T& left, Strain& ep) {
     bool changed = false;
-    if constexpr (D == 3)
-      for (int d = 0; d < 3; ++d) changed |= relax(limit, left, T(layer.weight), d, ep);
+    if constexpr (D == 3) repeat<3>([&](auto d) { changed |= relax(limit, left, T(layer.weight), d, ep); });
     return changed;
   }
 
@@ -316,14 +313,13 @@ template <class T, int D, bool Ring = false> class Hourglass {
   }
 
   void add(const Strain& ep, const T& weight) {
-    for (int d = 0; d < D; ++d) {
+    repeat<D>([&](auto d) {
       const Plane<T> s = moduli_.stress(strain_.plane[d] - ep.plane[d]);
       stress_.plane[d].a += weight * s.a;
       stress_.plane[d].b += weight * s.b;
       stress_.plane[d].shear += weight * s.shear;
-    }
-    if constexpr (D == 3)
-      for (int d = 0; d < 3; ++d) stress_.warp[d] += weight * T(moduli_.E) * (strain_.warp[d] - ep.warp[d]);
+    });
+    if constexpr (D == 3) repeat<3>([&](auto d) { stress_.warp[d] += weight * T(moduli_.E) * (strain_.warp[d] - ep.warp[d]); });
   }
 
   const PlaneModuli<T> moduli_;

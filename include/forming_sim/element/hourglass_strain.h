@@ -34,15 +34,15 @@ template <class T, int D> struct Fibres {
 
   explicit Fibres(const double* constants) {
     using Cell = OnePoint<D>;
-    for (int i = 0; i < D; ++i) {
-      for (int m = 0; m < D; ++m) load(constants, Cell::fibres + D * i + m, along[i][m]);
+    repeat<D>([&](auto i) {
+      repeat<D>([&](auto m) { load(constants, Cell::fibres + D * i + m, along[i][m]); });
       load(constants, Cell::slopes + i, slope[i]);
-    }
+    });
     if constexpr (D == 3)
-      for (int d = 0; d < 3; ++d) {
+      repeat<3>([&](auto d) {
         load(constants, Cell::skew + 2 * d, cotangent[d]);
         load(constants, Cell::skew + 2 * d + 1, over_sine[d]);
-      }
+      });
   }
 };
 
@@ -56,16 +56,16 @@ template <class T, int D> struct HourglassStrain {
 
   void from(const Vector<T, D>* z, const Fibres<T, D>& f) {
     if constexpr (D == 2) {
-      for (int i = 0; i < 2; ++i) plane[i].a = f.slope[i] * dot(f.along[i], z[0]);
+      repeat<2>([&](auto i) { plane[i].a = f.slope[i] * dot(f.along[i], z[0]); });
     } else {
-      for (int d = 0; d < 3; ++d) {
-        const int i = (d + 1) % 3, j = (d + 2) % 3;
+      repeat<3>([&](auto d) {
+        constexpr int i = (d + 1) % 3, j = (d + 2) % 3;
         const Vector<T, 3> zi = f.slope[j] * z[i], zj = f.slope[i] * z[j];
         const T a = dot(f.along[i], zj), b = dot(f.along[j], zi), c = dot(f.along[i], zi) + dot(f.along[j], zj);
         const T cot = f.cotangent[d], over = f.over_sine[d];
         plane[d] = {a, over * over * b + cot * (cot * a - over * c), over * c - T(2) * cot * a};
         warp[d] = f.slope[d] * dot(f.along[d], z[3]);
-      }
+      });
     }
   }
   /// With stresses in place of strains: dU/dz per volume.
@@ -74,10 +74,9 @@ template <class T, int D> struct HourglassStrain {
       g[0] = (T(1.0 / 3) * f.slope[0] * plane[0].a) * f.along[0];
       g[0] += (T(1.0 / 3) * f.slope[1] * plane[1].a) * f.along[1];
     } else {
-      for (int k = 0; k < 3; ++k) g[k] = {{T(0), T(0), T(0)}};
-      g[3] = g[0];
-      for (int d = 0; d < 3; ++d) {
-        const int i = (d + 1) % 3, j = (d + 2) % 3;
+      repeat<4>([&](auto k) { g[k] = {{T(0), T(0), T(0)}}; });
+      repeat<3>([&](auto d) {
+        constexpr int i = (d + 1) % 3, j = (d + 2) % 3;
         const Plane<T>& s = plane[d];
         const T cot = f.cotangent[d], over = f.over_sine[d];
         const T a = s.a + cot * (cot * s.b - T(2) * s.shear), b = over * over * s.b, c = over * (s.shear - cot * s.b);
@@ -87,7 +86,7 @@ template <class T, int D> struct HourglassStrain {
         g[i] += (sj * b) * f.along[j];
         g[i] += (sj * c) * f.along[i];
         g[3] += (T(1.0 / 9) * f.slope[d] * warp[d]) * f.along[d];
-      }
+      });
     }
   }
 };
@@ -105,25 +104,25 @@ template <int D> void hourglass_stiffness(const SolidConstants& m, const Fibres<
 
 /// sum_a h_alpha,a x_a of all modes; the signs are those of kHourglass.
 template <class T, int D> void sum_modes(const Vector<T, D>* x, Vector<T, D>* sum) {
-  for (int i = 0; i < D; ++i) {
+  repeat<D>([&](auto i) {
     if constexpr (D == 2) {
       sum[0][i] = (x[0][i] - x[1][i]) + (x[2][i] - x[3][i]);
     } else {
       T even[4], odd[4];  // in zeta
-      for (int k = 0; k < 4; ++k) even[k] = x[k + 4][i] + x[k][i], odd[k] = x[k + 4][i] - x[k][i];
+      repeat<4>([&](auto k) { even[k] = x[k + 4][i] + x[k][i], odd[k] = x[k + 4][i] - x[k][i]; });
       const T u = odd[2] - odd[0], v = odd[3] - odd[1];
       sum[0][i] = u + v;
       sum[1][i] = u - v;
       sum[2][i] = (even[0] - even[1]) + (even[2] - even[3]);
       sum[3][i] = (odd[0] - odd[1]) + (odd[2] - odd[3]);
     }
-  }
+  });
 }
 /// f_a -= sum_alpha h_alpha,a r_alpha.
 template <class T, int D> void take_modes(const Vector<T, D>* r, Vector<T, D>* f) {
-  for (int i = 0; i < D; ++i) {
+  repeat<D>([&](auto i) {
     if constexpr (D == 2) {
-      for (int a = 0; a < 4; ++a) f[a][i] = a % 2 == 0 ? f[a][i] - r[0][i] : f[a][i] + r[0][i];
+      repeat<4>([&](auto a) { f[a][i] = a % 2 == 0 ? f[a][i] - r[0][i] : f[a][i] + r[0][i]; });
     } else {
       const T p = r[0][i] + r[1][i], m = r[0][i] - r[1][i], low = r[2][i] - r[3][i], high = r[2][i] + r[3][i];
       f[0][i] -= p + low;
@@ -135,7 +134,7 @@ template <class T, int D> void take_modes(const Vector<T, D>* r, Vector<T, D>* f
       f[6][i] -= p + high;
       f[7][i] -= m - high;
     }
-  }
+  });
 }
 
 }  // namespace forming_sim

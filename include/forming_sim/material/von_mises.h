@@ -20,7 +20,7 @@
 // Memory of a point: G^X and p of every layer, one layer after the other.
 #include "forming_sim/material/constants.h"
 #include "forming_sim/tensor/tensor.h"
-#include "forming_sim/tensor/twin.h"
+#include "forming_sim/tensor/several.h"
 
 namespace forming_sim {
 
@@ -33,7 +33,7 @@ template <class T, int D> struct PointResponse {
   /// What it answers for one of points_in<T> points.
   PointResponse<PartOf<T>, D> of(int point) const {
     PointResponse<PartOf<T>, D> r{{}, part_of(dissipation, point), part_of(kept, point)};
-    for (int i = 0; i < Symmetric<T, D>::size; ++i) r.S[i] = part_of(S[i], point);
+    repeat<Symmetric<T, D>::size>([&](auto i) { r.S[i] = part_of(S[i], point); });
     return r;
   }
 };
@@ -66,12 +66,28 @@ template <class T> T solve_correction(const HardeningCurve& h, const T& q, const
   return u;
 }
 
+/// Coefficient n of the Taylor series of J^(-5/3) about J = 1.
+constexpr double series_of_power(int n) { return n == 0 ? 1.0 : series_of_power(n - 1) * (-5.0 / 3 - (n - 1)) / n; }
+
+/// J^(-5/3) for J > 0. For |J - 1| <= 0.02, where metals are, by its series to the ninth power, in pairs of terms that do
+/// not wait for each other: to round-off.
+template <class T> T power_minus_five_thirds(const T& J) {
+  const T d = J - T(1);
+  if (any(absolute(d) > T(0.02))) {
+    const T j13 = inverse_cube_root(J);
+    const T j23 = j13 * j13;
+    return j23 * j23 * j13;
+  }
+  constexpr double c[10] = {series_of_power(0), series_of_power(1), series_of_power(2), series_of_power(3), series_of_power(4),
+                            series_of_power(5), series_of_power(6), series_of_power(7), series_of_power(8), series_of_power(9)};
+  const auto pair = [&](int n) { return T(c[n]) + T(c[n + 1]) * d; };
+  const T d2 = d * d, d4 = d2 * d2;
+  return (pair(0) + d2 * pair(2)) + d4 * ((pair(4) + d2 * pair(6)) + d4 * pair(8));
+}
+
 /// S per B_D: mu J^(-5/3), or mu as printed.
 template <class T> T stress_factor(const SolidConstants& m, const T& J) {
-  if (m.law == Law::paper) return T(m.mu);
-  const T j13 = inverse_cube_root(J);
-  const T j23 = j13 * j13;
-  return T(m.mu) * j23 * j23 * j13;
+  return m.law == Law::paper ? T(m.mu) : T(m.mu) * power_minus_five_thirds(J);
 }
 
 /// The correction of a layer whose trial B' = s I + D, m = D : D, has q_S'^2 = Q: its a, p and dissipation.
@@ -103,38 +119,40 @@ PointResponse<T, D> update_layer(const HardeningCurve& hardening, T factor, cons
     if (any(Q > T(hardening.lowest * hardening.lowest))) flow(hardening, factor, trace(B) * T(1.0 / 3), r.S, m, J, Q, p, r);
   }
   factor *= r.kept;
-  for (int i = 0; i < Symmetric<T, D>::size; ++i) r.S[i] = factor * r.S[i];
+  repeat<Symmetric<T, D>::size>([&](auto i) { r.S[i] = factor * r.S[i]; });
   return r;
 }
 
 /// G^X of the layer whose memory starts at `from`.
 template <class T, int D> Symmetric<T, D> load_memory(const double* from) {
   Symmetric<T, D> G;
-  for (int i = 0; i < Symmetric<T, D>::size; ++i) load(from, i, G[i]);
+  repeat<Symmetric<T, D>::size>([&](auto i) { load(from, i, G[i]); });
   return G;
 }
 
-/// One step of layer k of points_in<T> points (tensor/twin.h), whose memories of that layer start at `memory`; factor: stress_factor(m, J).
+/// One step of layer k of points_in<T> points (tensor/several.h), whose memories of that layer start at `memory`; factor: stress_factor(m, J);
+/// metric: G^x of the points where it is at hand, else null.
 template <class T, int D, bool Ring>
-PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, const Edges<PartOf<T>, D, Ring>* e, const T& J, double* const* memory, Keep keep) {
+PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, const Edges<PartOf<T>, D, Ring>* e, const T& J, double* const* memory, Keep keep,
+                               const Symmetric<PartOf<T>, D>* metric = nullptr) {
   using Part = PartOf<T>;
   constexpr int size = Symmetric<T, D>::size;
   Symmetric<T, D> B;
   T p;
-  for (int i = 0; i < points_in<T>; ++i) {
+  repeat<points_in<T>>([&](auto i) {
     const Symmetric<Part, D> of_point = push(load_memory<Part, D>(memory[i]), e[i]);  // (3.51)
-    for (int c = 0; c < size; ++c) part_of(B[c], i) = of_point[c];
+    repeat<size>([&](auto c) { part_of(B[c], i) = of_point[c]; });
     load(memory[i], size, part_of(p, i));
-  }
+  });
   const T before = p;
   const PointResponse<T, D> r = update_layer(m.layer[k].hardening, factor, B, J, p);
   if (keep == Keep::yes && any(p > before))
-    for (int i = 0; i < points_in<T>; ++i) {
-      const Symmetric<Part, D> A = area_metric(e[i]), G = load_memory<Part, D>(memory[i]);
-      const Part a = part_of(r.kept, i), share = (Part(1) - a) / (e[i].volume * e[i].volume);
-      for (int c = 0; c < size; ++c) store(memory[i], c, a * G[c] + share * A[c]);  // (3.54)
+    repeat<points_in<T>>([&](auto i) {
+      const Symmetric<Part, D> A = metric ? metric[i] : area_metric(e[i]), G = load_memory<Part, D>(read_again(memory[i]));
+      const Part a = part_of(r.kept, i), share = metric ? Part(1) - a : (Part(1) - a) / (e[i].volume * e[i].volume);
+      repeat<size>([&](auto c) { store(memory[i], c, a * G[c] + share * A[c]); });  // (3.54)
       store(memory[i], size, part_of(p, i));
-    }
+    });
   return r;
 }
 /// Of one point.
@@ -149,15 +167,21 @@ PointResponse<T, D> von_mises_step(const SolidConstants& m, const Edges<PartOf<T
   const T factor = stress_factor(m, J);
   if (m.layers == 1) return layer_step(m, 0, factor, e, J, memory, keep);
   PointResponse<T, D> sum;
-  for (int i = 0; i < Symmetric<T, D>::size; ++i) sum.S[i] = T(0);
+  repeat<Symmetric<T, D>::size>([&](auto i) { sum.S[i] = T(0); });
   sum.dissipation = T(0);
   double* of_layer[points_in<T>];
-  for (int i = 0; i < points_in<T>; ++i) of_layer[i] = memory[i];
+  Symmetric<PartOf<T>, D> metric[points_in<T>];
+  repeat<points_in<T>>([&](auto i) {
+    of_layer[i] = memory[i];
+    metric[i] = area_metric(e[i]);
+    const PartOf<T> scale = PartOf<T>(1) / (e[i].volume * e[i].volume);
+    repeat<Symmetric<T, D>::size>([&](auto c) { metric[i][c] *= scale; });
+  });
   for (int k = 0; k < m.layers; ++k) {
-    const PointResponse<T, D> r = layer_step(m, k, factor, e, J, of_layer, keep);
+    const PointResponse<T, D> r = layer_step(m, k, factor, e, J, of_layer, keep, metric);
     for (double*& at : of_layer) at += kLayerItems<D> * lanes_of<PartOf<T>>;
     const T w(m.layer[k].weight);
-    for (int i = 0; i < Symmetric<T, D>::size; ++i) sum.S[i] += w * r.S[i];
+    repeat<Symmetric<T, D>::size>([&](auto i) { sum.S[i] += w * r.S[i]; });
     sum.dissipation += w * r.dissipation;
   }
   return sum;

@@ -32,6 +32,13 @@ template <class T> constexpr int lanes_of = 1;
 inline void load(const double* from, int item, double& to) { to = from[item]; }
 inline void store(double* to, int item, double value) { to[item] = value; }
 
+/// The same place, forgotten to have been read: numbers that are asked for again much later are loaded again, instead of
+/// being kept in a register that is not free and so written elsewhere.
+inline const double* read_again(const double* from) {
+  asm("" : "+r"(from));
+  return from;
+}
+
 namespace FORMING_SIM_ISA {
 
 typedef double Lanes __attribute__((vector_size(64)));

@@ -4,6 +4,7 @@
 // component. The third direction of such an element is a unit vector in plane
 // strain, and the hoop of a ring where the section is turned about the y axis.
 #include "forming_sim/tensor/pack.h"
+#include "forming_sim/tensor/repeat.h"
 
 namespace forming_sim {
 
@@ -13,20 +14,20 @@ template <class T, int D> struct Vector {
   const T& operator[](int i) const { return c[i]; }
   friend Vector operator-(const Vector& a, const Vector& b) {
     Vector r;
-    for (int i = 0; i < D; ++i) r.c[i] = a.c[i] - b.c[i];
+    repeat<D>([&](auto i) { r.c[i] = a.c[i] - b.c[i]; });
     return r;
   }
   Vector& operator+=(const Vector& b) {
-    for (int i = 0; i < D; ++i) c[i] += b.c[i];
+    repeat<D>([&](auto i) { c[i] += b.c[i]; });
     return *this;
   }
   Vector& operator-=(const Vector& b) {
-    for (int i = 0; i < D; ++i) c[i] -= b.c[i];
+    repeat<D>([&](auto i) { c[i] -= b.c[i]; });
     return *this;
   }
   friend Vector operator*(const T& s, const Vector& a) {
     Vector r;
-    for (int i = 0; i < D; ++i) r.c[i] = s * a.c[i];
+    repeat<D>([&](auto i) { r.c[i] = s * a.c[i]; });
     return r;
   }
 };
@@ -53,7 +54,7 @@ template <class T, int D> T trace(const Symmetric<T, D>& a) { return a[0] + a[1]
 /// A - tr(A)/3 I, also in plane strain.
 template <class T, int D> Symmetric<T, D> deviator(Symmetric<T, D> a) {
   const T mean = trace(a) * T(1.0 / 3);
-  for (int i = 0; i < 3; ++i) a[i] -= mean;
+  repeat<3>([&](auto i) { a[i] -= mean; });
   return a;
 }
 /// A : B
@@ -146,7 +147,7 @@ template <class T, int D, bool Ring> void find_areas(Edges<T, D, Ring>& e) {
 template <class T, int D, bool Ring> void find_reciprocal(Edges<T, D, Ring>& e) {
   find_areas(e);
   const T inverse = T(1) / e.volume;
-  for (int m = 0; m < kEdges<D, Ring>; ++m) e.up[m] = inverse * e.area[m];
+  repeat<kEdges<D, Ring>>([&](auto m) { e.up[m] = inverse * e.area[m]; });
 }
 
 /// What the length of an element follows from: its volume; in a ring, too, the area of its section.
@@ -169,14 +170,15 @@ template <class T, int D, bool Ring> Symmetric<T, D> push(const Symmetric<T, D>&
     B[3] = e.x[0][0] * y0[1] + e.x[1][0] * y1[1];
   } else {
     Vector<T, 3> y[3];
-    for (int i = 0; i < 3; ++i) {
+    repeat<3>([&](auto i) {
       y[0][i] = G[0] * e.x[0][i] + G[3] * e.x[1][i] + G[5] * e.x[2][i];
       y[1][i] = G[3] * e.x[0][i] + G[1] * e.x[1][i] + G[4] * e.x[2][i];
       y[2][i] = G[5] * e.x[0][i] + G[4] * e.x[1][i] + G[2] * e.x[2][i];
-    }
-    const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
-    for (int k = 0; k < 6; ++k)
+    });
+    repeat<6>([&](auto k) {
+      constexpr int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
       B[k] = e.x[0][row[k]] * y[0][column[k]] + e.x[1][row[k]] * y[1][column[k]] + e.x[2][row[k]] * y[2][column[k]];
+    });
   }
   return B;
 }
