@@ -13,7 +13,7 @@ double crossed_lambda(const SolidConstants& solid) {
   return std::min(1.0, std::sqrt(7 / (12 * (1 - nu))));
 }
 
-std::vector<double> crossed_weights(const Vec3* corners, bool ring, double lambda) {
+std::vector<double> crossed_weights(const Vec3* corners, double lambda) {
   const Vec3& apex = corners[kCrossed[0][0]];
   Eigen::Matrix2d up[4];
   double V[4], sum = 0;
@@ -22,7 +22,6 @@ std::vector<double> crossed_weights(const Vec3* corners, bool ring, double lambd
     for (int m = 0; m < 2; ++m) edges.col(m) = (corners[kCrossed[s][m + 1]] - apex).head<2>();
     up[s] = edges.inverse();  // rows: X_s^m
     V[s] = edges.determinant();
-    if (ring) V[s] *= corners[kCrossed[s][0]][0] + corners[kCrossed[s][1]][0] + corners[kCrossed[s][2]][0];
     sum += V[s];
   }
   std::vector<double> W(kCrossedItems, 0.0);

@@ -145,7 +145,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
         g.hourglass_storage.resize(static_cast<std::size_t>(g.blocks) * g.hourglass_items);
       }
       AlikeBlocks alike;
-      const bool crossed = cells.kind == CellKind::crossed && !at_edges;
+      const bool crossed = cells.kind == CellKind::crossed && !at_edges && !g.ring;
       const double lambda = g.pressure == PressureMode::cell ? crossed_lambda(g.solid) : 1;
       std::vector<Lane> constants(is_one_point(cells.kind) ? one_point_items(D, g.ring) : crossed ? kCrossedItems : 0);
       for (int b = 0; b < g.blocks; ++b) {
@@ -163,7 +163,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
           if (crossed) {
             Vec3 corners[5];
             for (int a = 0; a < 5; ++a) corners[a] = vec3(x[of_cell[a] + body.first_node]);
-            const std::vector<double> W = crossed_weights(corners, axisymmetric_, lambda);
+            const std::vector<double> W = crossed_weights(corners, lambda);
             for (int i = 0; i < kCrossedItems; ++i) constants[i][l] = W[i];
           }
           for (int s = 0; s < shape.points; ++s) {
