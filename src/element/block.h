@@ -96,6 +96,13 @@ template <class Cell> void hand_back(const double* constants, const Vector<Pack,
   for (int b = 0; b < 4; ++b)
     for (int c = 0; c < 4; ++c) f[b] += weight(constants, c * 4 + b) * on_drawn[c];
 }
+/// Edges of simplex s for the law; drawn: what draw() gives, or x where the cell is not drawn. The hoop of a ring is that of x.
+template <class Cell>
+void law_edges(const double* constants, const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* drawn, int s, Vector<Pack, kD<Cell>>* edge) {
+  edges_of<Cell>(constants, drawn, s, edge);
+  if constexpr (Cell::drawn && Cell::ring)
+    edge[2][0] = x[kApex<Cell>][0] + Pack(1.0 / 3) * (x[Cell::table[s][1]][0] + x[Cell::table[s][2]][0]);
+}
 
 /// Hands the forces on the edges of a one-point cell to its nodes, through the weights by which they make the edges.
 template <class Cell>

@@ -8,12 +8,17 @@
 
 namespace forming_sim {
 
-double crossed_lambda(const SolidConstants& solid) {
+double crossed_lambda(const SolidConstants& solid, const Vec3* corners, bool ring) {
   const double nu = (3 * solid.K - 2 * solid.mu) / (2 * (3 * solid.K + solid.mu));
-  return std::min(1.0, std::sqrt(7 / (12 * (1 - nu))));
+  const double lambda = std::min(1.0, std::sqrt(7 / (12 * (1 - nu))));
+  if (!ring) return lambda;
+  double least = corners[0][0], most = least;
+  for (int a = 1; a < 4; ++a) least = std::min(least, corners[a][0]), most = std::max(most, corners[a][0]);
+  const double q = (most - least) / (most + least);
+  return 1 - (1 - lambda) * (1 - q * q);
 }
 
-std::vector<double> crossed_weights(const Vec3* corners, double lambda) {
+std::vector<double> crossed_weights(const Vec3* corners, bool ring, double lambda) {
   const Vec3& apex = corners[kCrossed[0][0]];
   Eigen::Matrix2d up[4];
   double V[4], sum = 0;
@@ -22,6 +27,7 @@ std::vector<double> crossed_weights(const Vec3* corners, double lambda) {
     for (int m = 0; m < 2; ++m) edges.col(m) = (corners[kCrossed[s][m + 1]] - apex).head<2>();
     up[s] = edges.inverse();  // rows: X_s^m
     V[s] = edges.determinant();
+    if (ring) V[s] *= corners[kCrossed[s][0]][0] + corners[kCrossed[s][1]][0] + corners[kCrossed[s][2]][0];
     sum += V[s];
   }
   std::vector<double> W(kCrossedItems, 0.0);

@@ -2,6 +2,7 @@
 #include "element/group.h"
 #include "element/simplex_shape.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <sstream>
@@ -12,6 +13,7 @@
 #include "forming_sim/element/hourglass.h"
 #include "forming_sim/element/node_kernels.h"
 #include "forming_sim/element/one_point.h"
+#include "forming_sim/mesh/cell_tables.h"
 #include "forming_sim/material/law.h"
 
 namespace forming_sim {
@@ -145,8 +147,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
         g.hourglass_storage.resize(static_cast<std::size_t>(g.blocks) * g.hourglass_items);
       }
       AlikeBlocks alike;
-      const bool crossed = cells.kind == CellKind::crossed && !at_edges && !g.ring;
-      const double lambda = g.pressure == PressureMode::cell ? crossed_lambda(g.solid) : 1;
+      const bool crossed = cells.kind == CellKind::crossed && !at_edges;
       std::vector<Lane> constants(is_one_point(cells.kind) ? one_point_items(D, g.ring) : crossed ? kCrossedItems : 0);
       for (int b = 0; b < g.blocks; ++b) {
         for (int l = 0; l < kLanes; ++l) {
@@ -163,7 +164,8 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
           if (crossed) {
             Vec3 corners[5];
             for (int a = 0; a < 5; ++a) corners[a] = vec3(x[of_cell[a] + body.first_node]);
-            const std::vector<double> W = crossed_weights(corners, lambda);
+            const double lambda = g.pressure == PressureMode::cell ? crossed_lambda(g.solid, corners, g.ring) : 1;
+            const std::vector<double> W = crossed_weights(corners, g.ring, lambda);
             for (int i = 0; i < kCrossedItems; ++i) constants[i][l] = W[i];
           }
           for (int s = 0; s < shape.points; ++s) {
@@ -312,13 +314,26 @@ Elements::Location Elements::locate(int element) const {
   return {0, 0, 0};
 }
 
-/// V/V0 of an element whose simplex is number `element`.
+/// V/V0 of an element whose simplex is number `element`; of crossed triangles the smaller one of the triangle's own and of that which
+/// the law sees.
 double Elements::volume_ratio(const NodeField& x, int element) const {
   const Location where = locate(element);
   const Group& g = groups_[where.group];
   const int block = where.cell / kLanes, l = where.cell % kLanes, point = where.simplex % g.cell_simplices;
   const double V0 = g.memory_storage[(static_cast<std::size_t>(block) * g.cell_simplices + point + 1) * g.items - 1][l];
-  if (!is_one_point(static_cast<CellKind>(g.kind))) return SimplexShape(x, simplices_[element], dimension_, axisymmetric_).volume / V0;
+  if (!is_one_point(static_cast<CellKind>(g.kind))) {
+    const SimplexShape shape(x, simplices_[element], dimension_, axisymmetric_);
+    const double own = shape.volume / V0;
+    if (g.constants_storage.empty()) return own;
+    const auto node = [&](int a) { return vec3(x[g.node_storage[(static_cast<std::size_t>(block) * g.cell_nodes + a) * kLanes + l]]); };
+    Vec3 y[2];  // the edges of the law, the hoop of a ring its own
+    for (int m = 0; m < 2; ++m) {
+      const int c = kCrossed[point][m + 1];
+      y[m] = Vec3::Zero();
+      for (int b = 0; b < 4; ++b) y[m] += g.constants_storage[static_cast<std::size_t>(g.constant_sets[block]) * kCrossedItems + c * 4 + b][l] * (node(b) - node(4));
+    }
+    return std::min(own, own * y[0].cross(y[1]).z() / shape.edges.col(0).cross(shape.edges.col(1)).z());
+  }
   const int D = dimension_;
   Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
   edges.topLeftCorner(D, D).setZero();

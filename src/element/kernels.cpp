@@ -19,6 +19,14 @@ void moved_edges(const NodalView& view, const double* constants, const Vector<Pa
   for (int m = 0; m < kE<Cell>; ++m) w[m] = Pack(view.last_dt) * w[m];
 }
 
+/// Likewise of the edges that the law sees; drawn: of v.
+template <class Cell>
+void moved_law_edges(const NodalView& view, const double* constants, const Vector<Pack, kD<Cell>>* v, const Vector<Pack, kD<Cell>>* drawn, int s,
+                     Vector<Pack, kD<Cell>>* w) {
+  law_edges<Cell>(constants, v, drawn, s, w);
+  for (int m = 0; m < kE<Cell>; ++m) w[m] = Pack(view.last_dt) * w[m];
+}
+
 /// Incremental pressure (2.11) of the classical method, p + K tr D dt, with the
 /// mean rate of the cell or that of the element.
 template <class Cell>
@@ -125,7 +133,7 @@ template <class Cell, bool OneLayer>
     double* memory[together];
     Together<Cell> ratio;
     for (int i = 0; i < together; ++i) {
-      edges_of<Cell>(constants, law_x, first + i, edges[i].x);
+      law_edges<Cell>(constants, x, law_x, first + i, edges[i].x);
       if (Cell::one_point || classical) find_reciprocal(edges[i]);
       else find_areas(edges[i]);
       memory[i] = memory_of<Cell>(g, block, first + i);
@@ -141,7 +149,10 @@ template <class Cell, bool OneLayer>
       const Pack V0 = initial_volume(g, memory[i]);
       PointResponse<Pack, D> point;
       Vector<Pack, D> w[kE<Cell>], force[D];
-      if (classical) moved_edges<Cell>(view, constants, law_v, s, w);
+      if (classical) {
+        if constexpr (Cell::drawn) moved_law_edges<Cell>(view, constants, v, law_v, s, w);
+        else moved_edges<Cell>(view, constants, v, s, w);
+      }
       if constexpr (Cell::one_point) {
         Hourglass<Pack, D, Cell::ring> hourglass(g.solid, constants, e, x);
         point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J[s], memory[i], hourglass, hourglass_of<Cell>(g, block));
@@ -161,6 +172,11 @@ template <class Cell, bool OneLayer>
         for (int m = 0; m < D; ++m) {
           on_drawn[Cell::table[s][m + 1]] -= point.S * e.area[m];
           f[Cell::table[s][m + 1]] -= p[s] * of_volume.area[m];
+        }
+        if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
+          const Pack hoop = (e.area[2][0] * point.S[2] + of_volume.area[2][0] * p[s]) * Pack(1.0 / 3);
+          for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]][0] -= hoop;
+          hoops += hoop;
         }
         continue;
       }
@@ -227,9 +243,9 @@ template <class Cell>
       if (g.edge_omega2) at_edges = Pack::load(g.edge_omega2 + (block * Cell::simplices + s) * kLanes);
       bound.add(e, memory, g.edge_omega2 ? &at_edges : nullptr, initial_volume(g, memory), Cell::table[s]);
       if (drawn) {
-        edges_of<Cell>(constants, drawn_x, s, e.x);
+        law_edges<Cell>(constants, x, drawn_x, s, e.x);
         find_reciprocal(e);
-        bound.add_law(e, memory, initial_volume(g, memory));
+        bound.add_law(e, memory, initial_volume(g, memory), Cell::table[s]);
       }
     }
   }
@@ -265,7 +281,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   const bool classical = g.solid.law == Law::classical;
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
-    edges_of<Cell>(constants, Cell::drawn ? drawn_x : x, s, e.x);
+    law_edges<Cell>(constants, x, Cell::drawn ? drawn_x : x, s, e.x);
     find_reciprocal(e);
     double* memory = memory_of<Cell>(g, block, s);
     const Pack V0 = initial_volume(g, memory), law_J = Cell::drawn ? e.volume / V0 : J[s];

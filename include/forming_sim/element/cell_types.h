@@ -22,7 +22,7 @@ struct Quad1 : OnePointCell { static constexpr int dimension = 2, nodes = 4; };
 struct Hex1 : OnePointCell { static constexpr int dimension = 3, nodes = 8; };
 
 /// A cell of triangles that are rings.
-template <class Cell> struct Turned : Cell { static constexpr bool ring = true, drawn = false; };
+template <class Cell> struct Turned : Cell { static constexpr bool ring = true; };
 
 }  // namespace cell_types
 }  // namespace forming_sim

@@ -16,11 +16,9 @@
 // of triangles about a mean by a factor that is to be chosen.)
 //
 // Uniform strains stay what they are; so do the forces of uniform stress, since sum_s V_s F~_s = sum_s V_s F_s; no shape
-// loses its stiffness, since lambda > 0. The volumes, and with them the pressure, are the triangles' own.
-//
-// Rings are not drawn. Their hoop strain is that of the triangles' centres, whose mean square in a bent cell is 2/3 of the
-// exact one: what the fibres have too much it has too little. Drawn by lambda, the axis of the column of
-// test/element/ring_mass_test.cpp is off by .0018 instead of .0015 m.
+// loses its stiffness, since lambda > 0. The volumes, and with them the pressure, are the triangles' own, and so
+// is the hoop of a ring. Cells that a node on the axis holds are not those of the sum above: in a ring lambda goes to 1 there,
+//   1 - (1 - lambda)(1 - q^2),   q = (R_max - R_min)/(R_max + R_min) of the cell's corners, 1 at the axis, 0 far from it.
 //
 // F~_s is that of a triangle between the apex and y_c, fixed combinations of the ways x_b from the apex to the corners:
 //   y_c = sum_b W_cb x_b,  W_cb = lambda delta_cb + (1 - lambda) sum_s V_s/V X_s^b . X_c,
@@ -32,10 +30,11 @@
 
 namespace forming_sim {
 
-double crossed_lambda(const SolidConstants& solid);
+/// Of a cell. corners: its four and its middle.
+double crossed_lambda(const SolidConstants& solid, const Vec3* corners, bool ring);
 
-/// W_cb of a cell, [c][b]. corners: the cell's four and its middle.
+/// W_cb of a cell, [c][b].
 constexpr int kCrossedItems = 16;
-std::vector<double> crossed_weights(const Vec3* corners, double lambda);
+std::vector<double> crossed_weights(const Vec3* corners, bool ring, double lambda);
 
 }  // namespace forming_sim

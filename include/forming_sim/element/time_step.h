@@ -89,7 +89,11 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
   template <class Corners>
   void add(const Edges<T, D, Ring>& e, const double* memory, const T* at_edges, const T& V0, const Corners& corner) {
     Vector<T, D> g[D + 1];
-    find_gradients(e, g);
+    g[0] = T(-1.0) * e.up[0];
+    for (int m = 0; m < D; ++m) {
+      g[m + 1] = e.up[m];
+      if (m > 0) g[0] += T(-1.0) * e.up[m];
+    }
     T largest, sum_of_squares;
     if constexpr (Ring) {
       RingShapes<T> ring;
@@ -122,12 +126,8 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
   }
 
   /// Where the law sees other edges than the volume (element/crossed.h): the deviatoric part of those.
-  void add_law(const Edges<T, D, Ring>& e, const double* memory, const T& V0) {
-    Vector<T, D> g[D + 1];
-    find_gradients(e, g);
-    T unused;
-    const T omega2 = T((D + 1) / g_.density * g_.solid.mu) * point_tangent(g_.solid, e, e.volume / V0, memory) * deviatoric_bound(g, unused);
-    deviatoric_ = larger(deviatoric_, omega2);
+  template <class Corners> void add_law(const Edges<T, D, Ring>& e, const double* memory, const T& V0, const Corners& corner) {
+    deviatoric_ = larger(deviatoric_, deviatoric(e, memory, V0, corner));
   }
 
   /// rate: |dV/dt|/V, for the quadratic viscosity.
@@ -147,13 +147,23 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
   }
 
  private:
-  /// The shape gradients of the corners.
-  static void find_gradients(const Edges<T, D, Ring>& e, Vector<T, D>* g) {
+  template <class Corners> T deviatoric(const Edges<T, D, Ring>& e, const double* memory, const T& V0, const Corners& corner) const {
+    Vector<T, D> g[D + 1];
     g[0] = T(-1.0) * e.up[0];
     for (int m = 0; m < D; ++m) {
       g[m + 1] = e.up[m];
       if (m > 0) g[0] += T(-1.0) * e.up[m];
     }
+    T largest, unused;
+    if constexpr (Ring) {
+      RingShapes<T> ring;
+      ring.hoop = T(1.0 / 3) * e.up[2][0];
+      for (int a = 0; a < 3; ++a) ring.g[a] = g[a], ring.inertia[a] = inertia_[corner[a]];
+      largest = ring.deviatoric();
+    } else {
+      largest = deviatoric_bound(g, unused);
+    }
+    return T((D + 1) / g_.density * g_.solid.mu) * point_tangent(g_.solid, e, e.volume / V0, memory) * largest;
   }
   static T deviatoric_bound(const Vector<T, D>* g, T& I1) {
     Symmetric<T, D> S;
