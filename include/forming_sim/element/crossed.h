@@ -17,8 +17,9 @@
 //
 // Uniform strains stay what they are; so do the forces of uniform stress, since sum_s V_s F~_s = sum_s V_s F_s; no shape
 // loses its stiffness, since lambda > 0. The volumes, and with them the pressure, are the triangles' own, and so
-// is the hoop of a ring. Cells that a node on the axis holds are not those of the sum above: in a ring lambda goes to 1 there,
-//   1 - (1 - lambda)(1 - q^2),   q = (R_max - R_min)/(R_max + R_min) of the cell's corners, 1 at the axis, 0 far from it.
+// is the hoop of a ring. Far from the axis a ring is a plane section. At the axis its cells are held by nodes that do not move
+// radially, which the sum above does not know, and are left as they are:
+//   1 - (1 - lambda)(1 - q^2) in place of lambda,   q = (R_max - R_min)/(R_max + R_min) of the cell's corners, 1 at the axis, 0 far from it.
 //
 // F~_s is that of a triangle between the apex and y_c, fixed combinations of the ways x_b from the apex to the corners:
 //   y_c = sum_b W_cb x_b,  W_cb = lambda delta_cb + (1 - lambda) sum_s V_s/V X_s^b . X_c,
