@@ -3,6 +3,7 @@
 // volumes, its memory. For files that are compiled once per vector width only.
 #include "forming_sim/element/cell_group.h"
 #include "forming_sim/element/cell_types.h"
+#include "forming_sim/element/crossed.h"
 #include "forming_sim/element/one_point.h"
 #include "forming_sim/material/classical.h"
 #include "forming_sim/material/law.h"
@@ -55,9 +56,10 @@ template <class Cell> void gather_ways(const int* nodes, const double* field, Ve
   }
 }
 
-/// Constants of a block of one-point cells; null elsewhere.
+/// Constants of a block of one-point cells, or crossed ones; null elsewhere, and where the law is at the edges.
 template <class Cell> const double* constants_of(const CellGroup& g, long block) {
   if constexpr (Cell::one_point) return g.constants + static_cast<long>(g.constant_set[block]) * OnePoint<kD<Cell>, Cell::ring>::items * kLanes;
+  else if constexpr (Cell::drawn) return g.constants ? g.constants + static_cast<long>(g.constant_set[block]) * kCrossedItems * kLanes : nullptr;
   else return nullptr;
 }
 template <class Cell> double* hourglass_of(const CellGroup& g, long block) { return g.hourglass + block * g.hourglass_items * kLanes; }
@@ -82,6 +84,28 @@ void edges_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s, V
     repeat<D>([&](auto m) { edge[m] = x[Cell::table[s][m + 1]]; });
     if constexpr (Cell::ring) edge[2] = {{x[kApex<Cell>][0] + Pack(1.0 / 3) * (edge[0][0] + edge[1][0]), Pack(0.0)}};
   }
+}
+
+/// Ways from the apex as the law sees them: y_c = sum_b W_cb x_b (element/crossed.h).
+template <class Cell> void draw(const double* constants, const Vector<Pack, kD<Cell>>* x, Vector<Pack, kD<Cell>>* y) {
+  static_assert(kApex<Cell> == 4);
+  for (int c = 0; c < 4; ++c) {
+    y[c] = weight(constants, c * 4) * x[0];
+    for (int b = 1; b < 4; ++b) y[c] += weight(constants, c * 4 + b) * x[b];
+  }
+  y[4] = x[4];
+}
+/// The forces on the y_c are handed back to the corners.
+template <class Cell> void hand_back(const double* constants, const Vector<Pack, kD<Cell>>* on_drawn, Vector<Pack, kD<Cell>>* f) {
+  for (int b = 0; b < 4; ++b)
+    for (int c = 0; c < 4; ++c) f[b] += weight(constants, c * 4 + b) * on_drawn[c];
+}
+/// Edges of simplex s for the law; drawn: what draw() gives, or x where the cell is not drawn. The hoop of a ring is that of x.
+template <class Cell>
+void law_edges(const double* constants, const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* drawn, int s, Vector<Pack, kD<Cell>>* edge) {
+  edges_of<Cell>(constants, drawn, s, edge);
+  if constexpr (Cell::drawn && Cell::ring)
+    edge[2][0] = x[kApex<Cell>][0] + Pack(1.0 / 3) * (x[Cell::table[s][1]][0] + x[Cell::table[s][2]][0]);
 }
 
 /// Hands the forces on the edges of a one-point cell to its nodes, through the weights by which they make the edges.

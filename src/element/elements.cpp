@@ -2,14 +2,18 @@
 #include "element/group.h"
 #include "element/simplex_shape.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <sstream>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/element/crossed.h"
+#include "forming_sim/element/guard.h"
 #include "forming_sim/element/hourglass.h"
 #include "forming_sim/element/node_kernels.h"
 #include "forming_sim/element/one_point.h"
+#include "forming_sim/mesh/cell_tables.h"
 #include "forming_sim/material/law.h"
 
 namespace forming_sim {
@@ -28,14 +32,22 @@ PressureMode mode_of(const BodyModel& body, CellKind kind) {
 /// Cells with a node of their own (the centre of a crossed quadrilateral, centre
 /// and faces of 24 tetrahedra) leave that node to the deviator alone when the
 /// pressure is one per cell: in a strong impact it yields and the simplices around
-/// it collapse. A small share theta of each simplex' own pressure holds them,
+/// it collapse. Crossed triangles have a guard against that, element/guard.h. The seven nodes that 24 tetrahedra have of
+/// their own would use what it leaves free: the thick sphere is 8 to 20 % too soft with it. There a small share theta of each
+/// simplex' own pressure holds them,
 ///   U = V0 [(1-theta) K/2 (J_cell - 1)^2 + theta K/2 (J - 1)^2].
 /// .02 is enough (the Taylor bar collapses with none and runs with .01) and costs
-/// .1 to .7 % of the bending moment at 4 cells through the thickness. On 2 triangles
+/// .1 to .7 % of the bending moment at 4 cells through the thickness. It is one of what resists shear: where K > 3 mu
+/// (nu > .35), theta K = .06 mu. On 2 triangles
 /// or 6 tetrahedra it would lock (face radius of the Taylor bar 6.86 instead of
 /// 7.35 mm at 4 cells a radius), and they have no such node.
-double element_share_of(CellKind kind) {
-  return kind == CellKind::hex24 || kind == CellKind::crossed ? 0.02 : 0;
+double element_share_of(CellKind kind, const SolidConstants& solid) {
+  const bool crossed_alone = kind == CellKind::crossed && solid.law == Law::classical;  // whose pressure is no function of V
+  return kind == CellKind::hex24 || crossed_alone ? 0.02 * std::min(1.0, 3 * solid.mu / solid.K) : 0;
+}
+double guard_of(CellKind kind, PressureMode pressure, const SolidConstants& solid) {
+  const bool crossed = kind == CellKind::crossed && pressure == PressureMode::cell && solid.law != Law::classical;
+  return crossed || pressure == PressureMode::node ? kGuard : 0;
 }
 
 /// Share of corner a in the mass of a simplex: equal shares; of a ring the integral of
@@ -114,9 +126,10 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.parts = shape.simplices;
       g.make_blocks(cells.count());
       g.pressure = mode_of(body, cells.kind);
-      g.element_share = element_share_of(cells.kind);
       any_nodal_ |= g.pressure == PressureMode::node;
       g.solid = solid_constants(body.material, g.curves);
+      g.element_share = element_share_of(cells.kind, g.solid);
+      g.guard = guard_of(cells.kind, g.pressure, g.solid);
       const bool at_edges = g.nodal();  // the law; what stays is V0
       g.items = at_edges ? 1 : D == 2 ? memory_items<2>(g.solid) : memory_items<3>(g.solid);
       g.density = body.material.density * options.mass_scaling;
@@ -134,7 +147,8 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
         g.hourglass_storage.resize(static_cast<std::size_t>(g.blocks) * g.hourglass_items);
       }
       AlikeBlocks alike;
-      std::vector<Lane> constants(is_one_point(cells.kind) ? one_point_items(D, g.ring) : 0);
+      const bool crossed = cells.kind == CellKind::crossed && !at_edges;
+      std::vector<Lane> constants(is_one_point(cells.kind) ? one_point_items(D, g.ring) : crossed ? kCrossedItems : 0);
       for (int b = 0; b < g.blocks; ++b) {
         for (int l = 0; l < kLanes; ++l) {
           const int cell = std::min(b * kLanes + l, g.cells - 1);
@@ -146,6 +160,13 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
             std::array<int, 4> corner{-1, -1, -1, -1};
             for (int a = 0; a <= D; ++a) corner[a] = of_cell[shape.simplex[s][a]] + body.first_node;
             simplices_.push_back(corner);
+          }
+          if (crossed) {
+            Vec3 corners[5];
+            for (int a = 0; a < 5; ++a) corners[a] = vec3(x[of_cell[a] + body.first_node]);
+            const double lambda = g.pressure == PressureMode::cell ? crossed_lambda(g.solid, corners, g.ring) : 1;
+            const std::vector<double> W = crossed_weights(corners, g.ring, lambda);
+            for (int i = 0; i < kCrossedItems; ++i) constants[i][l] = W[i];
           }
           for (int s = 0; s < shape.points; ++s) {
             const int element = g.first_element + cell * shape.simplices + s;
@@ -159,7 +180,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
               throw Error(Code::mesh_error, what.str());
             }
             g.start(b * shape.points + s, l, initial.edges, V0);
-            for (std::size_t i = 0; i < constants.size(); ++i) constants[i][l] = initial.constants[i];
+            for (std::size_t i = 0; i < initial.constants.size(); ++i) constants[i][l] = initial.constants[i];
             if (!first) continue;
             for (int a = 0; a < initial.nodes; ++a) mass_[initial.node[a]] += g.density * V0 * initial.share[a];
             if (is_one_point(cells.kind)) continue;  // it has no share in nodal pressures, and the bound of its step its own masses
@@ -174,7 +195,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
             }
           }
         }
-        if (is_one_point(cells.kind)) g.constant_sets.push_back(alike.find(constants, g.constants_storage));
+        if (!constants.empty()) g.constant_sets.push_back(alike.find(constants, g.constants_storage));
       }
       groups_.push_back(std::move(g));
     }
@@ -189,7 +210,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   for (Group& g : groups_) {
     g.nodes = g.node_storage.data();
     g.memory = reinterpret_cast<double*>(g.memory_storage.data());
-    g.constants = reinterpret_cast<double*>(g.constants_storage.data());
+    g.constants = g.constants_storage.empty() ? nullptr : reinterpret_cast<double*>(g.constants_storage.data());
     g.constant_set = g.constant_sets.data();
     g.hourglass = reinterpret_cast<double*>(g.hourglass_storage.data());
     g.node_share = reinterpret_cast<double*>(g.node_share_storage.data());
@@ -293,13 +314,26 @@ Elements::Location Elements::locate(int element) const {
   return {0, 0, 0};
 }
 
-/// V/V0 of an element whose simplex is number `element`.
+/// V/V0 of an element whose simplex is number `element`; of crossed triangles the smaller one of the triangle's own and of that which
+/// the law sees.
 double Elements::volume_ratio(const NodeField& x, int element) const {
   const Location where = locate(element);
   const Group& g = groups_[where.group];
   const int block = where.cell / kLanes, l = where.cell % kLanes, point = where.simplex % g.cell_simplices;
   const double V0 = g.memory_storage[(static_cast<std::size_t>(block) * g.cell_simplices + point + 1) * g.items - 1][l];
-  if (g.constants_storage.empty()) return SimplexShape(x, simplices_[element], dimension_, axisymmetric_).volume / V0;
+  if (!is_one_point(static_cast<CellKind>(g.kind))) {
+    const SimplexShape shape(x, simplices_[element], dimension_, axisymmetric_);
+    const double own = shape.volume / V0;
+    if (g.constants_storage.empty()) return own;
+    const auto node = [&](int a) { return vec3(x[g.node_storage[(static_cast<std::size_t>(block) * g.cell_nodes + a) * kLanes + l]]); };
+    Vec3 y[2];  // the edges of the law, the hoop of a ring its own
+    for (int m = 0; m < 2; ++m) {
+      const int c = kCrossed[point][m + 1];
+      y[m] = Vec3::Zero();
+      for (int b = 0; b < 4; ++b) y[m] += g.constants_storage[static_cast<std::size_t>(g.constant_sets[block]) * kCrossedItems + c * 4 + b][l] * (node(b) - node(4));
+    }
+    return std::min(own, own * y[0].cross(y[1]).z() / shape.edges.col(0).cross(shape.edges.col(1)).z());
+  }
   const int D = dimension_;
   Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
   edges.topLeftCorner(D, D).setZero();

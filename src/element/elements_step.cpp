@@ -91,7 +91,7 @@ void Elements::keep_shares(const NodeField& X) {
       const auto node = [&](int a) { return g.node_storage[(static_cast<std::size_t>(b) * g.cell_nodes + a) * kLanes + l]; };
       const auto mass = [&](int s) { return g.density * g.memory_storage[(static_cast<std::size_t>(b) * g.cell_simplices + s + 1) * g.items - 1][l]; };
       double* share = &g.share[static_cast<std::size_t>(cell) * g.cell_nodes];
-      if (!g.constants_storage.empty()) {
+      if (is_one_point(static_cast<CellKind>(g.kind))) {
         Vec3 corners[8];
         for (int a = 0; a < g.cell_nodes; ++a) corners[a] = vec3(X[node(a)]);
         const OnePointStart start = start_one_point(corners, dimension_, axisymmetric_, g.solid);

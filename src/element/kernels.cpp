@@ -2,6 +2,7 @@
 // Only raw arrays and types of this width's namespace are used here, so that no
 // inline function of a wider instruction set can leak into the rest of the program.
 #include "element/bulk_viscosity.h"
+#include "forming_sim/element/guard.h"
 #include "forming_sim/element/hourglass.h"
 #include "forming_sim/element/one_point_step.h"
 #include "forming_sim/element/time_step.h"
@@ -15,6 +16,14 @@ namespace {
 template <class Cell>
 void moved_edges(const NodalView& view, const double* constants, const Vector<Pack, kD<Cell>>* v, int s, Vector<Pack, kD<Cell>>* w) {
   edges_of<Cell>(constants, v, s, w);
+  for (int m = 0; m < kE<Cell>; ++m) w[m] = Pack(view.last_dt) * w[m];
+}
+
+/// Likewise of the edges that the law sees; drawn: of v.
+template <class Cell>
+void moved_law_edges(const NodalView& view, const double* constants, const Vector<Pack, kD<Cell>>* v, const Vector<Pack, kD<Cell>>* drawn, int s,
+                     Vector<Pack, kD<Cell>>* w) {
+  law_edges<Cell>(constants, v, drawn, s, w);
   for (int m = 0; m < kE<Cell>; ++m) w[m] = Pack(view.last_dt) * w[m];
 }
 
@@ -75,6 +84,8 @@ void pressures(const CellGroup& g, long block, const Pack* V, const Pack* J, Pac
   const Pack theta(g.element_share);
   const Pack mean = (Pack(1.0) - theta) * K * (sum_V / sum_V0 - Pack(1.0));
   for (int s = 0; s < Cell::simplices; ++s) p[s] = mean + theta * K * (J[s] - Pack(1.0));
+  if (g.guard > 0)
+    for (int s = 0; s < Cell::simplices; ++s) p[s] += Pack(g.guard) * K * guard_pressure(J[s]);
 }
 
 /// What a kernel of the forces is made for, so that it is as lean as it can be: the law of material/von_mises.h with a single
@@ -105,6 +116,16 @@ template <class Cell, Made made>
   if (classical) gather_ways<Cell>(nodes, view.v, v);
   if (classical) classical_pressures<Cell>(g, view, block, x, v, p);
   else pressures<Cell>(g, block, V, J, p);
+  Vector<Pack, D> drawn_x[Cell::drawn ? Cell::nodes : 1], drawn_v[Cell::drawn ? Cell::nodes : 1], on_drawn[Cell::drawn ? Cell::nodes : 1];
+  const Vector<Pack, D>*law_x = x, *law_v = v;
+  if constexpr (Cell::drawn) {
+    draw<Cell>(constants, x, drawn_x);
+    if (classical) draw<Cell>(constants, v, drawn_v);
+    for (Vector<Pack, D>& force : on_drawn)
+      for (int i = 0; i < D; ++i) force[i] = Pack(0.0);
+    law_x = drawn_x;
+    law_v = drawn_v;
+  }
   const int in_use = lanes_in_use(g, block);
   if (g.linear_viscosity > 0 || g.quadratic_viscosity > 0) {
     const Viscosity viscosity = viscosity_of_block<Cell>(g, view, block);
@@ -121,12 +142,12 @@ template <class Cell, Made made>
     double* memory[together];
     Points ratio;
     repeat<together>([&](auto i) {
-      edges_of<Cell>(constants, x, first + i, edges[i].x);
+      law_edges<Cell>(constants, x, law_x, first + i, edges[i].x);
       if (Cell::one_point || classical) find_reciprocal(edges[i]);
       else find_areas(edges[i]);
       memory[i] = memory_of<Cell>(g, block, first + i);
-      part_of(ratio, i) = J[first + i];
-      upright = upright & (J[first + i] > Pack(0.0));
+      part_of(ratio, i) = Cell::drawn ? edges[i].volume / initial_volume(g, memory[i]) : J[first + i];
+      upright = upright & (J[first + i] > Pack(0.0)) & (part_of(ratio, i) > Pack(0.0));
     });
     PointResponse<Points, D> points;
     if constexpr (made == Made::one_layer) points = layer_step(g.solid, 0, stress_factor(g.solid, ratio), edges, ratio, memory, Keep::yes);
@@ -138,7 +159,10 @@ template <class Cell, Made made>
       const Pack V0 = initial_volume(g, memory[i]);
       PointResponse<Pack, D> point;
       Vector<Pack, D> w[kE<Cell>], force[D];
-      if (classical) moved_edges<Cell>(view, constants, v, s, w);
+      if (classical) {
+        if constexpr (Cell::drawn) moved_law_edges<Cell>(view, constants, v, law_v, s, w);
+        else moved_edges<Cell>(view, constants, v, s, w);
+      }
       if constexpr (Cell::one_point) {
         Hourglass<Pack, D, Cell::ring> hourglass(g.solid, constants, e, x);
         point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J[s], memory[i], hourglass, hourglass_of<Cell>(g, block));
@@ -148,9 +172,24 @@ template <class Cell, Made made>
       } else if constexpr (made != Made::any) {
         point = points.of(i);
       } else {
-        point = point_step(g.solid, e, classical ? w : nullptr, J[s], memory[i], Keep::yes);
+        point = point_step(g.solid, e, classical ? w : nullptr, part_of(ratio, i), memory[i], Keep::yes);
       }
       dissipated += point.dissipation * V0;
+      if constexpr (Cell::drawn) {  // -V~ S . y^m on the edges of the law, -V p x^m on those of the volume
+        CellEdges<Cell> of_volume;
+        edges_of<Cell>(constants, x, s, of_volume.x);
+        find_areas(of_volume);
+        for (int m = 0; m < D; ++m) {
+          on_drawn[Cell::table[s][m + 1]] -= point.S * e.area[m];
+          f[Cell::table[s][m + 1]] -= p[s] * of_volume.area[m];
+        }
+        if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
+          const Pack hoop = (e.area[2][0] * point.S[2] + of_volume.area[2][0] * p[s]) * Pack(1.0 / 3);
+          for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]][0] -= hoop;
+          hoops += hoop;
+        }
+        continue;
+      }
       for (int c = 0; c < 3; ++c) point.S[c] += p[s];  // sigma = p I + S (3.4)
       // The force on edge m is -V sigma . x^m, that of the hoop of a ring -V sigma . x^3.
       if constexpr (Cell::one_point) {
@@ -170,6 +209,7 @@ template <class Cell, Made made>
       }
     }
   }
+  if constexpr (Cell::drawn) hand_back<Cell>(constants, on_drawn, f);
   if constexpr (!Cell::one_point) balance_apex<Cell>(hoops, f);
   g.plastic_work[block] += sum_of_first(dissipated, in_use);
   g.upright[block] = all(upright);
@@ -196,6 +236,10 @@ template <class Cell>
       inertia[a][0] = select(x[a][0] > Pack(0.0), inertia[a][1], Pack(0.0));  // no radial motion on the axis
     }
   refer_to_apex<Cell>(x);
+  Vector<Pack, D> drawn_x[Cell::drawn ? Cell::nodes : 1];
+  const bool drawn = Cell::drawn && !g.edge_omega2;
+  if constexpr (Cell::drawn)
+    if (drawn) draw<Cell>(constants, x, drawn_x);
   CellBound<Cell> bound(g, inertia);
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
@@ -208,6 +252,11 @@ template <class Cell>
       Pack at_edges;
       if (g.edge_omega2) at_edges = Pack::load(g.edge_omega2 + (block * Cell::simplices + s) * kLanes);
       bound.add(e, memory, g.edge_omega2 ? &at_edges : nullptr, initial_volume(g, memory), Cell::table[s]);
+      if (drawn) {
+        law_edges<Cell>(constants, x, drawn_x, s, e.x);
+        find_reciprocal(e);
+        bound.add_law(e, memory, initial_volume(g, memory), Cell::table[s]);
+      }
     }
   }
   Pack rate(0.0);
@@ -234,23 +283,26 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   Pack V[Cell::simplices], J[Cell::simplices], p[Cell::simplices];
   find_volumes<Cell>(g, block, constants, x, V, J);
   pressures<Cell>(g, block, V, J, p);
+  Vector<Pack, D> drawn_x[Cell::drawn ? Cell::nodes : 1];
+  if constexpr (Cell::drawn) draw<Cell>(constants, x, drawn_x);
   Pack stored(0.0), cell_V(0.0), cell_V0(0.0);
   const double own = g.pressure == PressureMode::element ? 1 : g.element_share;
   const bool classical = g.solid.law == Law::classical;
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
-    edges_of<Cell>(constants, x, s, e.x);
+    law_edges<Cell>(constants, x, Cell::drawn ? drawn_x : x, s, e.x);
     find_reciprocal(e);
     double* memory = memory_of<Cell>(g, block, s);
-    const Pack V0 = initial_volume(g, memory);
-    stored += V0 * point_energy(g.solid, e, J[s], memory);
+    const Pack V0 = initial_volume(g, memory), law_J = Cell::drawn ? e.volume / V0 : J[s];
+    stored += V0 * point_energy(g.solid, e, law_J, memory);
     if constexpr (Cell::one_point) stored += V0 * Hourglass<Pack, D, Cell::ring>(g.solid, constants, e, x).energy(g.solid, hourglass_of<Cell>(g, block));
-    if (classical) stored += e.volume * p[s] * p[s] * Pack(0.5 / g.solid.K);
+    if (classical) stored += V[s] * p[s] * p[s] * Pack(0.5 / g.solid.K);
     else stored += Pack(0.5 * g.solid.K * own) * V0 * (J[s] - Pack(1.0)) * (J[s] - Pack(1.0));
-    cell_V += e.volume;
+    if (g.guard > 0) stored += Pack(g.guard * g.solid.K) * V0 * guard_energy(J[s]);
+    cell_V += V[s];
     cell_V0 += V0;
     const Vector<Pack, D>* at_rest = nullptr;
-    const PointResponse<Pack, D> point = point_step(g.solid, e, at_rest, J[s], memory, Keep::no);
+    const PointResponse<Pack, D> point = point_step(g.solid, e, at_rest, law_J, memory, Keep::no);
     double* to = stress + (block * Cell::simplices + s) * 6 * kLanes;
     for (int i = 0; i < 6; ++i) {
       Pack component = i < Symmetric<Pack, D>::size ? point.S[i] : Pack(0.0);

@@ -37,8 +37,8 @@ TEST(Plan, BytesAreThoseOfTheArrays) {
   const OneBody run(body_of(generate_blank(strip_of(.1, .01, 16, 2)), aluminium()), 1e-3);
   const std::vector<GroupPlan> groups = run.start()->groups();
   ASSERT_EQ(groups.size(), 1u);
-  // Four blocks of eight cells. Per element: four components of G, the plastic strain, V0.
-  EXPECT_EQ(groups[0].memory_bytes, 128 * 6 * 8);
+  // Four blocks of eight cells. Per element: four components of G, the plastic strain, V0; one set of weights (element/crossed.h).
+  EXPECT_EQ(groups[0].memory_bytes, 128 * 6 * 8 + 16 * kLanes * 8);
   // All cells are one tile: two components at each of 17 x 3 corners and 32 centres.
   EXPECT_EQ(groups[0].force_bytes, (17 * 3 + 32) * 2 * 8);
   EXPECT_EQ(groups[0].index_bytes, (32 * 5 * 2 + 17 * 3 + 32) * 4);

@@ -98,8 +98,8 @@ TEST(Axisymmetric, AToolTellsWhatGoesAlongTheAxis) {
   OneBody run = one_ring(mesh, aluminium(), 40e-6);
   PressureConfig p;
   p.set = "left";
-  p.times = {0};
-  p.values = {50e6};
+  p.times = {0, 10e-6};  // at once, the ledger is open by 1 to 2 %, by the moment at which one looks
+  p.values = {0, 50e6};
   run.plan.bodies[0].pressures.push_back(p);
   ToolModel cylinder;
   cylinder.name = "cylinder";
@@ -114,7 +114,7 @@ TEST(Axisymmetric, AToolTellsWhatGoesAlongTheAxis) {
   EXPECT_GT(pressed, 1e6);
   EXPECT_EQ(sim->tools()[0].force.x(), 0);
   EXPECT_EQ(sim->tools()[0].peak_force.norm(), std::abs(sim->tools()[0].peak_force.y()));
-  EXPECT_LT(sim->balance_error(), 0.01);
+  EXPECT_LT(sim->balance_error(), 0.005);
 }
 
 // The hoop counts: a ring that grows by 1 % all round has this strain on its surface.

@@ -35,7 +35,8 @@ struct CellGroup {
   int cells = 0, blocks = 0;
   int tile = 1, tiles = 0;         ///< blocks of a tile (the last may have fewer); number of tiles
   PressureMode pressure = PressureMode::cell;
-  double element_share = 0;        ///< theta: share of the element's own volume in a cell's pressure
+  double element_share = 0;        ///< share of the element's own volume in a cell's pressure
+  double guard = 0;                ///< theta of element/guard.h, 0 where there is none
   SolidConstants solid;
   int items = 0;                   ///< numbers of memory of a simplex (material/law.h), V0 the last
   double density = 0;              ///< kg/m3, scaled
@@ -43,7 +44,7 @@ struct CellGroup {
 
   const int* nodes = nullptr;      ///< [block][cell node][lane] joined node index
   double* memory = nullptr;        ///< [block][simplex][items][lane]
-  const double* constants = nullptr;  ///< one-point cells: [set][OnePoint::items][lane]; edge points: [block][cell node][weight][lane]
+  const double* constants = nullptr;  ///< one-point cells: [set][OnePoint::items][lane]; crossed triangles: [set][kCrossedItems][lane]; edge points: [block][cell node][weight][lane]
   const int* constant_set = nullptr;  ///< likewise: [block] its set, shared by blocks of the same shape
   double* hourglass = nullptr;        ///< likewise: [block][hourglass_items][lane], memory
   int hourglass_items = 0;

@@ -12,8 +12,10 @@
 //   tangent of the law (point_tangent in material/law.h).
 // * Pressure: one mode per cell, K/V0 grad V grad V^T, whose eigenvalue with the
 //   cell's nodal masses is  omega_vol^2 = K/V0 sum_a |dV/dx_a|^2 / m_a.
-//   With a share theta of the element's own pressure the two add up. With p per element it is the element's own; with p per node the element's
+//   With a share theta of the element's own pressure, and with a guard (element/guard.h), the two add up. With p per element it is the element's own; with p per node the element's
 //   own bounds it (the squares of means do not exceed the means of squares), with what its guard adds (element/guard.h).
+// * Crossed triangles whose law sees drawn strains (element/crossed.h): the larger of the deviatoric parts of the triangles and of those that
+//   the law sees. For one strain a body the first is enough: sum_s V_s F~_s^2 <= sum_s V_s F_s^2.
 // * Where the law is at the edges (element/edge_points.h), the deviatoric part of a simplex is the mean over
 //   its edges of theirs: K = sum_e K_e, K_e <= omega_e^2 M_e, M_e = sum_s M_s/k over the simplices around e.
 //   omega_e^2 = mu/rho max(...) with S = sum_a g_a g_a^T V_e rho/m_ea; of a ring with M of element/ring_step.h.
@@ -109,10 +111,10 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
     const T J = e.volume / V0;
     const T omega2 = at_edges ? *at_edges : T((D + 1) / g_.density * g_.solid.mu) * point_tangent(g_.solid, e, J, memory) * largest;
     const T volumetric = T((D + 1) * g_.solid.K / g_.density) * J * J * sum_of_squares;
-    const T guard = g_.pressure == PressureMode::node ? T(kGuard) * guard_slope(J) : T(0);  // over K
+    const T guard = T(g_.guard) * guard_slope(J);  // over K
     deviatoric_ = larger(deviatoric_, omega2);
     element_ = larger(element_, omega2 + volumetric * (T(1) + guard));
-    own_ = larger(own_, volumetric);
+    own_ = larger(own_, volumetric * (T(g_.element_share) + guard));
     V_ += e.volume;
     V0_ += V0;
     extent_ += extent(e);
@@ -121,6 +123,11 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
       gradient_[corner[a]] += e.volume * g[a];
       mass_[corner[a]] += share;
     }
+  }
+
+  /// Where the law sees other edges than the volume (element/crossed.h): the deviatoric part of those.
+  template <class Corners> void add_law(const Edges<T, D, Ring>& e, const double* memory, const T& V0, const Corners& corner) {
+    deviatoric_ = larger(deviatoric_, deviatoric(e, memory, V0, corner));
   }
 
   /// rate: |dV/dt|/V, for the quadratic viscosity.
@@ -135,12 +142,29 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
     // The classical pressure follows the rate of the current volume, not V/V0.
     const T cell_volumetric = T(g_.solid.K) / (g_.solid.law == Law::classical ? V_ : V0_) * sum;
     const bool per_cell = g_.pressure == PressureMode::cell;
-    const double theta = per_cell ? g_.element_share : 0;
-    const T omega2 = per_cell ? deviatoric_ + T(1 - theta) * cell_volumetric + T(theta) * own_ : element_;
+    const T omega2 = per_cell ? deviatoric_ + T(1 - g_.element_share) * cell_volumetric + own_ : element_;
     return {omega2, viscous_damping<T, D>(g_, sum, V_, extent_, rate)};
   }
 
  private:
+  template <class Corners> T deviatoric(const Edges<T, D, Ring>& e, const double* memory, const T& V0, const Corners& corner) const {
+    Vector<T, D> g[D + 1];
+    g[0] = T(-1.0) * e.up[0];
+    for (int m = 0; m < D; ++m) {
+      g[m + 1] = e.up[m];
+      if (m > 0) g[0] += T(-1.0) * e.up[m];
+    }
+    T largest, unused;
+    if constexpr (Ring) {
+      RingShapes<T> ring;
+      ring.hoop = T(1.0 / 3) * e.up[2][0];
+      for (int a = 0; a < 3; ++a) ring.g[a] = g[a], ring.inertia[a] = inertia_[corner[a]];
+      largest = ring.deviatoric();
+    } else {
+      largest = deviatoric_bound(g, unused);
+    }
+    return T((D + 1) / g_.density * g_.solid.mu) * point_tangent(g_.solid, e, e.volume / V0, memory) * largest;
+  }
   static T deviatoric_bound(const Vector<T, D>* g, T& I1) {
     Symmetric<T, D> S;
     for (int i = 0; i < Symmetric<T, D>::size; ++i) S[i] = T(0.0);
