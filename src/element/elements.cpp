@@ -223,16 +223,29 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   if (options.shares) keep_shares(x);
 }
 
-/// A thread gets 512 packs or more: below that, waiting for each other costs more.
-long Elements::blocks_of_a_thread(const Group& g) { return 512 / g.cell_simplices; }
-long Elements::tiles_of_a_thread(const Group& g) { return std::max(1L, blocks_of_a_thread(g) / g.tile); }
+/// A thread gets 400 packs or more: below that, waiting for each other costs more.
+constexpr long kPacksOfAThread = 400;
+long Elements::packs_of_a_block(const Group& g) const {
+  return g.at_edges ? std::max(1, g.cell_nodes / (dimension_ + 1)) : g.cell_simplices;  // a point at an edge costs what its nodes do
+}
+long Elements::blocks_of_a_thread(const Group& g) const { return kPacksOfAThread / packs_of_a_block(g); }
+long Elements::tiles_of_a_thread(const Group& g) const { return std::max(1L, blocks_of_a_thread(g) / g.tile); }
 
-/// Calls work(group, tile) for all tiles, shared by the team.
-template <class Work> void Elements::over_tiles(Work&& work) const {
+/// Calls work(group, tile) for all tiles of the groups of which that is asked, shared by the team: small groups that lie side by
+/// side are shared like a large one. A tile belongs to the thread in whose share its first pack lies.
+template <class Asked, class Work> void Elements::over_tiles(Asked&& asked, Work&& work) const {
+  long packs = 0;
   for (const Group& g : groups_)
-    team_->share(g.tiles, tiles_of_a_thread(g), [&](long begin, long end) {
-      for (long t = begin; t < end; ++t) work(g, t);
-    });
+    if (asked(g)) packs += g.blocks * packs_of_a_block(g);
+  team_->share(packs, kPacksOfAThread, [&](long first, long last) {
+    long begin = 0;
+    for (const Group& g : groups_) {
+      if (!asked(g)) continue;
+      const long of_tile = g.tile * packs_of_a_block(g);
+      for (long t = std::max(0L, (first - begin + of_tile - 1) / of_tile); t < g.tiles && begin + t * of_tile < last; ++t) work(g, t);
+      begin += g.blocks * packs_of_a_block(g);
+    }
+  });
 }
 
 void Elements::clear_slots(const Group& g, long t) const {
@@ -240,8 +253,7 @@ void Elements::clear_slots(const Group& g, long t) const {
 }
 
 void Elements::nodal_pressure(const NodalView& view) const {
-  over_tiles([&](const Group& g, long t) {
-    if (!g.nodal()) return;
+  over_tiles([](const Group& g) { return g.nodal(); }, [&](const Group& g, long t) {
     clear_slots(g, t);
     kernels_.nodal.volumes(g, view, g.first_block(t), g.last_block(t));
   });
@@ -289,7 +301,9 @@ void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, do
     for (Group& g : groups_) forces_of_moved(g, view);
   } else {
     for (Group& g : groups_) g.rest.clear();
-    over_tiles([&](const Group& g, long t) { forces_of_tile(g, g, view, t); });
+    const auto find = [&](const Group& g, long t) { forces_of_tile(g, g, view, t); };
+    if (any_nodal_) over_tiles([](const Group& g) { return g.nodal(); }, find);  // which cost less than the others
+    over_tiles([](const Group& g) { return !g.nodal(); }, find);
   }
   for (const Group& g : groups_)
     if (!std::all_of(g.upright, g.upright + g.blocks, [](bool upright) { return upright; })) report_inversion(x);

@@ -126,9 +126,10 @@ class Elements {
   void sum_slots(NodeField& f) const;
   /// Those of the tiles whose nodes moved, or whose memory the last evaluation changed.
   void forces_of_moved(Group& g, const NodalView& view);
-  static long blocks_of_a_thread(const Group& group);
-  static long tiles_of_a_thread(const Group& group);
-  template <class Work> void over_tiles(Work&& work) const;
+  long packs_of_a_block(const Group& group) const;
+  long blocks_of_a_thread(const Group& group) const;
+  long tiles_of_a_thread(const Group& group) const;
+  template <class Asked, class Work> void over_tiles(Asked&& asked, Work&& work) const;
 
   const Isa isa_;
   const Kernels& kernels_;
