@@ -31,18 +31,15 @@ class Phase {
   Phase(const PairConstants& constants, const Layers* layers, bool all, const Range& range, Narrow& result)
       : constants_(constants), layers_(layers), f_(constants.features), work_(constants.work), layer_(constants.layer), all_(all), range_(range), awake_((range.travel + range.reach) * (1 + 1e-12)), out_(result), finished_(result.pairs.size()) {}
 
-  /// Looks at the facets that are awake of the groups first ... last - 1; sets when they need be looked at again.
+  /// Looks at the facets that are awake of the groups first ... last - 1; of those out of reach it sets when they need be looked
+  /// at again: the others will be awake in the next step too, and what is not written costs less.
   void vertices(NearList& list, long first, long last) {
     for (long i = first; i < last; ++i) {
       NearList::VertexGroup& g = list.groups[i];
       if (g.wake > awake_) continue;
       if (candidates_.size() >= kFacetsAtOnce) meet_facets(list);
-      g.wake = std::numeric_limits<double>::infinity();
       for (int e = g.first; e < g.last; ++e)
-        if (list.facets[e].wake <= awake_)
-          candidates_.push_back({static_cast<int>(i), e});
-        else
-          g.wake = std::min(g.wake, list.facets[e].wake);
+        if (list.facets[e].wake <= awake_) candidates_.push_back({static_cast<int>(i), e});
     }
     meet_facets(list);
     finish_vertex();
@@ -113,13 +110,18 @@ class Phase {
         NearList::FacetEntry& e = list.facets[candidates_[i].entry];
         const Closest c = closest(g, e, i);
         const double distance = std::sqrt(c.squared);
-        e.wake = range_.travel + distance;
-        g.wake = std::min(g.wake, e.wake);
-        if (distance > range_.reach) continue;
+        if (distance > range_.reach) {
+          e.wake = range_.travel + distance;
+          continue;
+        }
         hits_.push_back({c, candidates_[i].entry, feature_of(c, e.facet), false});
         watch_touch(candidates_[i].entry, group, distance);
       }
-      if (hits_.empty()) continue;
+      if (hits_.empty()) {
+        g.wake = std::numeric_limits<double>::infinity();
+        for (int e = g.first; e < g.last; ++e) g.wake = std::min(g.wake, list.facets[e].wake);
+        continue;
+      }
       if (g.vertex != vertex_) finish_vertex();
       vertex_ = g.vertex;
       choose(list, g);
@@ -156,7 +158,8 @@ class Phase {
     for (int i = 0; i < count; ++i) {
       const EdgePack& pack = packs[i / kLanes];
       const int l = i % kLanes;
-      list.watched[awake[i]].wake = range_.travel + (pack.inside[l] != 0 ? cross(list, awake[i], pack, l) : pass(list, awake[i]));
+      const double distance = pack.inside[l] != 0 ? cross(list, awake[i], pack, l) : pass(list, awake[i]);
+      if (distance > range_.reach) list.watched[awake[i]].wake = range_.travel + distance;
     }
   }
 
