@@ -88,29 +88,10 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
   /// at_edges: where the law is at the edges the deviatoric part of omega^2, for which no memory is read; null elsewhere.
   template <class Corners>
   void add(const Edges<T, D, Ring>& e, const double* memory, const T* at_edges, const T& V0, const Corners& corner) {
-    Vector<T, D> g[D + 1];
-    g[0] = T(-1.0) * e.up[0];
-    for (int m = 0; m < D; ++m) {
-      g[m + 1] = e.up[m];
-      if (m > 0) g[0] += T(-1.0) * e.up[m];
-    }
-    T largest, sum_of_squares;
-    if constexpr (Ring) {
-      RingShapes<T> ring;
-      ring.hoop = T(1.0 / 3) * e.up[2][0];
-      for (int a = 0; a < 3; ++a) {
-        ring.g[a] = g[a];
-        ring.inertia[a] = inertia_[corner[a]];
-        g[a][0] += ring.hoop;  // from here on dV/dx_a / V
-      }
-      largest = ring.deviatoric();
-      sum_of_squares = ring.volumetric();
-    } else {
-      largest = deviatoric_bound(g, sum_of_squares);
-    }
+    const Shapes shapes = shapes_of(e, corner);
     const T J = e.volume / V0;
-    const T omega2 = at_edges ? *at_edges : T((D + 1) / g_.density * g_.solid.mu) * point_tangent(g_.solid, e, J, memory) * largest;
-    const T volumetric = T((D + 1) * g_.solid.K / g_.density) * J * J * sum_of_squares;
+    const T omega2 = at_edges ? *at_edges : deviatoric(e, J, memory, shapes);
+    const T volumetric = T((D + 1) * g_.solid.K / g_.density) * J * J * shapes.volumetric;
     const T guard = T(g_.guard) * guard_slope(J);  // over K
     deviatoric_ = larger(deviatoric_, omega2);
     element_ = larger(element_, omega2 + volumetric * (T(1) + guard));
@@ -120,14 +101,14 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
     extent_ += extent(e);
     const T share = V0 * T(g_.density / (D + 1));
     for (int a = 0; a <= D; ++a) {
-      gradient_[corner[a]] += e.volume * g[a];
+      gradient_[corner[a]] += e.volume * shapes.g[a];
       mass_[corner[a]] += share;
     }
   }
 
   /// Where the law sees other edges than the volume (element/crossed.h): the deviatoric part of those.
   template <class Corners> void add_law(const Edges<T, D, Ring>& e, const double* memory, const T& V0, const Corners& corner) {
-    deviatoric_ = larger(deviatoric_, deviatoric(e, memory, V0, corner));
+    deviatoric_ = larger(deviatoric_, deviatoric(e, e.volume / V0, memory, shapes_of(e, corner)));
   }
 
   /// rate: |dV/dt|/V, for the quadratic viscosity.
@@ -147,23 +128,35 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
   }
 
  private:
-  template <class Corners> T deviatoric(const Edges<T, D, Ring>& e, const double* memory, const T& V0, const Corners& corner) const {
-    Vector<T, D> g[D + 1];
-    g[0] = T(-1.0) * e.up[0];
+  /// What the gradients of a simplex make of omega^2.
+  struct Shapes {
+    Vector<T, D> g[D + 1];  ///< dV/dx_a / V of its corners
+    T deviatoric, volumetric;
+  };
+  template <class Corners> Shapes shapes_of(const Edges<T, D, Ring>& e, const Corners& corner) const {
+    Shapes s;
+    s.g[0] = T(-1.0) * e.up[0];
     for (int m = 0; m < D; ++m) {
-      g[m + 1] = e.up[m];
-      if (m > 0) g[0] += T(-1.0) * e.up[m];
+      s.g[m + 1] = e.up[m];
+      if (m > 0) s.g[0] += T(-1.0) * e.up[m];
     }
-    T largest, unused;
     if constexpr (Ring) {
       RingShapes<T> ring;
       ring.hoop = T(1.0 / 3) * e.up[2][0];
-      for (int a = 0; a < 3; ++a) ring.g[a] = g[a], ring.inertia[a] = inertia_[corner[a]];
-      largest = ring.deviatoric();
+      for (int a = 0; a < 3; ++a) {
+        ring.g[a] = s.g[a];
+        ring.inertia[a] = inertia_[corner[a]];
+        s.g[a][0] += ring.hoop;
+      }
+      s.deviatoric = ring.deviatoric();
+      s.volumetric = ring.volumetric();
     } else {
-      largest = deviatoric_bound(g, unused);
+      s.deviatoric = deviatoric_bound(s.g, s.volumetric);
     }
-    return T((D + 1) / g_.density * g_.solid.mu) * point_tangent(g_.solid, e, e.volume / V0, memory) * largest;
+    return s;
+  }
+  T deviatoric(const Edges<T, D, Ring>& e, const T& J, const double* memory, const Shapes& shapes) const {
+    return T((D + 1) / g_.density * g_.solid.mu) * point_tangent(g_.solid, e, J, memory) * shapes.deviatoric;
   }
   static T deviatoric_bound(const Vector<T, D>* g, T& I1) {
     Symmetric<T, D> S;
