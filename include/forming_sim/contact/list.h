@@ -25,7 +25,7 @@ struct NearList {
     int near_first, near_last; ///< of `neighbours`
     double wake;               ///< the least of its facets
   };
-  struct alignas(64) EdgePair {  ///< each in one line of the cache
+  struct EdgePair {
     int first, second;         ///< edges
     int own, surface;          ///< theirs
     int node[4];
