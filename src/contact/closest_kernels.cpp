@@ -21,11 +21,9 @@ inline Place places_of(const double* places, const int (&node)[kLanes]) {
 inline void face(const double* places, FacePack& p) {
   const Place a = places_of(places, p.corner[0]);
   const OverFace<Pack> f = over_face<Pack>(places_of(places, p.point) - a, places_of(places, p.corner[1]) - a, places_of(places, p.corner[2]) - a);
-  (Pack(1.0) - f.beta - f.gamma).store(p.weight[0]);
-  f.beta.store(p.weight[1]);
-  f.gamma.store(p.weight[2]);
+  f.beta.store(p.beta);
+  f.gamma.store(p.gamma);
   for (int k = 0; k < 3; ++k) f.apart[k].store(p.apart[k]);
-  dot(f.apart, f.apart).store(p.squared);
   select(f.inside, Pack(1.0), Pack(0.0)).store(p.inside);
 }
 

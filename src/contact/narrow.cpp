@@ -135,12 +135,7 @@ class Phase {
     const FacePack& pack = faces_[candidate / kLanes];
     const long l = candidate % kLanes;
     if (pack.inside[l] == 0) return closest_on_triangle_border(p, work_.x[e.node[0]], work_.x[e.node[1]], work_.x[e.node[2]]);
-    Closest c;
-    c.feature = Closest::face;
-    for (int k = 0; k < 3; ++k) c.weight[k] = pack.weight[k][l];
-    c.apart = Node(pack.apart[0][l], pack.apart[1][l], pack.apart[2][l], 0);
-    c.squared = pack.squared[l];
-    return c;
+    return closest_in_face(pack.beta[l], pack.gamma[l], Node(pack.apart[0][l], pack.apart[1][l], pack.apart[2][l], 0));
   }
 
   void meet_edges(NearList& list, const int* awake, int count) {

@@ -46,7 +46,7 @@ Closest closest_on_facet(const Features& f, const Node& p, const Node* const cor
 // The frame that goes with the second feature of a tie: of a facet, or of an edge and the direction of the one across it.
 // place(k): of the k-th node.
 template <class Place> Mat3 frame_of(const Tie& tie, Place&& place) {
-  const bool edges = tie.node[3] >= 0 && tie.weight[1] > 0;
+  const bool edges = tie.weight[1] > 0;  // the second node is of the first feature too
   const Vec3 along = vec3(edges ? Node(place(3) - place(2)) : Node(place(2) - place(1))).normalized();
   Vec3 normal = Vec3::UnitZ();
   if (tie.nodes == 4) normal = along.cross(vec3(edges ? Node(place(1) - place(0)) : Node(place(3) - place(1)))).normalized();
@@ -66,6 +66,16 @@ Tie tie_to_facet(const Features& f, int vertex, int facet, const Closest& closes
     tie.weight[1 + k] = -closest.weight[k];
   }
   tie.nodes = 1 + f.corners();
+  return tie;
+}
+
+Tie tie_edges(const int* p, const int* q, const ClosestEdges& closest) {
+  Tie tie;
+  const double weight[4] = {1 - closest.s, closest.s, closest.t - 1, -closest.t};
+  std::copy(weight, weight + 4, tie.weight);
+  std::copy(p, p + 2, tie.node);
+  std::copy(q, q + 2, tie.node + 2);
+  tie.nodes = 4;
   return tie;
 }
 
@@ -120,7 +130,7 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
   for (const TiedPair& pair : pairs) {
     std::vector<bool> zone(f.vertex_count, false), tied(f.vertex_count, false);
     const std::size_t before = ties.size();
-    std::vector<std::pair<Tie, int>> of_second;  // and the facet
+    std::vector<Tie> of_second, rim;
     for (const auto& g : list.groups) {
       const int own = f.vertex_surface[g.vertex];
       if (!(own == pair.first && g.surface == pair.second) && !(own == pair.second && g.surface == pair.first)) continue;
@@ -138,7 +148,7 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
       zone[g.vertex] = true;
       for (int k = 0; k < f.corners(); ++k) zone[f.facets[facet][k]] = true;
       if (own == pair.second) {
-        of_second.push_back({tie_to_facet(f, g.vertex, facet, nearest), facet});
+        of_second.push_back(tie_to_facet(f, g.vertex, facet, nearest));
         continue;
       }
       tied[g.vertex] = true;
@@ -152,27 +162,20 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
     }
     if (ties.size() == before) refuse(setup, f, pair);
     // The rim: a facet of the first that reaches out of what is tied would turn into the second about its tied vertices.
-    for (const auto& [tie, facet] : of_second) {
-      const auto& c = f.facets[facet];
-      if (tied[c[0]] && tied[c[1]] && tied[c[f.corners() - 1]]) continue;
-      ties.push_back(tie);
-      if (pair.second >= f.bodies) ties.back().tool = pair.second - f.bodies;
-    }
+    for (const Tie& tie : of_second)
+      if (!std::all_of(tie.node + 1, tie.node + tie.nodes, [&](int v) { return tied[v]; })) rim.push_back(tie);
     for (const auto& e : list.edges) {
-      const bool own = f.edges[e.first].surface == pair.first && f.edges[e.second].surface == pair.second;
-      if (!own && !(f.edges[e.first].surface == pair.second && f.edges[e.second].surface == pair.first)) continue;
+      const bool own = e.own == pair.first && e.surface == pair.second;
+      if (!own && !(e.own == pair.second && e.surface == pair.first)) continue;
       const int* const p = f.edges[own ? e.first : e.second].node;
       const int* const q = f.edges[own ? e.second : e.first].node;
       if (tied[p[0]] == tied[p[1]]) continue;
       const ClosestEdges c = closest_on_edges(at(p[0]), at(p[1]), at(q[0]), at(q[1]));
       if (!c.crossing || c.squared > pair.distance * pair.distance) continue;
-      Tie tie;
-      const double weight[4] = {1 - c.s, c.s, c.t - 1, -c.t};
-      const int node[4] = {p[0], p[1], q[0], q[1]};
-      std::copy(weight, weight + 4, tie.weight);
-      std::copy(node, node + 4, tie.node);
-      tie.nodes = 4;
       zone[q[0]] = zone[q[1]] = true;
+      rim.push_back(tie_edges(p, q, c));
+    }
+    for (Tie& tie : rim) {
       if (pair.second >= f.bodies) tie.tool = pair.second - f.bodies;
       ties.push_back(tie);
     }

@@ -12,17 +12,10 @@ namespace forming_sim {
 namespace FORMING_SIM_ISA {
 namespace {
 
-/// The ways of the edges of simplex s in the last step; in: velocities of the cell's nodes.
+/// The ways in the last step of the edges of simplex s that the law sees; v: velocities of the nodes; drawn: what draw() makes of them, or v for the edges themselves.
 template <class Cell>
-void moved_edges(const NodalView& view, const double* constants, const Vector<Pack, kD<Cell>>* v, int s, Vector<Pack, kD<Cell>>* w) {
-  edges_of<Cell>(constants, v, s, w);
-  for (int m = 0; m < kE<Cell>; ++m) w[m] = Pack(view.last_dt) * w[m];
-}
-
-/// Likewise of the edges that the law sees; drawn: of v.
-template <class Cell>
-void moved_law_edges(const NodalView& view, const double* constants, const Vector<Pack, kD<Cell>>* v, const Vector<Pack, kD<Cell>>* drawn, int s,
-                     Vector<Pack, kD<Cell>>* w) {
+void moved_edges(const NodalView& view, const double* constants, const Vector<Pack, kD<Cell>>* v, const Vector<Pack, kD<Cell>>* drawn, int s,
+                 Vector<Pack, kD<Cell>>* w) {
   law_edges<Cell>(constants, v, drawn, s, w);
   for (int m = 0; m < kE<Cell>; ++m) w[m] = Pack(view.last_dt) * w[m];
 }
@@ -40,7 +33,7 @@ void classical_pressures(const CellGroup& g, const NodalView& view, long block, 
     edges_of<Cell>(constants, x, s, e.x);
     find_reciprocal(e);
     Vector<Pack, D> w[kE<Cell>];
-    moved_edges<Cell>(view, constants, v, s, w);
+    moved_edges<Cell>(view, constants, v, v, s, w);
     rate[s] = CellIncrement<Cell>(e, w).divergence();
     sum_V += e.volume;
     sum_rate += e.volume * rate[s];
@@ -159,10 +152,7 @@ template <class Cell, Made made>
       const Pack V0 = initial_volume(g, memory[i]);
       PointResponse<Pack, D> point;
       Vector<Pack, D> w[kE<Cell>], force[D];
-      if (classical) {
-        if constexpr (Cell::drawn) moved_law_edges<Cell>(view, constants, v, law_v, s, w);
-        else moved_edges<Cell>(view, constants, v, s, w);
-      }
+      if (classical) moved_edges<Cell>(view, constants, v, law_v, s, w);
       if constexpr (Cell::one_point) {
         Hourglass<Pack, D, Cell::ring> hourglass(g.solid, constants, e, x);
         point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J[s], memory[i], hourglass, hourglass_of<Cell>(g, block));

@@ -98,10 +98,11 @@ TEST(ContactClosest, FacesInLanesAreThoseOneByOne) {
         ASSERT_EQ(pack.inside[l] == 1, c.feature == Closest::face) << "lane " << l << " of turn " << turn;
         if (pack.inside[l] == 0) continue;
         ++inside;
-        EXPECT_NEAR(pack.squared[l], c.squared, 1e-12);
+        const Closest found = closest_in_face(pack.beta[l], pack.gamma[l], Node(pack.apart[0][l], pack.apart[1][l], pack.apart[2][l], 0));
+        EXPECT_NEAR(found.squared, c.squared, 1e-12);
         for (int k = 0; k < 3; ++k) {
-          EXPECT_NEAR(pack.weight[k][l], c.weight[k], 1e-12);
-          EXPECT_NEAR(pack.apart[k][l], c.apart[k], 1e-12);
+          EXPECT_NEAR(found.weight[k], c.weight[k], 1e-12);
+          EXPECT_NEAR(found.apart[k], c.apart[k], 1e-12);
         }
       }
     }

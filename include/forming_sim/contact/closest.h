@@ -56,17 +56,22 @@ inline Closest closest_on_segment_facet(const Node& p, const Node& a, const Node
 /// below 1e-6) is its three edges.
 Closest closest_on_triangle_border(const Node& p, const Node& a, const Node& b, const Node& c);
 
+/// Inside the triangle, as OverFace has it.
+inline Closest closest_in_face(double beta, double gamma, const Node& apart) {
+  Closest f;
+  f.feature = Closest::face;
+  f.weight[1] = beta;
+  f.weight[2] = gamma;
+  f.weight[0] = 1 - beta - gamma;
+  f.apart = apart;
+  f.squared = dot3(apart, apart);
+  return f;
+}
+
 inline Closest closest_on_triangle(const Node& p, const Node& a, const Node& b, const Node& c) {
   const OverFace<double> over = over_face(between(a, p), between(a, b), between(a, c));
   if (!over.inside) return closest_on_triangle_border(p, a, b, c);
-  Closest f;
-  f.feature = Closest::face;
-  f.weight[1] = over.beta;
-  f.weight[2] = over.gamma;
-  f.weight[0] = 1 - over.beta - over.gamma;
-  f.apart = Node(over.apart[0], over.apart[1], over.apart[2], 0);
-  f.squared = dot3(f.apart, f.apart);
-  return f;
+  return closest_in_face(over.beta, over.gamma, Node(over.apart[0], over.apart[1], over.apart[2], 0));
 }
 
 /// Closest points a0 + s (a1 - a0) and b0 + t (b1 - b0) of two segments.

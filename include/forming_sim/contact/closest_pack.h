@@ -9,8 +9,8 @@ namespace forming_sim {
 /// Points and triangles.
 struct alignas(64) FacePack {
   int point[kLanes], corner[3][kLanes];         ///< nodes
-  double weight[3][kLanes];                     ///< found: of the corners
-  double apart[3][kLanes], squared[kLanes];     ///< found: from the foot to the point, m; its length squared
+  double beta[kLanes], gamma[kLanes];           ///< found: weights of the second and third corner
+  double apart[3][kLanes];                      ///< found: from the foot to the point, m
   double inside[kLanes];                        ///< found: 1 where the foot is inside the triangle; else the rest means nothing
 };
 
