@@ -4,6 +4,7 @@
 #include "forming_sim/element/cell_group.h"
 #include "forming_sim/element/cell_types.h"
 #include "forming_sim/element/crossed.h"
+#include "forming_sim/element/guard.h"
 #include "forming_sim/element/one_point.h"
 #include "forming_sim/material/classical.h"
 #include "forming_sim/material/law.h"
@@ -86,26 +87,42 @@ void edges_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s, V
   }
 }
 
-/// Ways from the apex as the law sees them: y_c = sum_b W_cb x_b (element/crossed.h).
+/// Up to which |J - 1| there is no guard of simplex s (element/guard.h).
+template <class Cell> Pack free_of_guard(const double* constants, int s) {
+  if constexpr (Cell::drawn)
+    if (constants) return Pack(kFreeOfGuard) + Pack(kFreeOfGuardLong) * weight(constants, kCrossedFreed + s);
+  return Pack(kFreeOfGuard);
+}
+
+/// What the law sees of a cell that is drawn (element/crossed.h): y_c of the corners, and last -lambda sum_b w_b x_b.
+template <class Cell> constexpr int kDrawn = Cell::drawn ? Cell::nodes : 1;
 template <class Cell> void draw(const double* constants, const Vector<Pack, kD<Cell>>* x, Vector<Pack, kD<Cell>>* y) {
   static_assert(kApex<Cell> == 4);
-  for (int c = 0; c < 4; ++c) {
-    y[c] = weight(constants, c * 4) * x[0];
-    for (int b = 1; b < 4; ++b) y[c] += weight(constants, c * 4 + b) * x[b];
-  }
-  y[4] = x[4];
+  const auto item = [&](int i) { return weight(constants, i); };
+  for (int c = 0; c < 4; ++c) y[c] = crossed_mix(item, c * 4, x);
+  y[4] = crossed_mix(item, kCrossedApex, x);
 }
-/// The forces on the y_c are handed back to the corners.
-template <class Cell> void hand_back(const double* constants, const Vector<Pack, kD<Cell>>* on_drawn, Vector<Pack, kD<Cell>>* f) {
-  for (int b = 0; b < 4; ++b)
-    for (int c = 0; c < 4; ++c) f[b] += weight(constants, c * 4 + b) * on_drawn[c];
-}
-/// Edges of simplex s for the law; drawn: what draw() gives, or x where the cell is not drawn. The hoop of a ring is that of x.
+/// Edges of simplex s for the law; the hoop of a ring is that of x.
 template <class Cell>
 void law_edges(const double* constants, const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* drawn, int s, Vector<Pack, kD<Cell>>* edge) {
-  edges_of<Cell>(constants, drawn, s, edge);
-  if constexpr (Cell::drawn && Cell::ring)
-    edge[2][0] = x[kApex<Cell>][0] + Pack(1.0 / 3) * (x[Cell::table[s][1]][0] + x[Cell::table[s][2]][0]);
+  edges_of<Cell>(constants, x, s, edge);
+  if constexpr (Cell::drawn)
+    for (int m = 0; m < 2; ++m) {
+      edge[m] = drawn[Cell::table[s][m + 1]];
+      edge[m] += weight(constants, kCrossedFreed + s) * drawn[4];
+    }
+}
+/// Adds the forces on these edges to those on what draw() gives.
+template <class Cell> void add_law_forces(const double* constants, const Vector<Pack, kD<Cell>>* on_edges, int s, Vector<Pack, kD<Cell>>* on_drawn) {
+  for (int m = 0; m < 2; ++m) {
+    on_drawn[Cell::table[s][m + 1]] += on_edges[m];
+    on_drawn[4] += weight(constants, kCrossedFreed + s) * on_edges[m];
+  }
+}
+/// And hands them back to the corners.
+template <class Cell> void hand_back(const double* constants, const Vector<Pack, kD<Cell>>* on_drawn, Vector<Pack, kD<Cell>>* f) {
+  for (int b = 0; b < 4; ++b)
+    for (int c = 0; c <= 4; ++c) f[b] += weight(constants, c * 4 + b) * on_drawn[c];
 }
 
 /// Hands the forces on the edges of a one-point cell to its nodes, through the weights by which they make the edges.

@@ -8,19 +8,49 @@
 
 namespace forming_sim {
 
-double crossed_lambda(const SolidConstants& solid, const Vec3* corners, bool ring) {
-  const double nu = (3 * solid.K - 2 * solid.mu) / (2 * (3 * solid.K + solid.mu));
-  const double lambda = std::min(1.0, std::sqrt(7 / (12 * (1 - nu))));
-  if (!ring) return lambda;
+namespace {
+
+/// Half the ways between the middles of opposite sides; the first along the sides of triangles 0 and 2, the second along those of 1 and 3.
+struct Medians {
+  Vec3 a, b;
+  explicit Medians(const Vec3* X) : a((X[1] - X[0] + X[2] - X[3]) / 4), b((X[3] - X[0] + X[2] - X[1]) / 4) {}
+};
+
+/// 1 - q^2: 1 far from the axis, 0 at it.
+double away_from_axis(const Vec3* corners, bool ring) {
+  if (!ring) return 1;
   double least = corners[0][0], most = least;
   for (int a = 1; a < 4; ++a) least = std::min(least, corners[a][0]), most = std::max(most, corners[a][0]);
   const double q = (most - least) / (most + least);
-  return 1 - (1 - lambda) * (1 - q * q);
+  return 1 - q * q;
 }
 
-std::vector<double> crossed_weights(const Vec3* corners, bool ring, double lambda) {
+}  // namespace
+
+double crossed_lambda(const SolidConstants& solid, const Vec3* corners, bool ring) {
+  const double nu = (3 * solid.K - 2 * solid.mu) / (2 * (3 * solid.K + solid.mu));
+  const Medians m(corners);
+  const double sine = m.a.cross(m.b).norm() / (m.a.norm() * m.b.norm());
+  const double lambda = std::min(1.0, std::sqrt(7 / (12 * (1 - nu)))) * sine;
+  return 1 - (1 - lambda) * away_from_axis(corners, ring);
+}
+
+namespace {
+
+/// tau of the triangles at edges r times as long as the others.
+double freed(double r) {
+  if (r <= 1) return 1;
+  const double q = 1 / (r * r);
+  return 10.0 / 7 * q / (1 + std::sqrt(1 + 20.0 / 7 * (1 - 9.0 / 7 * q)));
+}
+
+}  // namespace
+
+std::array<double, kCrossedItems> crossed_weights(const Vec3* corners, bool ring, double lambda, bool by_shape) {
   const Vec3& apex = corners[kCrossed[0][0]];
   Eigen::Matrix2d up[4];
+  Eigen::Matrix<double, 3, 4> affine;  // 1 and X_b
+  Eigen::Matrix<double, 2, 4> shift;   // V_s g_s: how sum_s V_s F_s changes with the apex
   double V[4], sum = 0;
   for (int s = 0; s < 4; ++s) {
     Eigen::Matrix2d edges;
@@ -29,15 +59,28 @@ std::vector<double> crossed_weights(const Vec3* corners, bool ring, double lambd
     V[s] = edges.determinant();
     if (ring) V[s] *= corners[kCrossed[s][0]][0] + corners[kCrossed[s][1]][0] + corners[kCrossed[s][2]][0];
     sum += V[s];
+    shift.col(s) = -V[s] * (up[s].row(0) + up[s].row(1)).transpose();
+    affine.col(s) << 1, edges.col(0);
   }
-  std::vector<double> W(kCrossedItems, 0.0);
+  std::array<double, kCrossedItems> items{};
   for (int c = 0; c < 4; ++c) {
-    W[c * 4 + c] = lambda;
+    items[c * 4 + c] = lambda;
     for (int s = 0; s < 4; ++s)
       for (int m = 0; m < 2; ++m)
-        W[c * 4 + kCrossed[s][m + 1]] += (1 - lambda) * V[s] / sum * up[s].row(m).dot((corners[c] - apex).head<2>());
+        items[c * 4 + kCrossed[s][m + 1]] += (1 - lambda) * V[s] / sum * up[s].row(m).dot((corners[c] - apex).head<2>());
   }
-  return W;
+  if (!by_shape) return items;
+  const Eigen::Vector4d w = affine.transpose() * (affine * affine.transpose()).inverse().col(0);
+  const Medians m(corners);
+  const double r = m.a.norm() / m.b.norm(), far = away_from_axis(corners, ring);
+  Eigen::Vector4d beta;
+  for (int s = 0; s < 4; ++s) beta[s] = (1 - freed(s % 2 == 0 ? r : 1 / r)) * far;
+  beta -= shift.transpose() * (shift * shift.transpose()).inverse() * (shift * beta);
+  for (int b = 0; b < 4; ++b) {
+    items[kCrossedApex + b] = -lambda * w[b];
+    items[kCrossedFreed + b] = beta[b];
+  }
+  return items;
 }
 
 }  // namespace forming_sim

@@ -164,9 +164,9 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
           if (crossed) {
             Vec3 corners[5];
             for (int a = 0; a < 5; ++a) corners[a] = vec3(x[of_cell[a] + body.first_node]);
-            const double lambda = g.pressure == PressureMode::cell ? crossed_lambda(g.solid, corners, g.ring) : 1;
-            const std::vector<double> W = crossed_weights(corners, g.ring, lambda);
-            for (int i = 0; i < kCrossedItems; ++i) constants[i][l] = W[i];
+            const bool by_cell = g.pressure == PressureMode::cell;
+            const auto items = crossed_weights(corners, g.ring, by_cell ? crossed_lambda(g.solid, corners, g.ring) : 1, by_cell);
+            for (int i = 0; i < kCrossedItems; ++i) constants[i][l] = items[i];
           }
           for (int s = 0; s < shape.points; ++s) {
             const int element = g.first_element + cell * shape.simplices + s;
@@ -340,12 +340,10 @@ double Elements::volume_ratio(const NodeField& x, int element) const {
     const double own = shape.volume / V0;
     if (g.constants_storage.empty()) return own;
     const auto node = [&](int a) { return vec3(x[g.node_storage[(static_cast<std::size_t>(block) * g.cell_nodes + a) * kLanes + l]]); };
-    Vec3 y[2];  // the edges of the law, the hoop of a ring its own
-    for (int m = 0; m < 2; ++m) {
-      const int c = kCrossed[point][m + 1];
-      y[m] = Vec3::Zero();
-      for (int b = 0; b < 4; ++b) y[m] += g.constants_storage[static_cast<std::size_t>(g.constant_sets[block]) * kCrossedItems + c * 4 + b][l] * (node(b) - node(4));
-    }
+    const auto item = [&](int i) { return g.constants_storage[static_cast<std::size_t>(g.constant_sets[block]) * kCrossedItems + i][l]; };
+    Vec3 way[4], y[2];  // the edges of the law, the hoop of a ring its own
+    for (int b = 0; b < 4; ++b) way[b] = node(b) - node(4);
+    for (int m = 0; m < 2; ++m) y[m] = crossed_mix(item, kCrossed[point][m + 1] * 4, way) + item(kCrossedFreed + point) * crossed_mix(item, kCrossedApex, way);
     return std::min(own, own * y[0].cross(y[1]).z() / shape.edges.col(0).cross(shape.edges.col(1)).z());
   }
   const int D = dimension_;

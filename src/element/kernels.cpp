@@ -2,7 +2,6 @@
 // Only raw arrays and types of this width's namespace are used here, so that no
 // inline function of a wider instruction set can leak into the rest of the program.
 #include "element/bulk_viscosity.h"
-#include "forming_sim/element/guard.h"
 #include "forming_sim/element/hourglass.h"
 #include "forming_sim/element/one_point_step.h"
 #include "forming_sim/element/time_step.h"
@@ -12,11 +11,8 @@ namespace forming_sim {
 namespace FORMING_SIM_ISA {
 namespace {
 
-/// The ways in the last step of the edges of simplex s that the law sees; v: velocities of the nodes; drawn: what draw() makes of them, or v for the edges themselves.
-template <class Cell>
-void moved_edges(const NodalView& view, const double* constants, const Vector<Pack, kD<Cell>>* v, const Vector<Pack, kD<Cell>>* drawn, int s,
-                 Vector<Pack, kD<Cell>>* w) {
-  law_edges<Cell>(constants, v, drawn, s, w);
+/// The ways of edges in the last step, from their velocities.
+template <class Cell> void moved(const NodalView& view, Vector<Pack, kD<Cell>>* w) {
   for (int m = 0; m < kE<Cell>; ++m) w[m] = Pack(view.last_dt) * w[m];
 }
 
@@ -33,7 +29,8 @@ void classical_pressures(const CellGroup& g, const NodalView& view, long block, 
     edges_of<Cell>(constants, x, s, e.x);
     find_reciprocal(e);
     Vector<Pack, D> w[kE<Cell>];
-    moved_edges<Cell>(view, constants, v, v, s, w);
+    edges_of<Cell>(constants, v, s, w);
+    moved<Cell>(view, w);
     rate[s] = CellIncrement<Cell>(e, w).divergence();
     sum_V += e.volume;
     sum_rate += e.volume * rate[s];
@@ -58,7 +55,7 @@ template <class Cell> void find_volumes(const CellGroup& g, long block, const do
 /// p of every simplex of the block: K (V/V0 - 1) of the cell (with a share of the
 /// element's own, see elements.cpp) or of the element. That of nodes: nodal_kernels.cpp.
 template <class Cell>
-void pressures(const CellGroup& g, long block, const Pack* V, const Pack* J, Pack* p) {
+void pressures(const CellGroup& g, long block, const double* constants, const Pack* V, const Pack* J, Pack* p) {
   constexpr int D = kD<Cell>;
   const Pack K(g.solid.K);
   if (g.solid.law == Law::classical) {
@@ -78,7 +75,7 @@ void pressures(const CellGroup& g, long block, const Pack* V, const Pack* J, Pac
   const Pack mean = (Pack(1.0) - theta) * K * (sum_V / sum_V0 - Pack(1.0));
   for (int s = 0; s < Cell::simplices; ++s) p[s] = mean + theta * K * (J[s] - Pack(1.0));
   if (g.guard > 0)
-    for (int s = 0; s < Cell::simplices; ++s) p[s] += Pack(g.guard) * K * guard_pressure(J[s]);
+    for (int s = 0; s < Cell::simplices; ++s) p[s] += Pack(g.guard) * K * guard_pressure(J[s], free_of_guard<Cell>(constants, s));
 }
 
 /// What a kernel of the forces is made for, so that it is as lean as it can be: the law of material/von_mises.h with a single
@@ -108,16 +105,13 @@ template <class Cell, Made made>
   const bool classical = made == Made::any && g.solid.law == Law::classical;
   if (classical) gather_ways<Cell>(nodes, view.v, v);
   if (classical) classical_pressures<Cell>(g, view, block, x, v, p);
-  else pressures<Cell>(g, block, V, J, p);
-  Vector<Pack, D> drawn_x[Cell::drawn ? Cell::nodes : 1], drawn_v[Cell::drawn ? Cell::nodes : 1], on_drawn[Cell::drawn ? Cell::nodes : 1];
-  const Vector<Pack, D>*law_x = x, *law_v = v;
+  else pressures<Cell>(g, block, constants, V, J, p);
+  Vector<Pack, D> drawn_x[kDrawn<Cell>], drawn_v[kDrawn<Cell>], on_drawn[kDrawn<Cell>];
   if constexpr (Cell::drawn) {
     draw<Cell>(constants, x, drawn_x);
     if (classical) draw<Cell>(constants, v, drawn_v);
     for (Vector<Pack, D>& force : on_drawn)
       for (int i = 0; i < D; ++i) force[i] = Pack(0.0);
-    law_x = drawn_x;
-    law_v = drawn_v;
   }
   const int in_use = lanes_in_use(g, block);
   if (g.linear_viscosity > 0 || g.quadratic_viscosity > 0) {
@@ -135,7 +129,7 @@ template <class Cell, Made made>
     double* memory[together];
     Points ratio;
     repeat<together>([&](auto i) {
-      law_edges<Cell>(constants, x, law_x, first + i, edges[i].x);
+      law_edges<Cell>(constants, x, drawn_x, first + i, edges[i].x);
       if (Cell::one_point || classical) find_reciprocal(edges[i]);
       else find_areas(edges[i]);
       memory[i] = memory_of<Cell>(g, block, first + i);
@@ -152,7 +146,10 @@ template <class Cell, Made made>
       const Pack V0 = initial_volume(g, memory[i]);
       PointResponse<Pack, D> point;
       Vector<Pack, D> w[kE<Cell>], force[D];
-      if (classical) moved_edges<Cell>(view, constants, v, law_v, s, w);
+      if (classical) {
+        law_edges<Cell>(constants, v, drawn_v, s, w);
+        moved<Cell>(view, w);
+      }
       if constexpr (Cell::one_point) {
         Hourglass<Pack, D, Cell::ring> hourglass(g.solid, constants, e, x);
         point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J[s], memory[i], hourglass, hourglass_of<Cell>(g, block));
@@ -170,9 +167,10 @@ template <class Cell, Made made>
         edges_of<Cell>(constants, x, s, of_volume.x);
         find_areas(of_volume);
         for (int m = 0; m < D; ++m) {
-          on_drawn[Cell::table[s][m + 1]] -= point.S * e.area[m];
+          force[m] = point.S * (Pack(-1.0) * e.area[m]);
           f[Cell::table[s][m + 1]] -= p[s] * of_volume.area[m];
         }
+        add_law_forces<Cell>(constants, force, s, on_drawn);
         if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
           const Pack hoop = (e.area[2][0] * point.S[2] + of_volume.area[2][0] * p[s]) * Pack(1.0 / 3);
           for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]][0] -= hoop;
@@ -226,7 +224,7 @@ template <class Cell>
       inertia[a][0] = select(x[a][0] > Pack(0.0), inertia[a][1], Pack(0.0));  // no radial motion on the axis
     }
   refer_to_apex<Cell>(x);
-  Vector<Pack, D> drawn_x[Cell::drawn ? Cell::nodes : 1];
+  Vector<Pack, D> drawn_x[kDrawn<Cell>];
   const bool drawn = Cell::drawn && !g.edge_omega2;
   if constexpr (Cell::drawn)
     if (drawn) draw<Cell>(constants, x, drawn_x);
@@ -241,7 +239,7 @@ template <class Cell>
     else {
       Pack at_edges;
       if (g.edge_omega2) at_edges = Pack::load(g.edge_omega2 + (block * Cell::simplices + s) * kLanes);
-      bound.add(e, memory, g.edge_omega2 ? &at_edges : nullptr, initial_volume(g, memory), Cell::table[s]);
+      bound.add(e, memory, g.edge_omega2 ? &at_edges : nullptr, initial_volume(g, memory), free_of_guard<Cell>(constants, s), Cell::table[s]);
       if (drawn) {
         law_edges<Cell>(constants, x, drawn_x, s, e.x);
         find_reciprocal(e);
@@ -272,15 +270,15 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   gather_ways<Cell>(nodes, view.x, x);
   Pack V[Cell::simplices], J[Cell::simplices], p[Cell::simplices];
   find_volumes<Cell>(g, block, constants, x, V, J);
-  pressures<Cell>(g, block, V, J, p);
-  Vector<Pack, D> drawn_x[Cell::drawn ? Cell::nodes : 1];
+  pressures<Cell>(g, block, constants, V, J, p);
+  Vector<Pack, D> drawn_x[kDrawn<Cell>];
   if constexpr (Cell::drawn) draw<Cell>(constants, x, drawn_x);
   Pack stored(0.0), cell_V(0.0), cell_V0(0.0);
   const double own = g.pressure == PressureMode::element ? 1 : g.element_share;
   const bool classical = g.solid.law == Law::classical;
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
-    law_edges<Cell>(constants, x, Cell::drawn ? drawn_x : x, s, e.x);
+    law_edges<Cell>(constants, x, drawn_x, s, e.x);
     find_reciprocal(e);
     double* memory = memory_of<Cell>(g, block, s);
     const Pack V0 = initial_volume(g, memory), law_J = Cell::drawn ? e.volume / V0 : J[s];
@@ -288,7 +286,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
     if constexpr (Cell::one_point) stored += V0 * Hourglass<Pack, D, Cell::ring>(g.solid, constants, e, x).energy(g.solid, hourglass_of<Cell>(g, block));
     if (classical) stored += V[s] * p[s] * p[s] * Pack(0.5 / g.solid.K);
     else stored += Pack(0.5 * g.solid.K * own) * V0 * (J[s] - Pack(1.0)) * (J[s] - Pack(1.0));
-    if (g.guard > 0) stored += Pack(g.guard * g.solid.K) * V0 * guard_energy(J[s]);
+    if (g.guard > 0) stored += Pack(g.guard * g.solid.K) * V0 * guard_energy(J[s], free_of_guard<Cell>(constants, s));
     cell_V += V[s];
     cell_V0 += V0;
     const Vector<Pack, D>* at_rest = nullptr;

@@ -1,9 +1,11 @@
 #pragma once
 // What the law sees of a cell of four crossed triangles: strains drawn towards the mean of the cell,
 //
-//   F~_s = F + lambda (F_s - F),   F = sum_s V_s F_s / V.
+//   F~_s = F + lambda (F_s - F - beta_s z g_s),   F = sum_s V_s F_s / V,
 //
-// A triangle has one edge of the cell and the strain there. Where a bent square cell has -e at one edge and e at the other, two
+// z the way of the middle node from where the corners would have it, g_s its shape gradient in triangle s.
+//
+// lambda. A triangle has one edge of the cell and the strain there. Where a bent square cell has -e at one edge and e at the other, two
 // triangles have these and two have none: mean square e^2/2 instead of e^2/3. Its middle node moves such that the deviators
 // cost least, with the strain e/7 across the fibres, and half of the triangles shear by 6/7 e; the pressure, one a cell,
 // knows nothing of it. That makes 4/7 mu e^2 lambda^2 per volume, where E/(1-nu^2) e^2/6 = mu e^2/(3 (1-nu)) is exact, and so
@@ -13,20 +15,33 @@
 // and 1 where this is more (nu > 5/12): elastic bending is exact. In plastic flow the fibres thin by what they
 // lengthen, the shear is nothing, and lambda^2 = 2/3 would be exact: what the cell of a metal has too much is a fourth to a third of its
 // own bending, not a half. (Liu, Nguyen-Thoi and Lam, Comput. Methods Appl. Mech. Engrg. 197 (2008), scale the strains
-// of triangles about a mean by a factor that is to be chosen.)
+// of triangles about a mean by a factor that is to be chosen.) A rhombus whose medians make the angle theta is stiffer, by nearly 1/sin^2 theta (1/sqrt 2:
+// 1.88): lambda is drawn by sin theta more.
+//
+// beta. Of a cell r times as long as high two triangles shear by r e/2 + 2 z/L, and the middle node that would mend it, z = -r^2 e H/4,
+// strains the two others across the fibres by 2 z/H: at r = 4 the cell is 7.5 times too stiff. These, at the long edges, see only the part
+// tau = 1 - beta of z. With z where it costs least, 4/3 + r^2 - (1 - 2 tau/3)^2/(4/3 tau^2 + 1/r^2) takes the place of 16/7, and is 16/7 for
+//
+//   (r^2 - 9/7) tau^2 + tau - 5/(7 r^2) = 0:   tau = 1 at r = 1, .48/r^2 where r is large,
+//
+// so that elastic bending along the long edges is exact at any r. What is bent the other way has .5 to .6 of the stiffness of its own cells, as it has
+// with beta = 0. For sum_s V_s F~_s = sum_s V_s F_s the beta_s of other shapes than parallelograms are projected on sum_s beta_s V_s g_s = 0.
 //
 // Uniform strains stay what they are; so do the forces of uniform stress, since sum_s V_s F~_s = sum_s V_s F_s; no shape
-// loses its stiffness, since lambda > 0. The volumes, and with them the pressure, are the triangles' own, and so
+// loses its stiffness, since lambda > 0 and tau > 0. The volumes, and with them the pressure, are the triangles' own, and so
 // is the hoop of a ring. Far from the axis a ring is a plane section. At the axis its cells are held by nodes that do not move
 // radially, which the sum above does not know, and are left as they are:
-//   1 - (1 - lambda)(1 - q^2) in place of lambda,   q = (R_max - R_min)/(R_max + R_min) of the cell's corners, 1 at the axis, 0 far from it.
+//   1 - (1 - lambda)(1 - q^2) in place of lambda,   q = (R_max - R_min)/(R_max + R_min) of the cell's corners, 1 at the axis, 0 far from it,
+// and beta (1 - q^2) in place of beta.
 //
-// F~_s is that of a triangle between the apex and y_c, fixed combinations of the ways x_b from the apex to the corners:
+// F~_s is that of a triangle with the edges y_c - lambda beta_s sum_b w_b x_b, fixed combinations of the ways x_b from the apex to the corners:
 //   y_c = sum_b W_cb x_b,  W_cb = lambda delta_cb + (1 - lambda) sum_s V_s/V X_s^b . X_c,
-// X_s^b reciprocal to the edge X_b in s, nothing where s has not got it. The forces on the edges y_c come back through W.
-#include <vector>
+// X_s^b reciprocal to the edge X_b in s, nothing where s has not got it; z = -sum_b w_b x_b, the least w with sum_b w_b = 1, sum_b w_b X_b = 0.
+// The forces on these edges come back through the same weights.
+#include <array>
 
 #include "forming_sim/material/constants.h"
+#include "forming_sim/mesh/cell_tables.h"
 #include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
@@ -34,8 +49,15 @@ namespace forming_sim {
 /// Of a cell. corners: its four and its middle.
 double crossed_lambda(const SolidConstants& solid, const Vec3* corners, bool ring);
 
-/// W_cb of a cell, [c][b].
-constexpr int kCrossedItems = 16;
-std::vector<double> crossed_weights(const Vec3* corners, bool ring, double lambda);
+/// What a cell keeps of the above: W_cb at c 4 + b, then -lambda w_b, then beta_s. by_shape: false for beta = 0.
+constexpr int kCrossedApex = 16, kCrossedFreed = 20, kCrossedItems = 24;
+std::array<double, kCrossedItems> crossed_weights(const Vec3* corners, bool ring, double lambda, bool by_shape);
+
+/// sum_b item(first + b) x_b.
+template <class Item, class Way> Way crossed_mix(const Item& item, int first, const Way* x) {
+  Way y = item(first) * x[0];
+  for (int b = 1; b < 4; ++b) y += item(first + b) * x[b];
+  return y;
+}
 
 }  // namespace forming_sim

@@ -85,14 +85,14 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
     }
   }
 
-  /// at_edges: where the law is at the edges the deviatoric part of omega^2, for which no memory is read; null elsewhere.
+  /// at_edges: where the law is at the edges the deviatoric part of omega^2, for which no memory is read; null elsewhere. free: of its guard.
   template <class Corners>
-  void add(const Edges<T, D, Ring>& e, const double* memory, const T* at_edges, const T& V0, const Corners& corner) {
+  void add(const Edges<T, D, Ring>& e, const double* memory, const T* at_edges, const T& V0, const T& free, const Corners& corner) {
     const Shapes shapes = shapes_of(e, corner);
     const T J = e.volume / V0;
     const T omega2 = at_edges ? *at_edges : deviatoric(e, J, memory, shapes);
     const T volumetric = T((D + 1) * g_.solid.K / g_.density) * J * J * shapes.volumetric;
-    const T guard = T(g_.guard) * guard_slope(J);  // over K
+    const T guard = T(g_.guard) * guard_slope(J, free);  // over K
     deviatoric_ = larger(deviatoric_, omega2);
     element_ = larger(element_, omega2 + volumetric * (T(1) + guard));
     own_ = larger(own_, volumetric * (T(g_.element_share) + guard));
