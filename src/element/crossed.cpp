@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forming_sim/element/guard.h"
 #include "forming_sim/mesh/cell_tables.h"
 
 namespace forming_sim {
@@ -16,14 +17,14 @@ struct Medians {
   explicit Medians(const Vec3* X) : a((X[1] - X[0] + X[2] - X[3]) / 4), b((X[3] - X[0] + X[2] - X[1]) / 4) {}
 };
 
-/// 1 - q^2: 1 far from the axis, 0 at it.
-double away_from_axis(const Vec3* corners, bool ring) {
-  if (!ring) return 1;
-  double least = corners[0][0], most = least;
-  for (int a = 1; a < 4; ++a) least = std::min(least, corners[a][0]), most = std::max(most, corners[a][0]);
-  const double q = (most - least) / (most + least);
-  return 1 - q * q;
+/// tau of the triangles at edges r times as long as the others.
+double tau_of(double r) {
+  if (r <= 1) return 1 / r;
+  const double q = 1 / (r * r);
+  return 10.0 / 7 / r / (1 + std::sqrt(1 + 20.0 / 7 * (1 - 9.0 / 7 * q)));
 }
+/// Up to which |J - 1| these are free of their guard: where bending takes the middle node r times as far as in a square cell.
+double free_of(double r) { return kFreeOfGuard * std::clamp(r, 1.0, 3.0); }
 
 }  // namespace
 
@@ -31,25 +32,19 @@ double crossed_lambda(const SolidConstants& solid, const Vec3* corners, bool rin
   const double nu = (3 * solid.K - 2 * solid.mu) / (2 * (3 * solid.K + solid.mu));
   const Medians m(corners);
   const double sine = m.a.cross(m.b).norm() / (m.a.norm() * m.b.norm());
-  const double lambda = std::min(1.0, std::sqrt(7 / (12 * (1 - nu)))) * sine;
-  return 1 - (1 - lambda) * away_from_axis(corners, ring);
+  const double lambda = sine * std::min(1.0, std::sqrt(7 / (12 * (1 - nu))));
+  if (!ring) return lambda;
+  double least = corners[0][0], most = least;
+  for (int a = 1; a < 4; ++a) least = std::min(least, corners[a][0]), most = std::max(most, corners[a][0]);
+  const double q = (most - least) / (most + least);
+  return 1 - (1 - lambda) * (1 - q * q);
 }
-
-namespace {
-
-/// tau of the triangles at edges r times as long as the others.
-double freed(double r) {
-  if (r <= 1) return 1;
-  const double q = 1 / (r * r);
-  return 10.0 / 7 * q / (1 + std::sqrt(1 + 20.0 / 7 * (1 - 9.0 / 7 * q)));
-}
-
-}  // namespace
 
 std::array<double, kCrossedItems> crossed_weights(const Vec3* corners, bool ring, double lambda, bool by_shape) {
   const Vec3& apex = corners[kCrossed[0][0]];
+  const Medians m(corners);
   Eigen::Matrix2d up[4];
-  Eigen::Matrix<double, 3, 4> affine;  // 1 and X_b
+  Eigen::Matrix<double, 3, 4> affine;  // 1 and X_b over a length
   Eigen::Matrix<double, 2, 4> shift;   // V_s g_s: how sum_s V_s F_s changes with the apex
   double V[4], sum = 0;
   for (int s = 0; s < 4; ++s) {
@@ -60,7 +55,7 @@ std::array<double, kCrossedItems> crossed_weights(const Vec3* corners, bool ring
     if (ring) V[s] *= corners[kCrossed[s][0]][0] + corners[kCrossed[s][1]][0] + corners[kCrossed[s][2]][0];
     sum += V[s];
     shift.col(s) = -V[s] * (up[s].row(0) + up[s].row(1)).transpose();
-    affine.col(s) << 1, edges.col(0);
+    affine.col(s) << 1, edges.col(0) / m.a.norm();
   }
   std::array<double, kCrossedItems> items{};
   for (int c = 0; c < 4; ++c) {
@@ -69,12 +64,16 @@ std::array<double, kCrossedItems> crossed_weights(const Vec3* corners, bool ring
       for (int m = 0; m < 2; ++m)
         items[c * 4 + kCrossed[s][m + 1]] += (1 - lambda) * V[s] / sum * up[s].row(m).dot((corners[c] - apex).head<2>());
   }
+  for (int s = 0; s < 4; ++s) items[kCrossedFree + s] = kFreeOfGuard;
   if (!by_shape) return items;
   const Eigen::Vector4d w = affine.transpose() * (affine * affine.transpose()).inverse().col(0);
-  const Medians m(corners);
-  const double r = m.a.norm() / m.b.norm(), far = away_from_axis(corners, ring);
+  const double r = m.a.norm() / m.b.norm();
   Eigen::Vector4d beta;
-  for (int s = 0; s < 4; ++s) beta[s] = (1 - freed(s % 2 == 0 ? r : 1 / r)) * far;
+  for (int s = 0; s < 4; ++s) {
+    const double own = s % 2 == 0 ? r : 1 / r;
+    beta[s] = 1 - tau_of(own);
+    items[kCrossedFree + s] = free_of(own);
+  }
   beta -= shift.transpose() * (shift * shift.transpose()).inverse() * (shift * beta);
   for (int b = 0; b < 4; ++b) {
     items[kCrossedApex + b] = -lambda * w[b];

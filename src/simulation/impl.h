@@ -91,8 +91,9 @@ struct Simulation::Impl {
   void predict(double step_dt, const NodeField& from, NodeField& v_star) const;
   void take_step();
   void book(const ContactStep& done);
+  /// over_kick: what makes forces of the impulses of contact, 1/s.
+  void mean_contact_pressure(double over_kick);
   /// Work of prescribed motion, pressure, gravity and damping over the kick.
-  void mean_contact_pressure(double step_dt);
   void book_loads(const NodeField& external);
   double kinetic() const;
   /// Mass-proportional damping now, 1/s.

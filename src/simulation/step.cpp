@@ -70,7 +70,10 @@ void Simulation::Impl::book(const ContactStep& done) {
          << " s up to which the explicit contact is stable: set time_step.maximum to a fifth of contact.explicit_stable_dt_s, or contact.method to implicit";
     warnings.push_back(text.str());
   }
-  if (done.active > 0 || pressed) mean_contact_pressure(done.dt);
+  // The impulse j of contact comes after the kick: m v = m (v_before (1 - a/2) + dt f/m)/(1 + a/2) + j, a = alpha dt, dt the kick's. A force F
+  // in the place of f is (1 + a/2) j/dt, in equilibrium the one that f is balanced by, whatever the damping and the steps.
+  const double kick = 0.5 * (previous_dt + done.dt), over_kick = (1 + 0.5 * damping_rate() * kick) / kick;
+  if (done.active > 0 || pressed) mean_contact_pressure(over_kick);
   for (std::size_t k = 0; k < tools.size(); ++k) {
     ToolStatus& tool = tools[k];
     if (!tool.present) {
@@ -82,20 +85,20 @@ void Simulation::Impl::book(const ContactStep& done) {
       impulse.x() = 0;
       about.setZero();
     }
-    tool.impulse += impulse;
-    tool.force += (impulse / done.dt - tool.force) / kForceMeanSteps;
-    tool.moment += (about / done.dt - tool.moment) / kForceMeanSteps;
+    tool.impulse += kick * over_kick * impulse;
+    tool.force += (over_kick * impulse - tool.force) / kForceMeanSteps;
+    tool.moment += (over_kick * about - tool.moment) / kForceMeanSteps;
     if (tool.force.squaredNorm() > tool.peak_force.squaredNorm()) tool.peak_force = tool.force;
   }
 }
 
-void Simulation::Impl::mean_contact_pressure(double step_dt) {
+void Simulation::Impl::mean_contact_pressure(double over_kick) {
   const std::vector<double>& area = contact->nodal_area();
   for (int n : touchable) node_impulse[n] = 0;
   contact->add_normal_impulses(node_impulse);
   double most_now = 0;
   for (int n : touchable) {
-    contact_pressure[n] += (node_impulse[n] / (step_dt * area[n]) - contact_pressure[n]) / kForceMeanSteps;
+    contact_pressure[n] += (over_kick * node_impulse[n] / area[n] - contact_pressure[n]) / kForceMeanSteps;
     most_now = std::max(most_now, contact_pressure[n]);
   }
   pressed = most_now > 1e-12 * contact->stiffness();

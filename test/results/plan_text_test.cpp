@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "forming_sim/element/crossed.h"
 #include "support/runs.h"
 
 namespace forming_sim {
@@ -38,7 +39,7 @@ TEST(Plan, BytesAreThoseOfTheArrays) {
   const std::vector<GroupPlan> groups = run.start()->groups();
   ASSERT_EQ(groups.size(), 1u);
   // Four blocks of eight cells. Per element: four components of G, the plastic strain, V0; one set of weights (element/crossed.h).
-  EXPECT_EQ(groups[0].memory_bytes, 128 * 6 * 8 + 16 * kLanes * 8);
+  EXPECT_EQ(groups[0].memory_bytes, 128 * 6 * 8 + kCrossedItems * kLanes * 8);
   // All cells are one tile: two components at each of 17 x 3 corners and 32 centres.
   EXPECT_EQ(groups[0].force_bytes, (17 * 3 + 32) * 2 * 8);
   EXPECT_EQ(groups[0].index_bytes, (32 * 5 * 2 + 17 * 3 + 32) * 4);

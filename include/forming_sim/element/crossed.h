@@ -19,20 +19,22 @@
 // 1.88): lambda is drawn by sin theta more.
 //
 // beta. Of a cell r times as long as high two triangles shear by r e/2 + 2 z/L, and the middle node that would mend it, z = -r^2 e H/4,
-// strains the two others across the fibres by 2 z/H: at r = 4 the cell is 7.5 times too stiff. These, at the long edges, see only the part
-// tau = 1 - beta of z. With z where it costs least, 4/3 + r^2 - (1 - 2 tau/3)^2/(4/3 tau^2 + 1/r^2) takes the place of 16/7, and is 16/7 for
+// strains the two others across the fibres by 2 z/H: at r = 4 the cell is 7.5 times too stiff. So those at the long edges see
+// z by tau = 1 - beta, those at the short ones by r, where tau is such that elastic bending is exact at any r: with z where it costs least
+// 4/3 + r^2 - (1 - 2 t/3)^2/(4/3 t^2 + 1/r^2), t = tau/r, takes the place of 16/7, and is 16/7 for
 //
-//   (r^2 - 9/7) tau^2 + tau - 5/(7 r^2) = 0:   tau = 1 at r = 1, .48/r^2 where r is large,
+//   (r^2 - 9/7) t^2 + t - 5/(7 r^2) = 0:   tau = r t = 1 at r = 1, .48/r where r is large.
 //
-// so that elastic bending along the long edges is exact at any r. What is bent the other way has .5 to .6 of the stiffness of its own cells, as it has
-// with beta = 0. For sum_s V_s F~_s = sum_s V_s F_s the beta_s of other shapes than parallelograms are projected on sum_s beta_s V_s g_s = 0.
+// (Only the ratio t enters there. That it is split as 1/r and r keeps the middle node as stiff as in a square cell of the lesser length.)
+// What is bent the other way, across the long edges, has .5 to .6 of the stiffness of its own cells, little less than with beta = 0. For
+// sum_s V_s F~_s = sum_s V_s F_s the beta_s of other shapes than parallelograms are projected on sum_s beta_s V_s g_s = 0.
 //
 // Uniform strains stay what they are; so do the forces of uniform stress, since sum_s V_s F~_s = sum_s V_s F_s; no shape
 // loses its stiffness, since lambda > 0 and tau > 0. The volumes, and with them the pressure, are the triangles' own, and so
 // is the hoop of a ring. Far from the axis a ring is a plane section. At the axis its cells are held by nodes that do not move
 // radially, which the sum above does not know, and are left as they are:
-//   1 - (1 - lambda)(1 - q^2) in place of lambda,   q = (R_max - R_min)/(R_max + R_min) of the cell's corners, 1 at the axis, 0 far from it,
-// and beta (1 - q^2) in place of beta.
+//   1 - (1 - lambda)(1 - q^2) in place of lambda,   q = (R_max - R_min)/(R_max + R_min) of the cell's corners, 1 at the axis, 0 far from it.
+// The middle node of a ring takes part in its hoops: beta = 0 there, and long cells are too stiff.
 //
 // F~_s is that of a triangle with the edges y_c - lambda beta_s sum_b w_b x_b, fixed combinations of the ways x_b from the apex to the corners:
 //   y_c = sum_b W_cb x_b,  W_cb = lambda delta_cb + (1 - lambda) sum_s V_s/V X_s^b . X_c,
@@ -49,8 +51,8 @@ namespace forming_sim {
 /// Of a cell. corners: its four and its middle.
 double crossed_lambda(const SolidConstants& solid, const Vec3* corners, bool ring);
 
-/// What a cell keeps of the above: W_cb at c 4 + b, then -lambda w_b, then beta_s. by_shape: false for beta = 0.
-constexpr int kCrossedApex = 16, kCrossedFreed = 20, kCrossedItems = 24;
+/// What a cell keeps of the above: W_cb at c 4 + b, then -lambda w_b, then beta_s, then up to which |J - 1| triangle s is free of its guard (element/guard.h). by_shape: false for beta = 0.
+constexpr int kCrossedApex = 16, kCrossedFreed = 20, kCrossedFree = 24, kCrossedItems = 28;
 std::array<double, kCrossedItems> crossed_weights(const Vec3* corners, bool ring, double lambda, bool by_shape);
 
 /// sum_b item(first + b) x_b.

@@ -7,13 +7,12 @@
 // so that a body changes its volume by that much as if there were none. The Taylor bar of tetrahedra collapses
 // without, and theta from .05 to .5 give it one shape to .1 %. A share of K (J - 1) itself would have to be paid
 // for everywhere: .5 % of it already makes Cook's membrane of 8 triangles a side 2 % stiffer.
-// The middle node of a long crossed cell that is bent goes far (element/crossed.h): its triangles are free up to .2 + .4 beta.
+// The middle node of a long crossed cell that is bent goes far (element/crossed.h): the triangles at its long edges are free by more.
 #include "forming_sim/tensor/pack.h"
 
 namespace forming_sim {
 
 constexpr double kGuard = 0.2, kFreeOfGuard = 0.2;  ///< theta; |J - 1| up to which there is none
-constexpr double kFreeOfGuardLong = 0.4;            ///< what beta adds to that
 
 /// d
 template <class T> T guarded(const T& J, const T& free) { return larger(J - T(1) - free, T(0)) + smaller(J - T(1) + free, T(0)); }
