@@ -10,17 +10,18 @@ namespace {
 
 using Place = Vector<Pack, 3>;
 
-inline Place places_of(const double* places, const int (&node)[kLanes]) {
+template <class NodeOf> [[gnu::always_inline]] inline Place places_of(const double* places, NodeOf&& node_of) {
   const double* from[kLanes];
-  for (int l = 0; l < kLanes; ++l) from[l] = places + 4 * static_cast<long>(node[l]);
+  for (int l = 0; l < kLanes; ++l) from[l] = places + 4 * static_cast<long>(node_of(l));
   Place p;
   gather_records(from, p[0], p[1], p[2]);
   return p;
 }
 
 inline void face(const double* places, FacePack& p) {
-  const Place a = places_of(places, p.corner[0]);
-  const OverFace<Pack> f = over_face<Pack>(places_of(places, p.point) - a, places_of(places, p.corner[1]) - a, places_of(places, p.corner[2]) - a);
+  const auto corner = [&](int k) { return places_of(places, [&](int l) { return p.corner[l][k]; }); };
+  const Place a = corner(0), point = places_of(places, [&](int l) { return p.point[l]; });
+  const OverFace<Pack> f = over_face<Pack>(point - a, corner(1) - a, corner(2) - a);
   f.beta.store(p.beta);
   f.gamma.store(p.gamma);
   for (int k = 0; k < 3; ++k) f.apart[k].store(p.apart[k]);
@@ -37,8 +38,8 @@ inline Pack outside(const Place& a, const Place& u, const Place& c, const Place&
 }
 
 inline void edge(const double* places, double wedge, EdgePack& p) {
-  const Place a = places_of(places, p.node[0]), b = places_of(places, p.node[2]);
-  const Place u = places_of(places, p.node[1]) - a, v = places_of(places, p.node[3]) - b;
+  const auto place = [&](int k) { return places_of(places, [&](int l) { return p.node[l][k]; }); };
+  const Place a = place(0), b = place(2), u = place(1) - a, v = place(3) - b;
   const CrossingEdges<Pack> e = crossing_edges<Pack>(a - b, u, v);
   e.s.store(p.s);
   e.t.store(p.t);
@@ -47,10 +48,9 @@ inline void edge(const double* places, double wedge, EdgePack& p) {
   const Place normal = (Pack(1.0) / distance) * e.apart, back = Pack(-1.0) * e.apart;
   for (int k = 0; k < 3; ++k) normal[k].store(p.normal[k]);
   select(e.inside, Pack(1.0), Pack(0.0)).store(p.inside);
-  Pack out = outside(a, u, places_of(places, p.opposite[0]), back, wedge);
-  out = smaller(out, outside(a, u, places_of(places, p.opposite[1]), back, wedge));
-  out = smaller(out, outside(b, v, places_of(places, p.opposite[2]), e.apart, wedge));
-  smaller(out, outside(b, v, places_of(places, p.opposite[3]), e.apart, wedge)).store(p.outside);
+  const Pack of_first = smaller(outside(a, u, place(4), back, wedge), outside(a, u, place(5), back, wedge));
+  const Pack of_second = smaller(outside(b, v, place(6), e.apart, wedge), outside(b, v, place(7), e.apart, wedge));
+  smaller(of_first, of_second).store(p.outside);
 }
 
 void faces(const double* places, FacePack* packs, long count) {

@@ -80,7 +80,8 @@ class Builder {
         const double squared = closest_on_edges(p0, p1, at(q[0]), at(q[1])).squared;
         if (squared > radius_ * radius_) return;
         const auto &op = f_.edges[e].opposite, &oq = f_.edges[other].opposite;
-        list.edges.push_back({e, other, a, b.surface, {p[0], p[1], q[0], q[1]}, {op[0], op[1], oq[0], oq[1]}, -1, std::sqrt(squared)});
+        const auto or_end = [](int corner, const int (&ends)[2]) { return corner >= 0 ? corner : ends[0]; };
+        list.edges.push_back({e, other, a, b.surface, {p[0], p[1], q[0], q[1], or_end(op[0], p), or_end(op[1], p), or_end(oq[0], q), or_end(oq[1], q)}, -1, std::sqrt(squared)});
       });
     }
   }
@@ -99,11 +100,7 @@ class Builder {
     used.insert(used.end(), list.neighbours.begin(), list.neighbours.end());
     for (const auto& c : list.facets)
       for (int k = 0; k < f_.corners(); ++k) used.push_back(c.node[k]);
-    for (const auto& e : list.edges) {
-      used.insert(used.end(), e.node, e.node + 4);
-      for (int o : e.opposite)
-        if (o >= 0) used.push_back(o);
-    }
+    for (const auto& e : list.edges) used.insert(used.end(), std::begin(e.node), std::end(e.node));
     for (const auto& p : list.planes) used.push_back(p.node);
     for (const auto& t : list.ties)
       for (int n : t.node)
@@ -121,11 +118,8 @@ class Builder {
     for (int& n : list.neighbours) n = place[n];
     for (auto& c : list.facets)
       for (int k = 0; k < f_.corners(); ++k) c.node[k] = place[c.node[k]];
-    for (auto& e : list.edges) {
+    for (auto& e : list.edges)
       for (int& n : e.node) n = place[n];
-      for (int& o : e.opposite)
-        if (o >= 0) o = place[o];
-    }
     for (auto& p : list.planes) {
       p.node = place[p.node];
       p.foot = static_cast<int>(used.size());

@@ -24,7 +24,7 @@ const ClosestKernels& widest_kernels() {
 }
 
 constexpr int kFacetsAtOnce = 64;  ///< whose closest points are found together, or a few more
-constexpr int kEdgesAtOnce = 256;
+constexpr int kEdgesAtOnce = 64;
 
 class Phase {
  public:
@@ -85,9 +85,9 @@ class Phase {
   };
   struct Hit {
     Closest closest;
-    int entry;
-    std::uint64_t feature;
-    bool taken;
+    int entry = -1;
+    std::uint64_t feature = 0;
+    bool taken = false;
   };
 
   // The closest points of the candidates, in lanes where there are triangles; then group by group what they are.
@@ -98,7 +98,7 @@ class Phase {
       for (int l = 0; l < kLanes; ++l) {
         const Candidate& c = candidates_[std::min<long>(p * kLanes + l, count - 1)];
         faces_[p].point[l] = list.groups[c.group].node;
-        for (int k = 0; k < 3; ++k) faces_[p].corner[k][l] = list.facets[c.entry].node[k];
+        faces_[p].corner[l] = list.facets[c.entry].node;
       }
     }
     kernels_.faces(work_.x.front().data(), faces_.data(), static_cast<long>(faces_.size()));
@@ -108,13 +108,17 @@ class Phase {
       hits_.clear();
       for (; i < count && candidates_[i].group == group; ++i) {
         NearList::FacetEntry& e = list.facets[candidates_[i].entry];
-        const Closest c = closest(g, e, i);
-        const double distance = std::sqrt(c.squared);
+        hits_.emplace_back();
+        Hit& hit = hits_.back();
+        hit.closest = closest(g, e, i);
+        const double distance = std::sqrt(hit.closest.squared);
         if (distance > range_.reach) {
           e.wake = range_.travel + distance;
+          hits_.pop_back();
           continue;
         }
-        hits_.push_back({c, candidates_[i].entry, feature_of(c, e.facet), false});
+        hit.entry = candidates_[i].entry;
+        hit.feature = feature_of(hit.closest, e.facet);
         watch_touch(candidates_[i].entry, group, distance);
       }
       if (hits_.empty()) {
@@ -141,14 +145,7 @@ class Phase {
   void meet_edges(NearList& list, const int* awake, int count) {
     EdgePack packs[kEdgesAtOnce / kLanes];
     const int filled = (count + kLanes - 1) / kLanes;
-    for (int i = 0; i < filled * kLanes; ++i) {
-      const NearList::EdgePair& e = list.watched[awake[std::min(i, count - 1)]];
-      EdgePack& pack = packs[i / kLanes];
-      for (int k = 0; k < 4; ++k) {
-        pack.node[k][i % kLanes] = e.node[k];
-        pack.opposite[k][i % kLanes] = e.opposite[k] >= 0 ? e.opposite[k] : e.node[k / 2 * 2];
-      }
-    }
+    for (int i = 0; i < filled * kLanes; ++i) packs[i / kLanes].node[i % kLanes] = list.watched[awake[std::min(i, count - 1)]].node;
     kernels_.edges(work_.x.front().data(), kWedge, packs, filled);
     for (int i = 0; i < count; ++i) {
       const EdgePack& pack = packs[i / kLanes];
@@ -178,8 +175,12 @@ class Phase {
     if (!(distance > 0) || !offered(base, distance)) return distance;
     const double s = pack.s[l], t = pack.t[l];
     out_.pairs.emplace_back(PairKey::make(PairKey::edge_edge, e.first, 0, e.second), e.own, e.surface, distance, base,
-                            Link{{1 - s, s, t - 1, -t}, {e.node[0], e.node[1], e.node[2], e.node[3]}, 4},
                             Node(pack.normal[0][l], pack.normal[1][l], pack.normal[2][l], 0));
+    ContactPair& pair = out_.pairs.back();
+    pair.add(e.node[0], 1 - s);
+    pair.add(e.node[1], s);
+    pair.add(e.node[2], t - 1);
+    pair.add(e.node[3], -t);
     finish();
     return distance;
   }
@@ -221,46 +222,45 @@ class Phase {
     const NearList::FacetEntry& e = list.facets[hit.entry];
     const Closest& c = hit.closest;
     int own = f_.vertex_surface[g.vertex], surface = g.surface;
-    Link link{{1, 0, 0, 0}, {g.node, -1, -1, -1}, 1};
-    const auto with = [&](int corner, double share) {
-      link.node[link.nodes] = e.node[corner];
-      link.weight[link.nodes++] = -share;
-    };
-    if (c.feature == Closest::corner) {
-      with(c.which, 1);
-    } else if (c.feature == Closest::edge) {
-      const int i = c.which == 2 ? 0 : c.which, j = c.which == 2 ? 2 : c.which + 1;
-      with(i, c.weight[i]);
-      with(j, c.weight[j]);
-    } else {
-      for (int k = 0; k < f_.corners(); ++k) with(k, c.weight[k]);
-    }
     int first = g.vertex, second = static_cast<int>(hit.feature & 0xffffffffu);
-    const bool corners = c.feature == Closest::corner;
-    if (corners && second < first) {  // the same pair is found from both sides
-      std::swap(first, second);
-      std::swap(link.node[0], link.node[1]);
-      std::swap(own, surface);
-    }
+    const bool corners = c.feature == Closest::corner, turned = corners && second < first;
+    const int other = e.node[corners ? c.which : 0];
     Node d = c.apart;
-    if (link.node[0] != g.node) d = -d;
-    if (corners) d = work_.x[link.node[0]] - work_.x[link.node[1]];  // the same bits from both sides
+    if (corners) d = turned ? work_.x[other] - work_.x[g.node] : work_.x[g.node] - work_.x[other];  // the same bits from both sides
     const double gap = std::sqrt(dot3(d, d));
     if (!(gap > 0)) return;  // no direction; the start check and the continuous check exclude it
     const Node normal = d / gap;
     double base = layer_;
     // Seen from the vertex, is the other feature's point the nearest too?
     const Node& from = work_.x[g.node];
-    const double sense = link.node[0] == g.node ? 1 : -1;
+    const double sense = turned ? -1 : 1;
     for (int i = g.near_first; i < g.near_last; ++i) {
       const Node along = work_.x[list.neighbours[i]] - from;
       const double nearer = -sense * dot3(normal, along) - layer_;
       if (nearer > 0 && nearer * nearer > kWedge * kWedge * dot3(along, along)) base = layer_ / 2;
     }
     if (!offered(base, gap)) return;
-    (corners ? corners_ : out_.pairs)
-        .emplace_back(corners ? PairKey::make(PairKey::vertex_vertex, first, 0, second) : PairKey::make(PairKey::vertex_facet, first, c.feature, second), own,
-                      surface, gap, base, link, normal);
+    if (turned) {  // the same pair is found from both sides
+      std::swap(first, second);
+      std::swap(own, surface);
+    }
+    std::vector<ContactPair>& pairs = corners ? corners_ : out_.pairs;
+    pairs.emplace_back(corners ? PairKey::make(PairKey::vertex_vertex, first, 0, second) : PairKey::make(PairKey::vertex_facet, first, c.feature, second), own,
+                       surface, gap, base, normal);
+    ContactPair& pair = pairs.back();
+    if (corners) {
+      pair.add(turned ? other : g.node, 1);
+      pair.add(turned ? g.node : other, -1);
+      return;
+    }
+    pair.add(g.node, 1);
+    const auto with = [&](int corner) { pair.add(e.node[corner], -c.weight[corner]); };
+    if (c.feature == Closest::edge) {
+      with(c.which == 2 ? 0 : c.which);
+      with(c.which == 2 ? 2 : c.which + 1);
+    } else {
+      for (int k = 0; k < f_.corners(); ++k) with(k);
+    }
   }
 
   bool offered(double base, double gap) const { return all_ || base == layer_ || gap < base; }
@@ -308,8 +308,9 @@ void add_plane_pairs(const Features& features, const Workspace& work, const std:
     const PlanePose& plane = planes[p.tool];
     const double gap = dot3(work.x[p.node] - plane.point, plane.normal) * dot3(plane.normal, plane.end_normal);
     if (gap > reach) continue;
-    pairs.emplace_back(PairKey::make(PairKey::plane, p.vertex, 0, p.tool), features.vertex_surface[p.vertex], features.bodies + p.tool, gap, layer,
-                       Link{{1, -1, 0, 0}, {p.node, p.foot, -1, -1}, 2}, plane.end_normal);
+    pairs.emplace_back(PairKey::make(PairKey::plane, p.vertex, 0, p.tool), features.vertex_surface[p.vertex], features.bodies + p.tool, gap, layer, plane.end_normal);
+    pairs.back().add(p.node, 1);
+    pairs.back().add(p.foot, -1);
   }
 }
 

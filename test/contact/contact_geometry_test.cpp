@@ -85,10 +85,12 @@ TEST(ContactClosest, FacesInLanesAreThoseOneByOne) {
     for (int turn = 0; turn < 300; ++turn) {
       NodeField x;
       FacePack pack;
+      int corner[kLanes][3];
       for (int l = 0; l < kLanes; ++l) {
         for (int k = 0; k < 4; ++k) x.push_back(random_node(3));
         pack.point[l] = 4 * l;
-        for (int k = 0; k < 3; ++k) pack.corner[k][l] = 4 * l + 1 + k;
+        for (int k = 0; k < 3; ++k) corner[l][k] = 4 * l + 1 + k;
+        pack.corner[l] = corner[l];
         if (l == 5) x[4 * l] = .5 * (x[4 * l + 1] + x[4 * l + 2]) + Node((x[4 * l + 2] - x[4 * l + 1]).cross3(x[4 * l + 3] - x[4 * l + 1]));  // over an edge
         if (l == 6) x[4 * l + 3] = 2 * x[4 * l + 2] - x[4 * l + 1];                                                                          // no area
       }
@@ -117,12 +119,14 @@ TEST(ContactClosest, EdgesInLanesAreThoseOneByOne) {
     for (int turn = 0; turn < 600; ++turn) {
       NodeField x;
       EdgePack pack;
+      int node[kLanes][8];
       for (int l = 0; l < kLanes; ++l) {
         for (int k = 0; k < 8; ++k) x.push_back(random_node(3));
         for (int k = 0; k < 4; ++k) {
-          pack.node[k][l] = 8 * l + k;
-          pack.opposite[k][l] = l % 2 && k % 2 ? pack.node[k / 2 * 2][l] : 8 * l + 4 + k;  // some edges have one facet
+          node[l][k] = 8 * l + k;
+          node[l][4 + k] = l % 2 && k % 2 ? 8 * l + k / 2 * 2 : 8 * l + 4 + k;  // some edges have one facet
         }
+        pack.node[l] = node[l];
         if (l == 6) x[8 * l + 3] = x[8 * l + 2] + 3 * (x[8 * l + 1] - x[8 * l]);  // parallel
         if (l == 7) x[8 * l + 1] = x[8 * l];                                      // a point
       }
@@ -140,7 +144,7 @@ TEST(ContactClosest, EdgesInLanesAreThoseOneByOne) {
         bool out = true;
         for (int k = 0; k < 4; ++k) {
           const Node* edge = k < 2 ? a : b;
-          if (pack.opposite[k][l] != pack.node[k / 2 * 2][l]) out = out && !(slope_into_slab(edge[0], edge[1], x[pack.opposite[k][l]], k < 2 ? Node(-c.apart) : c.apart) > wedge);
+          if (node[l][4 + k] != node[l][k / 2 * 2]) out = out && !(slope_into_slab(edge[0], edge[1], x[node[l][4 + k]], k < 2 ? Node(-c.apart) : c.apart) > wedge);
         }
         EXPECT_EQ(pack.outside[l] == 1, out) << "lane " << l << " of turn " << turn;
         (out ? outside : not_outside)++;

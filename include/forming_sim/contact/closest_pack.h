@@ -8,16 +8,16 @@ namespace forming_sim {
 
 /// Points and triangles.
 struct alignas(64) FacePack {
-  int point[kLanes], corner[3][kLanes];         ///< nodes
+  const int* corner[kLanes];                    ///< three nodes of each triangle, where the list has them
   double beta[kLanes], gamma[kLanes];           ///< found: weights of the second and third corner
   double apart[3][kLanes];                      ///< found: from the foot to the point, m
   double inside[kLanes];                        ///< found: 1 where the foot is inside the triangle; else the rest means nothing
+  int point[kLanes];                            ///< node
 };
 
 /// Two edges each.
 struct alignas(64) EdgePack {
-  int node[4][kLanes];                          ///< ends of the first and of the second
-  int opposite[4][kLanes];                      ///< third corners of two facets at either; where there is none, an end of the edge
+  const int* node[kLanes];                      ///< eight of each pair, where the list has them: NearList::EdgePair::node
   double s[kLanes], t[kLanes];                  ///< found
   double distance[kLanes], normal[3][kLanes];   ///< found: m; from the second to the first, length 1
   double inside[kLanes];                        ///< found: 1 where the closest points are inside both; else the rest means nothing

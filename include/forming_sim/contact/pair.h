@@ -31,6 +31,11 @@ struct Link {
   double weight[4] = {0, 0, 0, 0};  ///< b: positive on the first feature, negative on the second, sum 0
   int node[4] = {-1, -1, -1, -1};   ///< in the workspace
   int nodes = 0;
+
+  void add(int which, double b) {
+    node[nodes] = which;
+    weight[nodes++] = b;
+  }
 };
 
 /// Friction of a pair that rubs.
@@ -57,8 +62,8 @@ struct ContactPair : Link {
   PairKey key;
 
   ContactPair() = default;
-  ContactPair(const PairKey& name, int own_surface, int other_surface, double h, double h0, const Link& link, const Node& along)
-      : Link(link), own(own_surface), surface(other_surface), normal(along), gap(h), base(h0), key(name) {}
+  ContactPair(const PairKey& name, int own_surface, int other_surface, double h, double h0, const Node& along)
+      : own(own_surface), surface(other_surface), normal(along), gap(h), base(h0), key(name) {}
 };
 
 constexpr long kPairsOfAThread = 256;  ///< fewer are not worth another thread
