@@ -3,6 +3,7 @@
 #include "forming_sim/contact/closest_pack.h"
 
 #include "forming_sim/contact/inside.h"
+#include "forming_sim/contact/pair_shares.h"
 
 namespace forming_sim {
 namespace FORMING_SIM_ISA {
@@ -18,7 +19,22 @@ template <class NodeOf> [[gnu::always_inline]] inline Place places_of(const doub
   return p;
 }
 
-inline void face(const double* places, FacePack& p) {
+/// Adds node k of the pairs, of weight b.
+template <class NodeOf> [[gnu::always_inline]] inline void add_share(const double* shares, int k, const Pack& b, NodeOf&& node_of, PairShares<Pack>& sum) {
+  const double* from[kLanes];
+  for (int l = 0; l < kLanes; ++l) from[l] = shares + 4 * static_cast<long>(node_of(l));
+  Pack inverse_mass, area, of_body, held;
+  gather_records(from, inverse_mass, area, of_body, held);
+  sum.add(k, b, inverse_mass, area, of_body, held);
+}
+inline void store(const PairShares<Pack>& sum, SharesPack& to) {
+  sum.w.store(to.w);
+  sum.mean_area().store(to.area);
+  sum.movers.store(to.movers);
+  sum.held.store(to.held);
+}
+
+inline void face(const double* places, const double* shares, FacePack& p) {
   const auto corner = [&](int k) { return places_of(places, [&](int l) { return p.corner[l][k]; }); };
   const Place a = corner(0), point = places_of(places, [&](int l) { return p.point[l]; });
   const OverFace<Pack> f = over_face<Pack>(point - a, corner(1) - a, corner(2) - a);
@@ -26,6 +42,11 @@ inline void face(const double* places, FacePack& p) {
   f.gamma.store(p.gamma);
   for (int k = 0; k < 3; ++k) f.apart[k].store(p.apart[k]);
   select(f.inside, Pack(1.0), Pack(0.0)).store(p.inside);
+  const Pack weight[4] = {1.0, f.beta + f.gamma - Pack(1.0), -f.beta, -f.gamma};
+  PairShares<Pack> sum;
+  add_share(shares, 0, weight[0], [&](int l) { return p.point[l]; }, sum);
+  for (int k = 1; k < 4; ++k) add_share(shares, k, weight[k], [&](int l) { return p.corner[l][k - 1]; }, sum);
+  store(sum, p.shares);
 }
 
 /// 0 where `away` from an edge (a point on it: a; its direction: u), across it, points into the slab of the facet with
@@ -37,7 +58,7 @@ inline Pack outside(const Place& a, const Place& u, const Place& c, const Place&
   return select(within > Pack(0.0), select(within * within * dot(u, u) > limit, Pack(0.0), Pack(1.0)), Pack(1.0));
 }
 
-inline void edge(const double* places, double wedge, EdgePack& p) {
+inline void edge(const double* places, const double* shares, double wedge, EdgePack& p) {
   const auto place = [&](int k) { return places_of(places, [&](int l) { return p.node[l][k]; }); };
   const Place a = place(0), b = place(2), u = place(1) - a, v = place(3) - b;
   const CrossingEdges<Pack> e = crossing_edges<Pack>(a - b, u, v);
@@ -51,13 +72,17 @@ inline void edge(const double* places, double wedge, EdgePack& p) {
   const Pack of_first = smaller(outside(a, u, place(4), back, wedge), outside(a, u, place(5), back, wedge));
   const Pack of_second = smaller(outside(b, v, place(6), e.apart, wedge), outside(b, v, place(7), e.apart, wedge));
   smaller(of_first, of_second).store(p.outside);
+  const Pack weight[4] = {Pack(1.0) - e.s, e.s, e.t - Pack(1.0), -e.t};
+  PairShares<Pack> sum;
+  for (int k = 0; k < 4; ++k) add_share(shares, k, weight[k], [&](int l) { return p.node[l][k]; }, sum);
+  store(sum, p.shares);
 }
 
-void faces(const double* places, FacePack* packs, long count) {
-  for (long i = 0; i < count; ++i) face(places, packs[i]);
+void faces(const double* places, const double* shares, FacePack* packs, long count) {
+  for (long i = 0; i < count; ++i) face(places, shares, packs[i]);
 }
-void edges(const double* places, double wedge, EdgePack* packs, long count) {
-  for (long i = 0; i < count; ++i) edge(places, wedge, packs[i]);
+void edges(const double* places, const double* shares, double wedge, EdgePack* packs, long count) {
+  for (long i = 0; i < count; ++i) edge(places, shares, wedge, packs[i]);
 }
 
 }  // namespace

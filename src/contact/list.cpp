@@ -92,28 +92,31 @@ class Builder {
       if (dot3(at(v) - plane.point, plane.normal) <= radius_ && !(relation.tie >= 0 && f_.tied_zones[relation.tie][v])) list.planes.push_back({v, v, -1, tool});
   }
 
-  // From feature vertices to places in the workspace.
+  // From feature vertices to places in the workspace: those of bodies as they are numbered, those of tools in the order in
+  // which pairs meet them, so that what is used together stands together.
   void number(Workspace& work) {
     std::vector<int>& used = work.vertex;
     used.clear();
-    for (const auto& g : list.groups) used.push_back(g.node);
-    used.insert(used.end(), list.neighbours.begin(), list.neighbours.end());
+    for (const auto& e : list.edges) used.insert(used.end(), std::begin(e.node), std::end(e.node));
     for (const auto& c : list.facets)
       for (int k = 0; k < f_.corners(); ++k) used.push_back(c.node[k]);
-    for (const auto& e : list.edges) used.insert(used.end(), std::begin(e.node), std::end(e.node));
+    for (const auto& g : list.groups) used.push_back(g.node);
+    used.insert(used.end(), list.neighbours.begin(), list.neighbours.end());
     for (const auto& p : list.planes) used.push_back(p.node);
     for (const auto& t : list.ties)
       for (int n : t.node)
         if (n >= 0) used.push_back(n);
-    std::vector<int> place(f_.vertex_count, -1);
-    for (int v : used) place[v] = 0;
+    std::vector<int> place(f_.vertex_count, -1), of_tools;
+    for (int v : used) {
+      if (f_.rigid(v) && place[v] < 0) of_tools.push_back(v);
+      place[v] = 0;
+    }
     used.clear();
-    for (int v = 0; v < f_.vertex_count; ++v)
-      if (place[v] == 0) {
-        place[v] = static_cast<int>(used.size());
-        used.push_back(v);
-      }
-    work.body_entries = static_cast<int>(std::lower_bound(used.begin(), used.end(), f_.body_nodes) - used.begin());
+    for (int v = 0; v < f_.body_nodes; ++v)
+      if (place[v] == 0) used.push_back(v);
+    work.body_entries = static_cast<int>(used.size());
+    used.insert(used.end(), of_tools.begin(), of_tools.end());
+    for (size_t i = 0; i < used.size(); ++i) place[used[i]] = static_cast<int>(i);
     for (auto& g : list.groups) g.node = place[g.node];
     for (int& n : list.neighbours) n = place[n];
     for (auto& c : list.facets)
@@ -135,7 +138,11 @@ class Builder {
     work.x.assign(used.size(), Node::Zero());
     work.v = work.before = work.mean = work.x;
     work.share.assign(used.size(), Share());
-    for (int i = 0; i < work.body_entries; ++i) work.share[i].area = f_.area[used[i]];
+    work.projector.assign(used.size(), nullptr);
+    for (int i = 0; i < work.body_entries; ++i) {
+      work.share[i].area = f_.area[used[i]];
+      work.share[i].of_body = 1;
+    }
   }
 
   NearList list;

@@ -69,11 +69,15 @@ class Phase {
     out_.pairs.insert(out_.pairs.end(), corners.begin(), corners.end());
     finish();
   }
+  void finish_planes() {
+    for (ContactPair& pair : out_.pairs) take(pair);
+    finish();
+  }
   std::vector<ContactPair>& corners() { return corners_; }
   void finish() {
     for (; finished_ < out_.pairs.size(); ++finished_) {
       ContactPair& pair = out_.pairs[finished_];
-      constants_.set(pair, out_.rubs);
+      constants_.finish(pair, out_.rubs);
       if (!(pair.w > 0)) out_.unmovable.push_back(static_cast<long>(finished_));
       if (layers_ && layers_->give(pair, out_.rubs, place_)) out_.born.push_back(static_cast<long>(finished_));
     }
@@ -86,6 +90,7 @@ class Phase {
   struct Hit {
     Closest closest;
     int entry = -1;
+    long candidate = -1;
     std::uint64_t feature = 0;
     bool taken = false;
   };
@@ -101,7 +106,7 @@ class Phase {
         faces_[p].corner[l] = list.facets[c.entry].node;
       }
     }
-    kernels_.faces(work_.x.front().data(), faces_.data(), static_cast<long>(faces_.size()));
+    kernels_.faces(work_.x.front().data(), &work_.share.front().inverse_mass, faces_.data(), static_cast<long>(faces_.size()));
     for (long i = 0; i < count;) {
       const int group = candidates_[i].group;
       NearList::VertexGroup& g = list.groups[group];
@@ -110,7 +115,7 @@ class Phase {
         NearList::FacetEntry& e = list.facets[candidates_[i].entry];
         hits_.emplace_back();
         Hit& hit = hits_.back();
-        hit.closest = closest(g, e, i);
+        find_closest(g, e, i, hit.closest);
         const double distance = std::sqrt(hit.closest.squared);
         if (distance > range_.reach) {
           e.wake = range_.travel + distance;
@@ -118,6 +123,7 @@ class Phase {
           continue;
         }
         hit.entry = candidates_[i].entry;
+        hit.candidate = i;
         hit.feature = feature_of(hit.closest, e.facet);
         watch_touch(candidates_[i].entry, group, distance);
       }
@@ -133,20 +139,25 @@ class Phase {
     candidates_.clear();
   }
 
-  Closest closest(const NearList::VertexGroup& g, const NearList::FacetEntry& e, long candidate) const {
+  void find_closest(const NearList::VertexGroup& g, const NearList::FacetEntry& e, long candidate, Closest& c) const {
     const Node& p = work_.x[g.node];
-    if (f_.dimension == 2) return closest_on_segment_facet(p, work_.x[e.node[0]], work_.x[e.node[1]]);
+    if (f_.dimension == 2) {
+      c = closest_on_segment_facet(p, work_.x[e.node[0]], work_.x[e.node[1]]);
+      return;
+    }
     const FacePack& pack = faces_[candidate / kLanes];
     const long l = candidate % kLanes;
-    if (pack.inside[l] == 0) return closest_on_triangle_border(p, work_.x[e.node[0]], work_.x[e.node[1]], work_.x[e.node[2]]);
-    return closest_in_face(pack.beta[l], pack.gamma[l], Node(pack.apart[0][l], pack.apart[1][l], pack.apart[2][l], 0));
+    if (pack.inside[l] == 0)
+      c = closest_on_triangle_border(p, work_.x[e.node[0]], work_.x[e.node[1]], work_.x[e.node[2]]);
+    else
+      lie_in_face(pack.beta[l], pack.gamma[l], Node(pack.apart[0][l], pack.apart[1][l], pack.apart[2][l], 0), c);
   }
 
   void meet_edges(NearList& list, const int* awake, int count) {
     EdgePack packs[kEdgesAtOnce / kLanes];
     const int filled = (count + kLanes - 1) / kLanes;
     for (int i = 0; i < filled * kLanes; ++i) packs[i / kLanes].node[i % kLanes] = list.watched[awake[std::min(i, count - 1)]].node;
-    kernels_.edges(work_.x.front().data(), kWedge, packs, filled);
+    kernels_.edges(work_.x.front().data(), &work_.share.front().inverse_mass, kWedge, packs, filled);
     for (int i = 0; i < count; ++i) {
       const EdgePack& pack = packs[i / kLanes];
       const int l = i % kLanes;
@@ -177,10 +188,8 @@ class Phase {
     out_.pairs.emplace_back(PairKey::make(PairKey::edge_edge, e.first, 0, e.second), e.own, e.surface, distance, base,
                             Node(pack.normal[0][l], pack.normal[1][l], pack.normal[2][l], 0));
     ContactPair& pair = out_.pairs.back();
-    pair.add(e.node[0], 1 - s);
-    pair.add(e.node[1], s);
-    pair.add(e.node[2], t - 1);
-    pair.add(e.node[3], -t);
+    pair.link({e.node[0], e.node[1], e.node[2], e.node[3]}, {1 - s, s, t - 1, -t});
+    take(pack.shares, l, pair);
     finish();
     return distance;
   }
@@ -249,18 +258,27 @@ class Phase {
                        surface, gap, base, normal);
     ContactPair& pair = pairs.back();
     if (corners) {
-      pair.add(turned ? other : g.node, 1);
-      pair.add(turned ? g.node : other, -1);
+      pair.link({turned ? other : g.node, turned ? g.node : other}, {1, -1});
+    } else if (c.feature == Closest::edge) {
+      const int i = c.which == 2 ? 0 : c.which, j = c.which == 2 ? 2 : c.which + 1;
+      pair.link({g.node, e.node[i], e.node[j]}, {1, -c.weight[i], -c.weight[j]});
+    } else if (f_.dimension == 2) {
+      pair.link({g.node, e.node[0], e.node[1]}, {1, -c.weight[0], -c.weight[1]});
+    } else {
+      pair.link({g.node, e.node[0], e.node[1], e.node[2]}, {1, -c.weight[0], -c.weight[1], -c.weight[2]});
+      take(faces_[hit.candidate / kLanes].shares, static_cast<int>(hit.candidate % kLanes), pair);
       return;
     }
-    pair.add(g.node, 1);
-    const auto with = [&](int corner) { pair.add(e.node[corner], -c.weight[corner]); };
-    if (c.feature == Closest::edge) {
-      with(c.which == 2 ? 0 : c.which);
-      with(c.which == 2 ? 2 : c.which + 1);
-    } else {
-      for (int k = 0; k < f_.corners(); ++k) with(k);
-    }
+    take(pair);
+  }
+
+  // What the nodes make of the pair, as lanes have found it, or here.
+  void take(const SharesPack& found, int lane, ContactPair& pair) const {
+    constants_.take(found.w[lane], found.area[lane], found.movers[lane], found.held[lane], pair);
+  }
+  void take(ContactPair& pair) const {
+    const PairShares<double> sum = constants_.shares_of(pair);
+    constants_.take(sum.w, sum.mean_area(), sum.movers, sum.held, pair);
   }
 
   bool offered(double base, double gap) const { return all_ || base == layer_ || gap < base; }
@@ -309,8 +327,7 @@ void add_plane_pairs(const Features& features, const Workspace& work, const std:
     const double gap = dot3(work.x[p.node] - plane.point, plane.normal) * dot3(plane.normal, plane.end_normal);
     if (gap > reach) continue;
     pairs.emplace_back(PairKey::make(PairKey::plane, p.vertex, 0, p.tool), features.vertex_surface[p.vertex], features.bodies + p.tool, gap, layer, plane.end_normal);
-    pairs.back().add(p.node, 1);
-    pairs.back().add(p.foot, -1);
+    pairs.back().link({p.node, p.foot}, {1, -1});
   }
 }
 
@@ -357,7 +374,7 @@ void narrow_phase(const PairConstants& constants, const Layers* layers, const st
   result.clear();
   Phase on_planes(constants, layers, all, range, result);
   add_plane_pairs(constants.features, constants.work, planes, constants.layer, range.reach, list, result.pairs);
-  on_planes.finish();
+  on_planes.finish_planes();
   std::vector<std::vector<ContactPair>> corners(team.size());
   const auto same_vertex = [&](long i) { return list.groups[i].vertex == list.groups[i - 1].vertex; };
   share_out(team, static_cast<long>(list.groups.size()), kGroupsOfAThread, same_vertex, result, [&](int share, Narrow& into, long first, long last) {

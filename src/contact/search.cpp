@@ -82,7 +82,8 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
   for (int i = 0; i < work.body_entries; ++i) {
     work.share[i].inverse_mass = inverse_mass[work.vertex[i]];
     const int h = held_of[work.vertex[i]];
-    work.share[i].projector = h >= 0 ? &held[h].projector : nullptr;
+    work.share[i].held = h >= 0;
+    work.projector[i] = h >= 0 ? &held[h].projector : nullptr;
   }
   tie_pairs.clear();
   for (const NearList::TieEntry& entry : list.ties) {
@@ -112,11 +113,9 @@ void Contact::Impl::gather(const NodeField& x, const NodeField& v, double dt, co
   for (const TiePair& tie : tie_pairs) feet += tie.to_tool;
   const size_t last = work.vertex.size() - feet;
   team.share(static_cast<long>(last) - work.body_entries, kNodesOfAThread, [&](long from, long to) {
-    int surface = features.bodies;
     for (size_t i = work.body_entries + from; i < static_cast<size_t>(work.body_entries + to); ++i) {
       const int n = work.vertex[i];
-      while (surface + 1 < static_cast<int>(features.surfaces.size()) && n >= features.surfaces[surface + 1].first_vertex) ++surface;
-      place_on_tool(i, surface - features.bodies, vec3(features.place[n - features.body_nodes]));
+      place_on_tool(i, features.vertex_surface[n] - features.bodies, vec3(features.place[n - features.body_nodes]));
     }
   });
   for (const NearList::PlanePair& p : list.planes) {

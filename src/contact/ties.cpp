@@ -217,10 +217,9 @@ void prepare_tie(const Workspace& work, TiePair& pair) {
   double total = 0;
   for (int k = 0; k < pair.nodes; ++k) {
     const int n = pair.node[k];
-    const Share& share = work.share[n];
-    const double b2m = pair.weight[k] * pair.weight[k] * share.inverse_mass;
+    const double b2m = pair.weight[k] * pair.weight[k] * work.share[n].inverse_mass;
     total += b2m;
-    w += share.projector ? Mat3(b2m * *share.projector) : Mat3(b2m * Mat3::Identity());
+    w += work.projector[n] ? Mat3(b2m * *work.projector[n]) : Mat3(b2m * Mat3::Identity());
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(w);
   pair.mass.setZero();

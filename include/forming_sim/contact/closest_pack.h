@@ -6,6 +6,11 @@
 
 namespace forming_sim {
 
+/// PairShares of pairs.
+struct alignas(64) SharesPack {
+  double w[kLanes], area[kLanes], movers[kLanes], held[kLanes];  ///< area: the mean
+};
+
 /// Points and triangles.
 struct alignas(64) FacePack {
   const int* corner[kLanes];                    ///< three nodes of each triangle, where the list has them
@@ -13,6 +18,7 @@ struct alignas(64) FacePack {
   double apart[3][kLanes];                      ///< found: from the foot to the point, m
   double inside[kLanes];                        ///< found: 1 where the foot is inside the triangle; else the rest means nothing
   int point[kLanes];                            ///< node
+  SharesPack shares;                            ///< found
 };
 
 /// Two edges each.
@@ -22,13 +28,14 @@ struct alignas(64) EdgePack {
   double distance[kLanes], normal[3][kLanes];   ///< found: m; from the second to the first, length 1
   double inside[kLanes];                        ///< found: 1 where the closest points are inside both; else the rest means nothing
   double outside[kLanes];                       ///< found: 1 where each, seen from the facets of the other, lies outside their slabs
+  SharesPack shares;                            ///< found
 };
 
 struct ClosestKernels {
-  /// places: records of four doubles, one a node.
-  void (*faces)(const double* places, FacePack* packs, long count);
+  /// places, shares: records of four doubles, one a node: x, and Share (pair.h).
+  void (*faces)(const double* places, const double* shares, FacePack* packs, long count);
   /// wedge: slope up to which facets count as level.
-  void (*edges)(const double* places, double wedge, EdgePack* packs, long count);
+  void (*edges)(const double* places, const double* shares, double wedge, EdgePack* packs, long count);
 };
 
 const ClosestKernels& closest_kernels_of(Isa isa);
