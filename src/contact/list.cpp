@@ -76,7 +76,7 @@ class Builder {
       b.index->edges(b.query(radius_, p0, p1), [&](int other) {
         const auto& q = f_.edges[other].node;
         if (a == b.surface && (other <= e || p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1])) return;
-        if (f_.tied(relation, p, q)) return;
+        if (f_.tied_edges(relation, e, other)) return;
         const double squared = closest_on_edges(p0, p1, at(q[0]), at(q[1])).squared;
         if (squared > radius_ * radius_) return;
         const auto &op = f_.edges[e].opposite, &oq = f_.edges[other].opposite;
@@ -152,7 +152,7 @@ class Builder {
   void meet(int v, const Node& p, int own, int facet, int other) {
     const auto& c = f_.facets[facet];
     if (own == other && (c[0] == v || c[1] == v || c[2] == v)) return;
-    if (f_.tied(f_.relation(own, other), std::array<int, 1>{v}, c)) return;
+    if (f_.tied_to_facet(f_.relation(own, other), v, facet)) return;
     const double squared = f_.dimension == 2 ? closest_on_segment_facet(p, at(c[0]), at(c[1])).squared
                                              : closest_on_triangle(p, at(c[0]), at(c[1]), at(c[2])).squared;
     if (squared <= radius_ * radius_) found_.push_back({v, facet, std::sqrt(squared)});
