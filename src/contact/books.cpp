@@ -26,7 +26,7 @@ Node Books::book(const Link& link, int tool, const Node& impulse) {
       step_.tool_work -= dot3(on_tool, v);
       step_.tool_impulse[tool] += vec3(on_tool);
       step_.tool_angular_impulse[tool] += vec3(work_.x[n]).cross(vec3(on_tool));
-    } else if (const Mat3* projector = work_.share[n].projector) {
+    } else if (const Mat3* projector = work_.projector[n]) {
       step_.held_work += link.weight[k] * dot3(impulse - project(*projector, impulse), v);
     }
   }

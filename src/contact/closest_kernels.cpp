@@ -3,6 +3,7 @@
 #include "forming_sim/contact/closest_pack.h"
 
 #include "forming_sim/contact/inside.h"
+#include "forming_sim/contact/pair_shares.h"
 
 namespace forming_sim {
 namespace FORMING_SIM_ISA {
@@ -10,21 +11,42 @@ namespace {
 
 using Place = Vector<Pack, 3>;
 
-inline Place places_of(const double* places, const int (&node)[kLanes]) {
+template <class NodeOf> [[gnu::always_inline]] inline Place places_of(const double* places, NodeOf&& node_of) {
   const double* from[kLanes];
-  for (int l = 0; l < kLanes; ++l) from[l] = places + 4 * static_cast<long>(node[l]);
+  for (int l = 0; l < kLanes; ++l) from[l] = places + 4 * static_cast<long>(node_of(l));
   Place p;
   gather_records(from, p[0], p[1], p[2]);
   return p;
 }
 
-inline void face(const double* places, FacePack& p) {
-  const Place a = places_of(places, p.corner[0]);
-  const OverFace<Pack> f = over_face<Pack>(places_of(places, p.point) - a, places_of(places, p.corner[1]) - a, places_of(places, p.corner[2]) - a);
+/// Adds node k of the pairs, of weight b.
+template <class NodeOf> [[gnu::always_inline]] inline void add_share(const double* shares, int k, const Pack& b, NodeOf&& node_of, PairShares<Pack>& sum) {
+  const double* from[kLanes];
+  for (int l = 0; l < kLanes; ++l) from[l] = shares + 4 * static_cast<long>(node_of(l));
+  Pack inverse_mass, area, of_body, held;
+  gather_records(from, inverse_mass, area, of_body, held);
+  sum.add(k, b, inverse_mass, area, of_body, held);
+}
+inline void store(const PairShares<Pack>& sum, SharesPack& to) {
+  sum.w.store(to.w);
+  sum.mean_area().store(to.area);
+  sum.movers.store(to.movers);
+  sum.held.store(to.held);
+}
+
+inline void face(const double* places, const double* shares, FacePack& p) {
+  const auto corner = [&](int k) { return places_of(places, [&](int l) { return p.corner[l][k]; }); };
+  const Place a = corner(0), point = places_of(places, [&](int l) { return p.point[l]; });
+  const OverFace<Pack> f = over_face<Pack>(point - a, corner(1) - a, corner(2) - a);
   f.beta.store(p.beta);
   f.gamma.store(p.gamma);
   for (int k = 0; k < 3; ++k) f.apart[k].store(p.apart[k]);
   select(f.inside, Pack(1.0), Pack(0.0)).store(p.inside);
+  const Pack weight[4] = {1.0, f.beta + f.gamma - Pack(1.0), -f.beta, -f.gamma};
+  PairShares<Pack> sum;
+  add_share(shares, 0, weight[0], [&](int l) { return p.point[l]; }, sum);
+  for (int k = 1; k < 4; ++k) add_share(shares, k, weight[k], [&](int l) { return p.corner[l][k - 1]; }, sum);
+  store(sum, p.shares);
 }
 
 /// 0 where `away` from an edge (a point on it: a; its direction: u), across it, points into the slab of the facet with
@@ -36,9 +58,9 @@ inline Pack outside(const Place& a, const Place& u, const Place& c, const Place&
   return select(within > Pack(0.0), select(within * within * dot(u, u) > limit, Pack(0.0), Pack(1.0)), Pack(1.0));
 }
 
-inline void edge(const double* places, double wedge, EdgePack& p) {
-  const Place a = places_of(places, p.node[0]), b = places_of(places, p.node[2]);
-  const Place u = places_of(places, p.node[1]) - a, v = places_of(places, p.node[3]) - b;
+inline void edge(const double* places, const double* shares, double wedge, EdgePack& p) {
+  const auto place = [&](int k) { return places_of(places, [&](int l) { return p.node[l][k]; }); };
+  const Place a = place(0), b = place(2), u = place(1) - a, v = place(3) - b;
   const CrossingEdges<Pack> e = crossing_edges<Pack>(a - b, u, v);
   e.s.store(p.s);
   e.t.store(p.t);
@@ -47,17 +69,20 @@ inline void edge(const double* places, double wedge, EdgePack& p) {
   const Place normal = (Pack(1.0) / distance) * e.apart, back = Pack(-1.0) * e.apart;
   for (int k = 0; k < 3; ++k) normal[k].store(p.normal[k]);
   select(e.inside, Pack(1.0), Pack(0.0)).store(p.inside);
-  Pack out = outside(a, u, places_of(places, p.opposite[0]), back, wedge);
-  out = smaller(out, outside(a, u, places_of(places, p.opposite[1]), back, wedge));
-  out = smaller(out, outside(b, v, places_of(places, p.opposite[2]), e.apart, wedge));
-  smaller(out, outside(b, v, places_of(places, p.opposite[3]), e.apart, wedge)).store(p.outside);
+  const Pack of_first = smaller(outside(a, u, place(4), back, wedge), outside(a, u, place(5), back, wedge));
+  const Pack of_second = smaller(outside(b, v, place(6), e.apart, wedge), outside(b, v, place(7), e.apart, wedge));
+  smaller(of_first, of_second).store(p.outside);
+  const Pack weight[4] = {Pack(1.0) - e.s, e.s, e.t - Pack(1.0), -e.t};
+  PairShares<Pack> sum;
+  for (int k = 0; k < 4; ++k) add_share(shares, k, weight[k], [&](int l) { return p.node[l][k]; }, sum);
+  store(sum, p.shares);
 }
 
-void faces(const double* places, FacePack* packs, long count) {
-  for (long i = 0; i < count; ++i) face(places, packs[i]);
+void faces(const double* places, const double* shares, FacePack* packs, long count) {
+  for (long i = 0; i < count; ++i) face(places, shares, packs[i]);
 }
-void edges(const double* places, double wedge, EdgePack* packs, long count) {
-  for (long i = 0; i < count; ++i) edge(places, wedge, packs[i]);
+void edges(const double* places, const double* shares, double wedge, EdgePack* packs, long count) {
+  for (long i = 0; i < count; ++i) edge(places, shares, wedge, packs[i]);
 }
 
 }  // namespace

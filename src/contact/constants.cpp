@@ -7,35 +7,29 @@
 
 namespace forming_sim {
 
-void PairConstants::set(ContactPair& pair, std::vector<Rub>& rubs) const {
-  double area = 0, any = 0, w = 0;
-  int deformable = 0, movers = 0;
-  bool held = false;
-  for (int k = 0; k < pair.nodes; ++k) {
-    const int n = pair.node[k];
-    if (n >= work.body_entries) continue;
-    const Share& share = work.share[n];
-    area += share.area;
-    ++deformable;
-    if (!(share.inverse_mass > 0)) continue;
-    movers |= 1 << k;
-    const double b2m = pair.weight[k] * pair.weight[k] * share.inverse_mass;
-    any += b2m;
-    w += share.projector ? b2m * dot3(pair.normal, project(*share.projector, pair.normal)) : b2m;
-    held = held || share.projector;
+PairShares<double> PairConstants::shares_of(const Link& link) const {
+  PairShares<double> sum;
+  for (int k = 0; k < link.nodes; ++k) {
+    const Share& share = work.share[link.node[k]];
+    sum.add(k, link.weight[k], share.inverse_mass, share.area, share.of_body, share.held);
   }
-  pair.w = w;
-  pair.movers = static_cast<std::uint8_t>(movers);
-  pair.held = held;
-  pair.stiffness = deformable > 0 ? modulus * layer * area / deformable : 0;
-  // Held against the normal up to rounding is held.
-  if (pair.w <= 1e-12 * any) pair.w = pair.stiffness = 0;
-  pair.tool = std::max(-1, std::max(pair.own, pair.surface) - features.bodies);
-  const double friction = features.relation(pair.own, pair.surface).friction;
-  pair.rub = -1;
-  if (!(friction > 0)) return;
-  pair.rub = static_cast<int>(rubs.size());
-  rubs.push_back({Node::Zero(), friction, any});
+  return sum;
+}
+
+double PairConstants::held_w(const ContactPair& pair) const {
+  double w = 0;
+  for (int k = 0; k < pair.nodes; ++k) {
+    const double b2m = pair.weight[k] * pair.weight[k] * work.share[pair.node[k]].inverse_mass;
+    const Mat3* projector = work.projector[pair.node[k]];
+    w += projector ? b2m * dot3(pair.normal, project(*projector, pair.normal)) : b2m;
+  }
+  return w;
+}
+
+void PairConstants::set(ContactPair& pair, std::vector<Rub>& rubs) const {
+  const PairShares<double> sum = shares_of(pair);
+  take(sum.w, sum.mean_area(), sum.movers, sum.held, pair);
+  finish(pair, rubs);
 }
 
 }  // namespace forming_sim

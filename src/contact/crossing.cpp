@@ -68,7 +68,7 @@ class Finder {
       grid.query(query, [&](int i) {
         const auto& c = f_.facets[sb.first_facet + i];
         if (a == b && (p == c[0] || p == c[1] || p == c[2] || q == c[0] || q == c[1] || q == c[2])) return;
-        if (f_.tied(relation, std::array<int, 2>{p, q}, c)) return;
+        if (f_.tied_edge_to_facet(relation, e, sb.first_facet + i)) return;
         const bool hit = flat ? segments_cross(at(p), at(q), at(c[0]), at(c[1]), true)
                               : pierces(at(p), at(q), at(c[0]), at(c[1]), at(c[2]), true);
         if (hit) found.push_back({std::min(a, b), std::max(a, b), {p, q}, sb.first_facet + i});
@@ -83,7 +83,7 @@ class Finder {
     for (size_t i = 0; i < pa.of_facet.size(); ++i) {
       const int v = f_.facets[f_.surfaces[a].first_facet + i][0];
       const std::array<int, 1> vertex{v};
-      if (seen[pa.of_facet[i]] || f_.tied(f_.relation(a, b), vertex, vertex)) continue;
+      if (seen[pa.of_facet[i]] || f_.about_ties(f_.relation(a, b), vertex, vertex)) continue;
       seen[pa.of_facet[i]] = 1;
       for (size_t part = 0; part < pb.closed.size(); ++part)
         if (pb.closed[part] && is_inside(at(v), b, pb, static_cast<int>(part))) found.push_back({std::min(a, b), std::max(a, b), {v, -1}, -1});
@@ -187,7 +187,7 @@ std::vector<Crossing> find_crossings(const Features& f, const NodeField& x, cons
         continue;
       }
       for (int v : f.surfaces[body].vertices)
-        if (dot3(x[v] - planes[t].point, planes[t].normal) <= 0 && !f.tied(f.relation(body, surface), std::array<int, 1>{v}, std::array<int, 1>{v})) finder.found.push_back({body, surface, {v, -1}, -1});
+        if (dot3(x[v] - planes[t].point, planes[t].normal) <= 0 && !f.about_ties(f.relation(body, surface), std::array<int, 1>{v}, std::array<int, 1>{v})) finder.found.push_back({body, surface, {v, -1}, -1});
     }
     for (int other = body; other < f.bodies; ++other)
       if (f.relation(body, other).meet) meet(body, other);

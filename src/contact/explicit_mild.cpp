@@ -58,7 +58,7 @@ double stable_step(const PowerLaw& law, const Workspace& work, const std::vector
     for (int k = 0; k < pair.nodes; ++k) {
       const int n = pair.node[k];
       const Share& share = work.share[n];
-      free[k] = share.inverse_mass == 0 ? 0 : std::abs(pair.weight[k]) * (share.projector ? project(*share.projector, pair.normal).norm() : 1);
+      free[k] = share.inverse_mass == 0 ? 0 : std::abs(pair.weight[k]) * (work.projector[n] ? project(*work.projector[n], pair.normal).norm() : 1);
       all += free[k];
     }
     for (int k = 0; k < pair.nodes; ++k) {

@@ -212,4 +212,17 @@ Features build_features(const ContactSetup& setup, const NodeField& x) {
   return f;
 }
 
+bool Features::tied_edge_to_facet(const Relation& relation, int e, int facet) const {
+  if (relation.tie < 0) return false;
+  const int* ends = dimension == 2 ? facets[e].data() : edges[e].node;
+  for (int k = 0; k < 2; ++k) {
+    if (tied_to_facet(relation, ends[k], facet)) return true;
+    if (dimension == 2 && tied_to_facet(relation, facets[facet][k], e)) return true;
+  }
+  if (dimension == 3)
+    for (int border : facet_edges[facet])
+      if (tied_edges(relation, e, border)) return true;
+  return false;
+}
+
 }  // namespace forming_sim

@@ -77,7 +77,7 @@ class Left {
 };
 
 /// The record of a key, null: none. place: before the first call -1; keys rise from call to call.
-const PairRecord* find(const std::vector<PairRecord>& records, const PairKey& key, long& place) {
+inline const PairRecord* find(const std::vector<PairRecord>& records, const PairKey& key, long& place) {
   const long count = static_cast<long>(records.size());
   if (place < 0) place = std::lower_bound(records.begin(), records.end(), key, [](const PairRecord& r, const PairKey& k) { return r.key < k; }) - records.begin();
   while (place < count && records[place].key < key) ++place;
@@ -88,7 +88,7 @@ const PairRecord* find(const std::vector<PairRecord>& records, const PairKey& ke
 
 bool Layers::give(ContactPair& pair, std::vector<Rub>& rubs, Place& place) const {
   const PairRecord* known = find(before_, pair.key, place.before);
-  const PairRecord* last = &last_try_ == &before_ ? known : find(last_try_, pair.key, place.last_try);
+  const PairRecord* last = tried_ ? find(last_try_, pair.key, place.last_try) : known;
   pair.impulse = 0;
   if (last && pair.w > 0) {
     pair.impulse = lasts_ * last->force;

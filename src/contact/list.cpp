@@ -76,11 +76,12 @@ class Builder {
       b.index->edges(b.query(radius_, p0, p1), [&](int other) {
         const auto& q = f_.edges[other].node;
         if (a == b.surface && (other <= e || p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1])) return;
-        if (f_.tied(relation, p, q)) return;
+        if (f_.tied_edges(relation, e, other)) return;
         const double squared = closest_on_edges(p0, p1, at(q[0]), at(q[1])).squared;
         if (squared > radius_ * radius_) return;
         const auto &op = f_.edges[e].opposite, &oq = f_.edges[other].opposite;
-        list.edges.push_back({e, other, a, b.surface, {p[0], p[1], q[0], q[1]}, {op[0], op[1], oq[0], oq[1]}, -1, std::sqrt(squared)});
+        const auto or_end = [](int corner, const int (&ends)[2]) { return corner >= 0 ? corner : ends[0]; };
+        list.edges.push_back({e, other, a, b.surface, {p[0], p[1], q[0], q[1], or_end(op[0], p), or_end(op[1], p), or_end(oq[0], q), or_end(oq[1], q)}, -1, std::sqrt(squared)});
       });
     }
   }
@@ -91,41 +92,37 @@ class Builder {
       if (dot3(at(v) - plane.point, plane.normal) <= radius_ && !(relation.tie >= 0 && f_.tied_zones[relation.tie][v])) list.planes.push_back({v, v, -1, tool});
   }
 
-  // From feature vertices to places in the workspace.
+  // From feature vertices to places in the workspace: those of bodies as they are numbered, those of tools in the order in
+  // which pairs meet them, so that what is used together stands together.
   void number(Workspace& work) {
     std::vector<int>& used = work.vertex;
     used.clear();
-    for (const auto& g : list.groups) used.push_back(g.node);
-    used.insert(used.end(), list.neighbours.begin(), list.neighbours.end());
+    for (const auto& e : list.edges) used.insert(used.end(), std::begin(e.node), std::end(e.node));
     for (const auto& c : list.facets)
       for (int k = 0; k < f_.corners(); ++k) used.push_back(c.node[k]);
-    for (const auto& e : list.edges) {
-      used.insert(used.end(), e.node, e.node + 4);
-      for (int o : e.opposite)
-        if (o >= 0) used.push_back(o);
-    }
+    for (const auto& g : list.groups) used.push_back(g.node);
+    used.insert(used.end(), list.neighbours.begin(), list.neighbours.end());
     for (const auto& p : list.planes) used.push_back(p.node);
     for (const auto& t : list.ties)
       for (int n : t.node)
         if (n >= 0) used.push_back(n);
-    std::vector<int> place(f_.vertex_count, -1);
-    for (int v : used) place[v] = 0;
+    std::vector<int> place(f_.vertex_count, -1), of_tools;
+    for (int v : used) {
+      if (f_.rigid(v) && place[v] < 0) of_tools.push_back(v);
+      place[v] = 0;
+    }
     used.clear();
-    for (int v = 0; v < f_.vertex_count; ++v)
-      if (place[v] == 0) {
-        place[v] = static_cast<int>(used.size());
-        used.push_back(v);
-      }
-    work.body_entries = static_cast<int>(std::lower_bound(used.begin(), used.end(), f_.body_nodes) - used.begin());
+    for (int v = 0; v < f_.body_nodes; ++v)
+      if (place[v] == 0) used.push_back(v);
+    work.body_entries = static_cast<int>(used.size());
+    used.insert(used.end(), of_tools.begin(), of_tools.end());
+    for (size_t i = 0; i < used.size(); ++i) place[used[i]] = static_cast<int>(i);
     for (auto& g : list.groups) g.node = place[g.node];
     for (int& n : list.neighbours) n = place[n];
     for (auto& c : list.facets)
       for (int k = 0; k < f_.corners(); ++k) c.node[k] = place[c.node[k]];
-    for (auto& e : list.edges) {
+    for (auto& e : list.edges)
       for (int& n : e.node) n = place[n];
-      for (int& o : e.opposite)
-        if (o >= 0) o = place[o];
-    }
     for (auto& p : list.planes) {
       p.node = place[p.node];
       p.foot = static_cast<int>(used.size());
@@ -141,7 +138,11 @@ class Builder {
     work.x.assign(used.size(), Node::Zero());
     work.v = work.before = work.mean = work.x;
     work.share.assign(used.size(), Share());
-    for (int i = 0; i < work.body_entries; ++i) work.share[i].area = f_.area[used[i]];
+    work.projector.assign(used.size(), nullptr);
+    for (int i = 0; i < work.body_entries; ++i) {
+      work.share[i].area = f_.area[used[i]];
+      work.share[i].of_body = 1;
+    }
   }
 
   NearList list;
@@ -151,7 +152,7 @@ class Builder {
   void meet(int v, const Node& p, int own, int facet, int other) {
     const auto& c = f_.facets[facet];
     if (own == other && (c[0] == v || c[1] == v || c[2] == v)) return;
-    if (f_.tied(f_.relation(own, other), std::array<int, 1>{v}, c)) return;
+    if (f_.tied_to_facet(f_.relation(own, other), v, facet)) return;
     const double squared = f_.dimension == 2 ? closest_on_segment_facet(p, at(c[0]), at(c[1])).squared
                                              : closest_on_triangle(p, at(c[0]), at(c[1]), at(c[2])).squared;
     if (squared <= radius_ * radius_) found_.push_back({v, facet, std::sqrt(squared)});

@@ -24,7 +24,7 @@ const ClosestKernels& widest_kernels() {
 }
 
 constexpr int kFacetsAtOnce = 64;  ///< whose closest points are found together, or a few more
-constexpr int kEdgesAtOnce = 256;
+constexpr int kEdgesAtOnce = 64;
 
 class Phase {
  public:
@@ -69,11 +69,15 @@ class Phase {
     out_.pairs.insert(out_.pairs.end(), corners.begin(), corners.end());
     finish();
   }
+  void finish_planes() {
+    for (ContactPair& pair : out_.pairs) take(pair);
+    finish();
+  }
   std::vector<ContactPair>& corners() { return corners_; }
   void finish() {
     for (; finished_ < out_.pairs.size(); ++finished_) {
       ContactPair& pair = out_.pairs[finished_];
-      constants_.set(pair, out_.rubs);
+      constants_.finish(pair, out_.rubs);
       if (!(pair.w > 0)) out_.unmovable.push_back(static_cast<long>(finished_));
       if (layers_ && layers_->give(pair, out_.rubs, place_)) out_.born.push_back(static_cast<long>(finished_));
     }
@@ -85,9 +89,10 @@ class Phase {
   };
   struct Hit {
     Closest closest;
-    int entry;
-    std::uint64_t feature;
-    bool taken;
+    int entry = -1;
+    long candidate = -1;
+    std::uint64_t feature = 0;
+    bool taken = false;
   };
 
   // The closest points of the candidates, in lanes where there are triangles; then group by group what they are.
@@ -98,23 +103,28 @@ class Phase {
       for (int l = 0; l < kLanes; ++l) {
         const Candidate& c = candidates_[std::min<long>(p * kLanes + l, count - 1)];
         faces_[p].point[l] = list.groups[c.group].node;
-        for (int k = 0; k < 3; ++k) faces_[p].corner[k][l] = list.facets[c.entry].node[k];
+        faces_[p].corner[l] = list.facets[c.entry].node;
       }
     }
-    kernels_.faces(work_.x.front().data(), faces_.data(), static_cast<long>(faces_.size()));
+    kernels_.faces(work_.x.front().data(), &work_.share.front().inverse_mass, faces_.data(), static_cast<long>(faces_.size()));
     for (long i = 0; i < count;) {
       const int group = candidates_[i].group;
       NearList::VertexGroup& g = list.groups[group];
       hits_.clear();
       for (; i < count && candidates_[i].group == group; ++i) {
         NearList::FacetEntry& e = list.facets[candidates_[i].entry];
-        const Closest c = closest(g, e, i);
-        const double distance = std::sqrt(c.squared);
+        hits_.emplace_back();
+        Hit& hit = hits_.back();
+        find_closest(g, e, i, hit.closest);
+        const double distance = std::sqrt(hit.closest.squared);
         if (distance > range_.reach) {
           e.wake = range_.travel + distance;
+          hits_.pop_back();
           continue;
         }
-        hits_.push_back({c, candidates_[i].entry, feature_of(c, e.facet), false});
+        hit.entry = candidates_[i].entry;
+        hit.candidate = i;
+        hit.feature = feature_of(hit.closest, e.facet);
         watch_touch(candidates_[i].entry, group, distance);
       }
       if (hits_.empty()) {
@@ -129,27 +139,25 @@ class Phase {
     candidates_.clear();
   }
 
-  Closest closest(const NearList::VertexGroup& g, const NearList::FacetEntry& e, long candidate) const {
+  void find_closest(const NearList::VertexGroup& g, const NearList::FacetEntry& e, long candidate, Closest& c) const {
     const Node& p = work_.x[g.node];
-    if (f_.dimension == 2) return closest_on_segment_facet(p, work_.x[e.node[0]], work_.x[e.node[1]]);
+    if (f_.dimension == 2) {
+      c = closest_on_segment_facet(p, work_.x[e.node[0]], work_.x[e.node[1]]);
+      return;
+    }
     const FacePack& pack = faces_[candidate / kLanes];
     const long l = candidate % kLanes;
-    if (pack.inside[l] == 0) return closest_on_triangle_border(p, work_.x[e.node[0]], work_.x[e.node[1]], work_.x[e.node[2]]);
-    return closest_in_face(pack.beta[l], pack.gamma[l], Node(pack.apart[0][l], pack.apart[1][l], pack.apart[2][l], 0));
+    if (pack.inside[l] == 0)
+      c = closest_on_triangle_border(p, work_.x[e.node[0]], work_.x[e.node[1]], work_.x[e.node[2]]);
+    else
+      lie_in_face(pack.beta[l], pack.gamma[l], Node(pack.apart[0][l], pack.apart[1][l], pack.apart[2][l], 0), c);
   }
 
   void meet_edges(NearList& list, const int* awake, int count) {
     EdgePack packs[kEdgesAtOnce / kLanes];
     const int filled = (count + kLanes - 1) / kLanes;
-    for (int i = 0; i < filled * kLanes; ++i) {
-      const NearList::EdgePair& e = list.watched[awake[std::min(i, count - 1)]];
-      EdgePack& pack = packs[i / kLanes];
-      for (int k = 0; k < 4; ++k) {
-        pack.node[k][i % kLanes] = e.node[k];
-        pack.opposite[k][i % kLanes] = e.opposite[k] >= 0 ? e.opposite[k] : e.node[k / 2 * 2];
-      }
-    }
-    kernels_.edges(work_.x.front().data(), kWedge, packs, filled);
+    for (int i = 0; i < filled * kLanes; ++i) packs[i / kLanes].node[i % kLanes] = list.watched[awake[std::min(i, count - 1)]].node;
+    kernels_.edges(work_.x.front().data(), &work_.share.front().inverse_mass, kWedge, packs, filled);
     for (int i = 0; i < count; ++i) {
       const EdgePack& pack = packs[i / kLanes];
       const int l = i % kLanes;
@@ -178,8 +186,10 @@ class Phase {
     if (!(distance > 0) || !offered(base, distance)) return distance;
     const double s = pack.s[l], t = pack.t[l];
     out_.pairs.emplace_back(PairKey::make(PairKey::edge_edge, e.first, 0, e.second), e.own, e.surface, distance, base,
-                            Link{{1 - s, s, t - 1, -t}, {e.node[0], e.node[1], e.node[2], e.node[3]}, 4},
                             Node(pack.normal[0][l], pack.normal[1][l], pack.normal[2][l], 0));
+    ContactPair& pair = out_.pairs.back();
+    pair.link({e.node[0], e.node[1], e.node[2], e.node[3]}, {1 - s, s, t - 1, -t});
+    take(pack.shares, l, pair);
     finish();
     return distance;
   }
@@ -221,46 +231,54 @@ class Phase {
     const NearList::FacetEntry& e = list.facets[hit.entry];
     const Closest& c = hit.closest;
     int own = f_.vertex_surface[g.vertex], surface = g.surface;
-    Link link{{1, 0, 0, 0}, {g.node, -1, -1, -1}, 1};
-    const auto with = [&](int corner, double share) {
-      link.node[link.nodes] = e.node[corner];
-      link.weight[link.nodes++] = -share;
-    };
-    if (c.feature == Closest::corner) {
-      with(c.which, 1);
-    } else if (c.feature == Closest::edge) {
-      const int i = c.which == 2 ? 0 : c.which, j = c.which == 2 ? 2 : c.which + 1;
-      with(i, c.weight[i]);
-      with(j, c.weight[j]);
-    } else {
-      for (int k = 0; k < f_.corners(); ++k) with(k, c.weight[k]);
-    }
     int first = g.vertex, second = static_cast<int>(hit.feature & 0xffffffffu);
-    const bool corners = c.feature == Closest::corner;
-    if (corners && second < first) {  // the same pair is found from both sides
-      std::swap(first, second);
-      std::swap(link.node[0], link.node[1]);
-      std::swap(own, surface);
-    }
+    const bool corners = c.feature == Closest::corner, turned = corners && second < first;
+    const int other = e.node[corners ? c.which : 0];
     Node d = c.apart;
-    if (link.node[0] != g.node) d = -d;
-    if (corners) d = work_.x[link.node[0]] - work_.x[link.node[1]];  // the same bits from both sides
+    if (corners) d = turned ? work_.x[other] - work_.x[g.node] : work_.x[g.node] - work_.x[other];  // the same bits from both sides
     const double gap = std::sqrt(dot3(d, d));
     if (!(gap > 0)) return;  // no direction; the start check and the continuous check exclude it
     const Node normal = d / gap;
     double base = layer_;
     // Seen from the vertex, is the other feature's point the nearest too?
     const Node& from = work_.x[g.node];
-    const double sense = link.node[0] == g.node ? 1 : -1;
+    const double sense = turned ? -1 : 1;
     for (int i = g.near_first; i < g.near_last; ++i) {
       const Node along = work_.x[list.neighbours[i]] - from;
       const double nearer = -sense * dot3(normal, along) - layer_;
       if (nearer > 0 && nearer * nearer > kWedge * kWedge * dot3(along, along)) base = layer_ / 2;
     }
     if (!offered(base, gap)) return;
-    (corners ? corners_ : out_.pairs)
-        .emplace_back(corners ? PairKey::make(PairKey::vertex_vertex, first, 0, second) : PairKey::make(PairKey::vertex_facet, first, c.feature, second), own,
-                      surface, gap, base, link, normal);
+    if (turned) {  // the same pair is found from both sides
+      std::swap(first, second);
+      std::swap(own, surface);
+    }
+    std::vector<ContactPair>& pairs = corners ? corners_ : out_.pairs;
+    pairs.emplace_back(corners ? PairKey::make(PairKey::vertex_vertex, first, 0, second) : PairKey::make(PairKey::vertex_facet, first, c.feature, second), own,
+                       surface, gap, base, normal);
+    ContactPair& pair = pairs.back();
+    if (corners) {
+      pair.link({turned ? other : g.node, turned ? g.node : other}, {1, -1});
+    } else if (c.feature == Closest::edge) {
+      const int i = c.which == 2 ? 0 : c.which, j = c.which == 2 ? 2 : c.which + 1;
+      pair.link({g.node, e.node[i], e.node[j]}, {1, -c.weight[i], -c.weight[j]});
+    } else if (f_.dimension == 2) {
+      pair.link({g.node, e.node[0], e.node[1]}, {1, -c.weight[0], -c.weight[1]});
+    } else {
+      pair.link({g.node, e.node[0], e.node[1], e.node[2]}, {1, -c.weight[0], -c.weight[1], -c.weight[2]});
+      take(faces_[hit.candidate / kLanes].shares, static_cast<int>(hit.candidate % kLanes), pair);
+      return;
+    }
+    take(pair);
+  }
+
+  // What the nodes make of the pair, as lanes have found it, or here.
+  void take(const SharesPack& found, int lane, ContactPair& pair) const {
+    constants_.take(found.w[lane], found.area[lane], found.movers[lane], found.held[lane], pair);
+  }
+  void take(ContactPair& pair) const {
+    const PairShares<double> sum = constants_.shares_of(pair);
+    constants_.take(sum.w, sum.mean_area(), sum.movers, sum.held, pair);
   }
 
   bool offered(double base, double gap) const { return all_ || base == layer_ || gap < base; }
@@ -308,8 +326,8 @@ void add_plane_pairs(const Features& features, const Workspace& work, const std:
     const PlanePose& plane = planes[p.tool];
     const double gap = dot3(work.x[p.node] - plane.point, plane.normal) * dot3(plane.normal, plane.end_normal);
     if (gap > reach) continue;
-    pairs.emplace_back(PairKey::make(PairKey::plane, p.vertex, 0, p.tool), features.vertex_surface[p.vertex], features.bodies + p.tool, gap, layer,
-                       Link{{1, -1, 0, 0}, {p.node, p.foot, -1, -1}, 2}, plane.end_normal);
+    pairs.emplace_back(PairKey::make(PairKey::plane, p.vertex, 0, p.tool), features.vertex_surface[p.vertex], features.bodies + p.tool, gap, layer, plane.end_normal);
+    pairs.back().link({p.node, p.foot}, {1, -1});
   }
 }
 
@@ -356,7 +374,7 @@ void narrow_phase(const PairConstants& constants, const Layers* layers, const st
   result.clear();
   Phase on_planes(constants, layers, all, range, result);
   add_plane_pairs(constants.features, constants.work, planes, constants.layer, range.reach, list, result.pairs);
-  on_planes.finish();
+  on_planes.finish_planes();
   std::vector<std::vector<ContactPair>> corners(team.size());
   const auto same_vertex = [&](long i) { return list.groups[i].vertex == list.groups[i - 1].vertex; };
   share_out(team, static_cast<long>(list.groups.size()), kGroupsOfAThread, same_vertex, result, [&](int share, Narrow& into, long first, long last) {

@@ -82,7 +82,8 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
   for (int i = 0; i < work.body_entries; ++i) {
     work.share[i].inverse_mass = inverse_mass[work.vertex[i]];
     const int h = held_of[work.vertex[i]];
-    work.share[i].projector = h >= 0 ? &held[h].projector : nullptr;
+    work.share[i].held = h >= 0;
+    work.projector[i] = h >= 0 ? &held[h].projector : nullptr;
   }
   tie_pairs.clear();
   for (const NearList::TieEntry& entry : list.ties) {
@@ -92,28 +93,31 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
 }
 
 void Contact::Impl::gather(const NodeField& x, const NodeField& v, double dt, const std::vector<ToolMotion>& motion, const std::vector<PlanePose>& planes) {
-  for (int i = 0; i < work.body_entries; ++i) {
-    const int n = work.vertex[i];
-    work.x[i] = x[n];
-    work.v[i] = v_star[n];
-    work.before[i] = v[n];
-  }
+  team.share(work.body_entries, kNodesOfAThread, [&](long first, long last) {
+    for (long i = first; i < last; ++i) {
+      const int n = work.vertex[i];
+      work.x[i] = x[n];
+      work.v[i] = v_star[n];
+      work.before[i] = v[n];
+    }
+  });
   // Where a point of a tool is and how it moves, from its place in the tool's frame.
   const auto place_on_tool = [&](size_t entry, int tool, const Vec3& p) {
     const ToolMotion& m = motion[tool];
-    work.x[entry] = node(pose0(m, p));
-    work.v[entry] = (node(pose1(m, p)) - work.x[entry]) / dt;
-    work.before[entry] = previous_dt > 0 ? (work.x[entry] - node(pose0(previous_motion[tool], p))) / previous_dt : work.v[entry];
+    const Vec3 now = pose0(m, p);
+    work.x[entry] = node(now);
+    work.v[entry] = node((pose1(m, p) - now) / dt);
+    work.before[entry] = previous_dt > 0 ? node((now - pose0(previous_motion[tool], p)) / previous_dt) : work.v[entry];
   };
   size_t feet = list.planes.size();
   for (const TiePair& tie : tie_pairs) feet += tie.to_tool;
   const size_t last = work.vertex.size() - feet;
-  int surface = features.bodies;
-  for (size_t i = work.body_entries; i < last; ++i) {
-    const int n = work.vertex[i];
-    while (surface + 1 < static_cast<int>(features.surfaces.size()) && n >= features.surfaces[surface + 1].first_vertex) ++surface;
-    place_on_tool(i, surface - features.bodies, vec3(features.place[n - features.body_nodes]));
-  }
+  team.share(static_cast<long>(last) - work.body_entries, kNodesOfAThread, [&](long from, long to) {
+    for (size_t i = work.body_entries + from; i < static_cast<size_t>(work.body_entries + to); ++i) {
+      const int n = work.vertex[i];
+      place_on_tool(i, features.vertex_surface[n] - features.bodies, vec3(features.place[n - features.body_nodes]));
+    }
+  });
   for (const NearList::PlanePair& p : list.planes) {
     const ToolMotion& m = motion[p.tool];
     const PlanePose& plane = planes[p.tool];

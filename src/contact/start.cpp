@@ -50,6 +50,7 @@ class Start {
       for (int i = g.first; i < g.last; ++i) {
         const int facet = list.facets[i].facet;
         const auto& c = f_.facets[facet];
+        if (f_.about_ties(f_.relation(f_.vertex_surface[g.vertex], g.surface), std::array<int, 1>{g.vertex}, c)) continue;
         const Node& third = at(c[f_.corners() - 1]);
         const Closest q = f_.dimension == 2 ? closest_on_segment_facet(p, at(c[0]), at(c[1])) : closest_on_triangle(p, at(c[0]), at(c[1]), third);
         if (q.squared > best * (1 + 1e-9) + 1e-12 * layer_ * layer_) continue;
@@ -68,9 +69,10 @@ class Start {
         gap.away = distance > 1e-6 * layer_ ? Node(d / gap.gap) : n;
         if (f_.rigid(g.vertex)) gap.away = -gap.away;
       }
-      found.push_back(gap);
+      if (best < 1e300) found.push_back(gap);
     }
     for (const auto& e : list.edges) {
+      if (f_.about_ties(f_.relation(e.own, e.surface), f_.edges[e.first].node, f_.edges[e.second].node)) continue;
       const int other = f_.edges[e.second].surface;
       if ((other >= f_.bodies) != (tool >= 0) || f_.edges[e.first].surface == other) continue;
       add_edge_gap(e.first, e.second, at, found);

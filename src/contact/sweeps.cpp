@@ -173,7 +173,7 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
                           const std::vector<Rub>& rubs) {
   cut(work.share.size(), pairs);
   projector_.resize(work.share.size());
-  for (std::size_t i = 0; i < projector_.size(); ++i) projector_[i] = work.share[i].projector ? work.share[i].projector->data() : nullptr;
+  for (std::size_t i = 0; i < projector_.size(); ++i) projector_[i] = work.projector[i] ? work.projector[i]->data() : nullptr;
   // While the sweeps last, a node's inverse mass stands beside its velocity.
   for (std::size_t i = 0; i < work.v.size(); ++i) work.v[i][3] = work.share[i].inverse_mass;
   const Movers movers{work.v.front().data(), projector_.data()};

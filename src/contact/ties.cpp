@@ -36,7 +36,8 @@ EdgeLengths edge_lengths(const Features& f, int surface, const NodeField& x) {
 // The two surfaces of a tied pair: vertices of `first` are tied to `second`.
 struct TiedPair {
   int first = -1, second = -1;
-  double distance = 0;
+  double distance = 0;      ///< up to which vertices are tied, m
+  double near = 0;          ///< up to which features that touch the other surface do not meet its features, m
 };
 
 Closest closest_on_facet(const Features& f, const Node& p, const Node* const corner[3]) {
@@ -102,6 +103,7 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
                            const std::vector<PlanePose>& planes, Features& f) {
   std::vector<TiedPair> pairs;
   std::vector<Tie> ties;
+  std::vector<std::uint64_t> touching_facets, touching_edges;
   double radius = 0;
   for (const PairConfig& config : setup.config.pairs) {
     if (config.kind != "tied") continue;
@@ -118,8 +120,9 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
       pair.distance = 0.1 * std::min(a.smallest, b.smallest);
       if (b.mean < a.mean) std::swap(pair.first, pair.second);
     }
+    pair.near = std::max({pair.distance, config.tie_distance, 2 * setup.config.layer});
     if (config.tie_distance > 0) pair.distance = config.tie_distance;
-    radius = std::max(radius, pair.distance);
+    radius = std::max(radius, pair.near);
     pairs.push_back(pair);
   }
   if (pairs.empty()) return ties;
@@ -128,7 +131,8 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
   const NearList list = build_list(f, x, {ToolIndex(f, place, all), {}, all, is_plane, planes}, {}, radius, work);
   const auto at = [&](int v) -> const Node& { return v < f.body_nodes ? x[v] : place[v - f.body_nodes]; };
   for (const TiedPair& pair : pairs) {
-    std::vector<bool> zone(f.vertex_count, false), tied(f.vertex_count, false);
+    std::vector<bool> zone(f.vertex_count, false), tied(f.vertex_count, false), touches(f.vertex_count, false);
+    std::vector<int> near;  // facets, of a vertex
     const std::size_t before = ties.size();
     std::vector<Tie> of_second, rim;
     for (const auto& g : list.groups) {
@@ -136,17 +140,22 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
       if (!(own == pair.first && g.surface == pair.second) && !(own == pair.second && g.surface == pair.first)) continue;
       Closest nearest;
       int facet = -1;
+      near.clear();
       for (int i = g.first; i < g.last; ++i) {
         const auto& c = f.facets[list.facets[i].facet];
         const Node* const corner[3] = {&at(c[0]), &at(c[1]), &at(c[f.corners() - 1])};
         const Closest q = closest_on_facet(f, at(g.vertex), corner);
+        if (q.squared <= pair.near * pair.near) near.push_back(list.facets[i].facet);
         if (q.squared > pair.distance * pair.distance || (facet >= 0 && q.squared >= nearest.squared)) continue;
         nearest = q;
         facet = list.facets[i].facet;
       }
       if (facet < 0) continue;
-      zone[g.vertex] = true;
-      for (int k = 0; k < f.corners(); ++k) zone[f.facets[facet][k]] = true;
+      touches[g.vertex] = zone[g.vertex] = true;
+      for (int other : near) {
+        touching_facets.push_back(Features::key(g.vertex, other));
+        for (int k = 0; k < f.corners(); ++k) zone[f.facets[other][k]] = true;
+      }
       if (own == pair.second) {
         of_second.push_back(tie_to_facet(f, g.vertex, facet, nearest));
         continue;
@@ -169,10 +178,13 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
       if (!own && !(e.own == pair.second && e.surface == pair.first)) continue;
       const int* const p = f.edges[own ? e.first : e.second].node;
       const int* const q = f.edges[own ? e.second : e.first].node;
-      if (tied[p[0]] == tied[p[1]]) continue;
       const ClosestEdges c = closest_on_edges(at(p[0]), at(p[1]), at(q[0]), at(q[1]));
-      if (!c.crossing || c.squared > pair.distance * pair.distance) continue;
-      zone[q[0]] = zone[q[1]] = true;
+      const bool both = (touches[p[0]] || touches[p[1]]) && (touches[q[0]] || touches[q[1]]);
+      const double near_by = both ? pair.near : pair.distance;
+      if (c.squared > near_by * near_by) continue;
+      touching_edges.push_back(Features::key(std::min(e.first, e.second), std::max(e.first, e.second)));
+      for (int k = 0; k < 2; ++k) zone[p[k]] = zone[q[k]] = true;
+      if ((tied[p[0]] && tied[p[1]]) || !c.crossing || c.squared > pair.distance * pair.distance) continue;
       rim.push_back(tie_edges(p, q, c));
     }
     for (Tie& tie : rim) {
@@ -182,6 +194,10 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
     f.relation(pair.first, pair.second).tie = f.relation(pair.second, pair.first).tie = static_cast<int>(f.tied_zones.size());
     f.tied_zones.push_back(std::move(zone));
   }
+  std::sort(touching_facets.begin(), touching_facets.end());
+  std::sort(touching_edges.begin(), touching_edges.end());
+  f.touching_facets = std::move(touching_facets);
+  f.touching_edges = std::move(touching_edges);
   return ties;
 }
 
@@ -217,10 +233,9 @@ void prepare_tie(const Workspace& work, TiePair& pair) {
   double total = 0;
   for (int k = 0; k < pair.nodes; ++k) {
     const int n = pair.node[k];
-    const Share& share = work.share[n];
-    const double b2m = pair.weight[k] * pair.weight[k] * share.inverse_mass;
+    const double b2m = pair.weight[k] * pair.weight[k] * work.share[n].inverse_mass;
     total += b2m;
-    w += share.projector ? Mat3(b2m * *share.projector) : Mat3(b2m * Mat3::Identity());
+    w += work.projector[n] ? Mat3(b2m * *work.projector[n]) : Mat3(b2m * Mat3::Identity());
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(w);
   pair.mass.setZero();

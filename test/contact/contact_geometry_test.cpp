@@ -8,6 +8,7 @@
 #include "contact/point_bodies.h"
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/closest_pack.h"
+#include "forming_sim/contact/constants.h"
 #include "forming_sim/contact/continuous.h"
 #include "forming_sim/contact/crossing.h"
 #include "forming_sim/contact/narrow.h"
@@ -71,6 +72,25 @@ const std::vector<Isa>& vector_widths() {
   return all;
 }
 
+/// Nodes of bodies, some of them held or without mass, and of tools.
+std::vector<Share> random_shares(long count) {
+  std::vector<Share> shares;
+  for (long i = 0; i < count; ++i) {
+    const Node r = random_node(3);
+    shares.push_back(r[0] > .4 ? Share() : Share{r[0] < -.8 ? 0 : 1.5 + r[1], 1.5 + r[2], 1, r[1] > 0 ? 1. : 0.});
+  }
+  return shares;
+}
+void expect_shares(const std::vector<Share>& shares, const Link& link, const SharesPack& found, int lane) {
+  Workspace work;
+  work.share = shares;
+  const PairShares<double> sum = PairConstants{Features(), work, 1, 1}.shares_of(link);
+  EXPECT_NEAR(found.w[lane], sum.w, 1e-10 * (1 + sum.w));
+  EXPECT_NEAR(found.area[lane], sum.mean_area(), 1e-13);
+  EXPECT_EQ(found.movers[lane], sum.movers);
+  EXPECT_EQ(found.held[lane], sum.held);
+}
+
 /// Does the direction lie outside the slab of the facet that has the edge ab and the corner c, by its slope across the edge?
 double slope_into_slab(const Node& a, const Node& b, const Node& c, const Node& away) {
   const Node along = (b - a).normalized(), r = c - a, inward = r - r.dot(along) * along;
@@ -85,14 +105,17 @@ TEST(ContactClosest, FacesInLanesAreThoseOneByOne) {
     for (int turn = 0; turn < 300; ++turn) {
       NodeField x;
       FacePack pack;
+      int corner[kLanes][3];
       for (int l = 0; l < kLanes; ++l) {
         for (int k = 0; k < 4; ++k) x.push_back(random_node(3));
         pack.point[l] = 4 * l;
-        for (int k = 0; k < 3; ++k) pack.corner[k][l] = 4 * l + 1 + k;
+        for (int k = 0; k < 3; ++k) corner[l][k] = 4 * l + 1 + k;
+        pack.corner[l] = corner[l];
         if (l == 5) x[4 * l] = .5 * (x[4 * l + 1] + x[4 * l + 2]) + Node((x[4 * l + 2] - x[4 * l + 1]).cross3(x[4 * l + 3] - x[4 * l + 1]));  // over an edge
         if (l == 6) x[4 * l + 3] = 2 * x[4 * l + 2] - x[4 * l + 1];                                                                          // no area
       }
-      closest_kernels_of(isa).faces(x.front().data(), &pack, 1);
+      const std::vector<Share> shares = random_shares(static_cast<long>(x.size()));
+      closest_kernels_of(isa).faces(x.front().data(), &shares.front().inverse_mass, &pack, 1);
       for (int l = 0; l < kLanes; ++l) {
         const Closest c = closest_on_triangle(x[4 * l], x[4 * l + 1], x[4 * l + 2], x[4 * l + 3]);
         ASSERT_EQ(pack.inside[l] == 1, c.feature == Closest::face) << "lane " << l << " of turn " << turn;
@@ -100,6 +123,9 @@ TEST(ContactClosest, FacesInLanesAreThoseOneByOne) {
         ++inside;
         const Closest found = closest_in_face(pack.beta[l], pack.gamma[l], Node(pack.apart[0][l], pack.apart[1][l], pack.apart[2][l], 0));
         EXPECT_NEAR(found.squared, c.squared, 1e-12);
+        Link link;
+        link.link({4 * l, corner[l][0], corner[l][1], corner[l][2]}, {1, -found.weight[0], -found.weight[1], -found.weight[2]});
+        expect_shares(shares, link, pack.shares, l);
         for (int k = 0; k < 3; ++k) {
           EXPECT_NEAR(found.weight[k], c.weight[k], 1e-12);
           EXPECT_NEAR(found.apart[k], c.apart[k], 1e-12);
@@ -117,22 +143,28 @@ TEST(ContactClosest, EdgesInLanesAreThoseOneByOne) {
     for (int turn = 0; turn < 600; ++turn) {
       NodeField x;
       EdgePack pack;
+      int node[kLanes][8];
       for (int l = 0; l < kLanes; ++l) {
         for (int k = 0; k < 8; ++k) x.push_back(random_node(3));
         for (int k = 0; k < 4; ++k) {
-          pack.node[k][l] = 8 * l + k;
-          pack.opposite[k][l] = l % 2 && k % 2 ? pack.node[k / 2 * 2][l] : 8 * l + 4 + k;  // some edges have one facet
+          node[l][k] = 8 * l + k;
+          node[l][4 + k] = l % 2 && k % 2 ? 8 * l + k / 2 * 2 : 8 * l + 4 + k;  // some edges have one facet
         }
+        pack.node[l] = node[l];
         if (l == 6) x[8 * l + 3] = x[8 * l + 2] + 3 * (x[8 * l + 1] - x[8 * l]);  // parallel
         if (l == 7) x[8 * l + 1] = x[8 * l];                                      // a point
       }
-      closest_kernels_of(isa).edges(x.front().data(), wedge, &pack, 1);
+      const std::vector<Share> shares = random_shares(static_cast<long>(x.size()));
+      closest_kernels_of(isa).edges(x.front().data(), &shares.front().inverse_mass, wedge, &pack, 1);
       for (int l = 0; l < kLanes; ++l) {
         const Node *a = &x[8 * l], *b = a + 2;
         const ClosestEdges c = closest_on_edges(a[0], a[1], b[0], b[1]);
         ASSERT_EQ(pack.inside[l] == 1, c.crossing) << "lane " << l << " of turn " << turn;
         if (!c.crossing) continue;
         ++crossing;
+        Link link;
+        link.link({node[l][0], node[l][1], node[l][2], node[l][3]}, {1 - pack.s[l], pack.s[l], pack.t[l] - 1, -pack.t[l]});
+        expect_shares(shares, link, pack.shares, l);
         EXPECT_NEAR(pack.s[l], c.s, 1e-10);
         EXPECT_NEAR(pack.t[l], c.t, 1e-10);
         EXPECT_NEAR(pack.distance[l], std::sqrt(c.squared), 1e-10);
@@ -140,7 +172,7 @@ TEST(ContactClosest, EdgesInLanesAreThoseOneByOne) {
         bool out = true;
         for (int k = 0; k < 4; ++k) {
           const Node* edge = k < 2 ? a : b;
-          if (pack.opposite[k][l] != pack.node[k / 2 * 2][l]) out = out && !(slope_into_slab(edge[0], edge[1], x[pack.opposite[k][l]], k < 2 ? Node(-c.apart) : c.apart) > wedge);
+          if (node[l][4 + k] != node[l][k / 2 * 2]) out = out && !(slope_into_slab(edge[0], edge[1], x[node[l][4 + k]], k < 2 ? Node(-c.apart) : c.apart) > wedge);
         }
         EXPECT_EQ(pack.outside[l] == 1, out) << "lane " << l << " of turn " << turn;
         (out ? outside : not_outside)++;

@@ -3,7 +3,11 @@
 
 #include <Eigen/Geometry>
 
+#include <set>
+
 #include "contact/point_bodies.h"
+#include "forming_sim/contact/closest.h"
+#include "forming_sim/contact/crossing.h"
 
 namespace contact_test {
 namespace {
@@ -49,6 +53,31 @@ std::pair<double, double> slides(const std::vector<PairConfig>& pairs, double of
   }
   return {-impulse.x() / impulse.y(), world.mean_velocity().x()};
 }
+
+/// Edges of one body and facets of another that were farther apart than `near` at the start.
+class FarApart {
+ public:
+  FarApart(const World& world, int a, int b, double near) {
+    std::set<std::pair<int, int>> edges;
+    for (const Facet& f : world.bodies[a].facets)
+      for (int k = 0; k < 3; ++k) edges.insert(std::minmax(f.nodes[k], f.nodes[(k + 1) % 3]));
+    for (const auto& [p, q] : edges)
+      for (const Facet& f : world.bodies[b].facets) {
+        const Node c[3] = {world.x[f.nodes[0]], world.x[f.nodes[1]], world.x[f.nodes[2]]};
+        double squared = std::min(closest_on_triangle(world.x[p], c[0], c[1], c[2]).squared, closest_on_triangle(world.x[q], c[0], c[1], c[2]).squared);
+        for (int k = 0; k < 3; ++k) squared = std::min(squared, closest_on_edges(world.x[p], world.x[q], c[k], c[(k + 1) % 3]).squared);
+        if (squared > near * near) pairs_.push_back({p, q, f.nodes[0], f.nodes[1], f.nodes[2]});
+      }
+  }
+  long crossings(const NodeField& x) const {
+    long count = 0;
+    for (const auto& n : pairs_) count += pierces(x[n[0]], x[n[1]], x[n[2]], x[n[3]], x[n[4]], true);
+    return count;
+  }
+
+ private:
+  std::vector<std::array<int, 5>> pairs_;
+};
 
 }  // namespace
 
@@ -172,6 +201,77 @@ TEST(ContactPairs, TheRimOfATieToAToolDoesNotTurnIn) {
   EXPECT_LT(farthest, 1e-6);
   EXPECT_EQ(world.crossings, 0);
   EXPECT_NEAR(world.closure(), 0, 1e-9 * world.exchanged);
+}
+
+// A strip wider than the block above it is folded up hard and askew around the block's lower edge: what did not touch at the start
+// does not pass through the block, though it hangs on vertices and edges that are tied.
+TEST(ContactPairs, WhatHangsOnTheRimOfATieMeetsTheOtherBody) {
+  World world;
+  world.dimension = 3;
+  world.config.layer = 1e-4;
+  world.config.pairs = {pair("body0", "body1", "tied")};
+  world.add_box(Vec3(0, 0, -.22), 9, 4, 1, .22, 2800, 1e8);
+  world.add_box(Vec3(.075, .197, 0), 2, 2, 1, .439, 28000, 1e10);
+  const double rim = .953, width = .88;
+  for (int i = 0; i < 100; ++i) {
+    const double out = 1000 * std::max(0., world.x[i][0] - rim);
+    world.v[i] = out * Node(0, .224, 1 - 3.3 * (world.x[i][1] - .47) / width, 0);
+  }
+  const Vec3 p = world.momentum();
+  const FarApart strip(world, 0, 1, .022), block(world, 1, 0, .022);
+  Contact contact = world.make();
+  long passed = 0;
+  for (int i = 0; i < 500; ++i) {
+    world.step(contact, 2e-5, i % 20 == 0);
+    if (i % 20 == 0) passed += strip.crossings(world.x) + block.crossings(world.x);
+  }
+  EXPECT_EQ(passed, 0);
+  EXPECT_EQ(world.crossings, 0);
+  EXPECT_LT((world.momentum() - p).norm(), 1e-9 * p.norm());
+  EXPECT_NEAR(world.closure(), 0, 1e-9 * world.exchanged);
+}
+
+// The independent count leaves out what touched at the start, not all that hangs on it: by hand, the cell of the strip that follows the
+// rim is laid through the wall of the tool that starts at the rim.
+TEST(ContactPairs, CrossingsAtTheRimOfATieAreCounted) {
+  World world;
+  world.config.layer = 1e-4;
+  world.config.pairs = {pair("body0", "anvil", "tied")};
+  world.add_strip(Vec3(0, -.22, 0), 6, 1, .22, .22, 2800, 2e8);
+  world.add_tool("anvil", polyline({{-.5, 0, 0}, {1, 0, 0}, {1, .6, 0}}), 0, [](double) { return Vec3::Zero(); });
+  const Contact contact = world.make();
+  EXPECT_EQ(contact.count_crossings(world.x, world.motion(0, 0)), 0);
+  const int below = 5, end_below = 6, end = 13;  // the last cell of the strip, from x = 1.1 on
+  NodeField x = world.x;
+  x[end] = Node(.9, .3, 0, 0);
+  x[end_below] = Node(.9, 1, 0, 0);  // the other sides of the cell pass above the wall
+  x[below] = Node(1.6, 1, 0, 0);
+  EXPECT_EQ(contact.count_crossings(x, world.motion(0, 0)), 1);
+}
+
+// A bar that crosses cells of a plate between their vertices is tied to their edges: they follow it.
+TEST(ContactPairs, EdgesThatCrossWhatIsTiedAreTied) {
+  World world;
+  world.dimension = 3;
+  world.config.layer = 1e-4;
+  world.config.pairs = {pair("body0", "bar", "tied")};
+  world.add_box(Vec3(0, 0, -1), 4, 1, 1, 1, 2800, 2e8);
+  const Mesh bar = triangles({{-.5, -.5, 0}, {.5, -.5, 0}, {-.5, 1.5, 0}, {.5, 1.5, 0}, {.5, .4, 0}, {.5, .6, 0}, {4.5, .4, 0}, {4.5, .6, 0}},
+                             {{0, 1, 4}, {0, 4, 5}, {0, 5, 2}, {2, 5, 3}, {4, 6, 5}, {6, 7, 5}});  // its head holds the vertices at x = 0
+  const auto rises = [](double t) { return Vec3(0, 0, t); };
+  world.add_tool("bar", bar, 0, rises);
+  Contact contact = world.make();
+  double farthest = 0;
+  for (int i = 0; i < 1000; ++i) {
+    world.step(contact, 1e-5, i % 100 == 0);
+    const double height = rises(world.time).z();
+    for (int k = 1; k <= 4; ++k) {
+      const Node &near = world.x[10 + k], &far = world.x[15 + k];  // ends of the edge across, at y = 0 and 1
+      for (double y : {.4, .6}) farthest = std::max(farthest, std::abs((1 - y) * near[2] + y * far[2] - height));
+    }
+  }
+  EXPECT_LT(farthest, 1e-5);
+  EXPECT_EQ(world.crossings, 0);
 }
 
 // Two strips without a tie fly apart.

@@ -40,7 +40,7 @@ struct Scene {
   NearList list(double radius, Workspace& work) const {
     NearList near = build_list(features, world.x, {ToolIndex(features, features.place, {true}), motion, {true}, {false}, planes}, {}, radius, work);
     gather(work);
-    for (int i = 0; i < work.body_entries; ++i) work.share[i] = {1, 1, nullptr};
+    for (int i = 0; i < work.body_entries; ++i) work.share[i] = {1, 1, 1, 0};
     return near;
   }
   void gather(Workspace& work) const {

@@ -28,7 +28,8 @@ struct Heap {
       const bool tool = i >= work.body_entries;
       work.vertex.push_back(i);
       work.v.push_back(Node(number(random) - 0.5, number(random) - 0.5, number(random) - 0.5, 0));
-      work.share.push_back({tool ? 0 : 1 / (0.5 + number(random)), 0, !tool && i % 7 == 3 ? &held : nullptr});
+      work.projector.push_back(!tool && i % 7 == 3 ? &held : nullptr);
+      work.share.push_back({tool ? 0 : 1 / (0.5 + number(random)), 0, tool ? 0. : 1., work.projector.back() ? 1. : 0.});
     }
     for (int i = 0; i < count; ++i) {
       ContactPair pair;
@@ -51,9 +52,9 @@ struct Heap {
         const Share& share = work.share[n];
         const double b2m = pair.weight[k] * pair.weight[k] * share.inverse_mass;
         any += b2m;
-        pair.w += share.projector ? b2m * pair.normal.dot(project(*share.projector, pair.normal)) : b2m;
+        pair.w += work.projector[n] ? b2m * pair.normal.dot(project(*work.projector[n], pair.normal)) : b2m;
         if (share.inverse_mass > 0) pair.movers |= 1 << k;
-        pair.held = pair.held || share.projector;
+        pair.held = pair.held || work.projector[n];
       }
       if (i % 2) {
         pair.rub = static_cast<int>(rubs.size());

@@ -57,14 +57,17 @@ inline Closest closest_on_segment_facet(const Node& p, const Node& a, const Node
 Closest closest_on_triangle_border(const Node& p, const Node& a, const Node& b, const Node& c);
 
 /// Inside the triangle, as OverFace has it.
-inline Closest closest_in_face(double beta, double gamma, const Node& apart) {
-  Closest f;
+inline void lie_in_face(double beta, double gamma, const Node& apart, Closest& f) {
   f.feature = Closest::face;
   f.weight[1] = beta;
   f.weight[2] = gamma;
   f.weight[0] = 1 - beta - gamma;
   f.apart = apart;
   f.squared = dot3(apart, apart);
+}
+inline Closest closest_in_face(double beta, double gamma, const Node& apart) {
+  Closest f;
+  lie_in_face(beta, gamma, apart, f);
   return f;
 }
 

@@ -6,29 +6,36 @@
 
 namespace forming_sim {
 
+/// PairShares of pairs.
+struct alignas(64) SharesPack {
+  double w[kLanes], area[kLanes], movers[kLanes], held[kLanes];  ///< area: the mean
+};
+
 /// Points and triangles.
 struct alignas(64) FacePack {
-  int point[kLanes], corner[3][kLanes];         ///< nodes
+  const int* corner[kLanes];                    ///< three nodes of each triangle, where the list has them
   double beta[kLanes], gamma[kLanes];           ///< found: weights of the second and third corner
   double apart[3][kLanes];                      ///< found: from the foot to the point, m
   double inside[kLanes];                        ///< found: 1 where the foot is inside the triangle; else the rest means nothing
+  int point[kLanes];                            ///< node
+  SharesPack shares;                            ///< found
 };
 
 /// Two edges each.
 struct alignas(64) EdgePack {
-  int node[4][kLanes];                          ///< ends of the first and of the second
-  int opposite[4][kLanes];                      ///< third corners of two facets at either; where there is none, an end of the edge
+  const int* node[kLanes];                      ///< eight of each pair, where the list has them: NearList::EdgePair::node
   double s[kLanes], t[kLanes];                  ///< found
   double distance[kLanes], normal[3][kLanes];   ///< found: m; from the second to the first, length 1
   double inside[kLanes];                        ///< found: 1 where the closest points are inside both; else the rest means nothing
   double outside[kLanes];                       ///< found: 1 where each, seen from the facets of the other, lies outside their slabs
+  SharesPack shares;                            ///< found
 };
 
 struct ClosestKernels {
-  /// places: records of four doubles, one a node.
-  void (*faces)(const double* places, FacePack* packs, long count);
+  /// places, shares: records of four doubles, one a node: x, and Share (pair.h).
+  void (*faces)(const double* places, const double* shares, FacePack* packs, long count);
   /// wedge: slope up to which facets count as level.
-  void (*edges)(const double* places, double wedge, EdgePack* packs, long count);
+  void (*edges)(const double* places, const double* shares, double wedge, EdgePack* packs, long count);
 };
 
 const ClosestKernels& closest_kernels_of(Isa isa);

@@ -1,10 +1,12 @@
 #pragma once
 // What a pair is given before it can act: its stiffness E A h0, the inverse mass
 // that it feels, its friction.
+#include <algorithm>
 #include <vector>
 
 #include "forming_sim/contact/features.h"
 #include "forming_sim/contact/pair.h"
+#include "forming_sim/contact/pair_shares.h"
 
 namespace forming_sim {
 
@@ -17,6 +19,29 @@ struct PairConstants {
   /// area of the pair's deformable nodes. A pair that nothing can move gets
   /// stiffness 0 and w 0.
   void set(ContactPair& pair, std::vector<Rub>& rubs) const;
+
+  // The same in two steps, the first of which lanes may have made already.
+  PairShares<double> shares_of(const Link& link) const;
+  void take(double w, double mean_area, double movers, double held, ContactPair& pair) const {
+    pair.w = w;
+    pair.stiffness = modulus * layer * mean_area;
+    pair.movers = static_cast<std::uint8_t>(movers);
+    pair.held = held != 0;
+  }
+  void finish(ContactPair& pair, std::vector<Rub>& rubs) const {
+    const double any = pair.w;
+    if (pair.held) pair.w = held_w(pair);
+    // Held against the normal up to rounding is held.
+    if (pair.w <= 1e-12 * any) pair.w = pair.stiffness = 0;
+    pair.tool = std::max(-1, std::max(pair.own, pair.surface) - features.bodies);
+    const double friction = features.relation(pair.own, pair.surface).friction;
+    pair.rub = -1;
+    if (!(friction > 0)) return;
+    pair.rub = static_cast<int>(rubs.size());
+    rubs.push_back({Node::Zero(), friction, any});
+  }
+  /// Along the normal, held directions removed.
+  double held_w(const ContactPair& pair) const;
 };
 
 }  // namespace forming_sim

@@ -7,7 +7,9 @@
 // t follow from first_vertex of its surface on, in the order of their places,
 // nodes at one place being one vertex. Facets list their corners in rising
 // order. So neither the orientation nor the order in a tool's file matters.
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "forming_sim/contact/contact.h"
@@ -37,7 +39,9 @@ struct Features {
   int body_nodes = 0;
   int bodies = 0;                     ///< surfaces 0 ... bodies - 1; tool t is surface bodies + t
   std::vector<Relation> relations;    ///< of surfaces a and b: [a * surfaces + b], the same both ways
-  std::vector<std::vector<bool>> tied_zones;    ///< per tied pair of surfaces and vertex: features that have such vertices on both sides are tied and do not meet
+  std::vector<std::vector<bool>> tied_zones;    ///< per tied pair of surfaces and vertex: of features that touch one of the other surface at the start
+  std::vector<std::uint64_t> touching_facets;   ///< vertex << 32 | facet, rising: of tied surfaces, near each other at the start; they stay as they are and do not meet
+  std::vector<std::uint64_t> touching_edges;    ///< edge << 32 | edge, the smaller first, rising: likewise
   int vertex_count = 0;
   std::vector<Surface> surfaces;
   std::vector<std::array<int, 3>> facets;       ///< corners, rising; 2D: 2 used, third -1
@@ -59,11 +63,23 @@ struct Features {
   bool bodies_meet() const;
   const Relation& relation(int a, int b) const { return relations[a * surfaces.size() + b]; }
   Relation& relation(int a, int b) { return relations[a * surfaces.size() + b]; }
-  /// Do the features with these vertices (a of one surface, b of the other) belong to what is tied together?
-  template <class VerticesA, class VerticesB> bool tied(const Relation& relation, const VerticesA& a, const VerticesB& b) const {
+  /// Have the features with these vertices (a of one surface, b of the other) both to do with what is tied?
+  template <class VerticesA, class VerticesB> bool about_ties(const Relation& relation, const VerticesA& a, const VerticesB& b) const {
     return relation.tie >= 0 && in_zone(relation.tie, a) && in_zone(relation.tie, b);
   }
+  // Are these features of two surfaces tied together? An edge and a facet are where either has to do so with the other's border.
+  bool tied_to_facet(const Relation& relation, int vertex, int facet) const {
+    return relation.tie >= 0 && tied_zones[relation.tie][vertex] && holds(touching_facets, key(vertex, facet));
+  }
+  bool tied_edges(const Relation& relation, int e, int other) const {
+    return relation.tie >= 0 && tied_zones[relation.tie][edges[e].node[0]] && holds(touching_edges, key(std::min(e, other), std::max(e, other)));
+  }
+  bool tied_edge_to_facet(const Relation& relation, int e, int facet) const;  ///< 2D: two facets
+
+  static std::uint64_t key(int first, int second) { return static_cast<std::uint64_t>(first) << 32 | static_cast<std::uint32_t>(second); }
+
  private:
+  static bool holds(const std::vector<std::uint64_t>& keys, std::uint64_t key) { return std::binary_search(keys.begin(), keys.end(), key); }
   template <class Vertices> bool in_zone(int tie, const Vertices& vertices) const {
     for (int v : vertices)
       if (v >= 0 && tied_zones[tie][v]) return true;

@@ -18,10 +18,9 @@ inline Node project(const Mat3& p, const Node& j) { return node(p * vec3(j)); }
 inline void push(const Link& pair, const Node& impulse, const Workspace& work, NodeField& field) {
   for (int k = 0; k < pair.nodes; ++k) {
     const int n = pair.node[k];
-    const Share& share = work.share[n];
-    const double factor = pair.weight[k] * share.inverse_mass;
-    if (share.projector)
-      field[n] += factor * project(*share.projector, impulse);
+    const double factor = pair.weight[k] * work.share[n].inverse_mass;
+    if (const Mat3* projector = work.projector[n])
+      field[n] += factor * project(*projector, impulse);
     else
       field[n] += factor * impulse;
   }

@@ -31,7 +31,7 @@ class Layers {
  public:
   /// dt: of the step; last_dt: of the step before; work.v: predicted velocities. full: h0.
   Layers(const std::vector<PairRecord>& before, const std::vector<PairRecord>& tried, const Workspace& work, double dt, double last_dt, double full, double ceiling)
-      : before_(before), last_try_(tried.empty() ? before : tried), work_(work), dt_(dt), lasts_(tried.empty() ? std::min(dt, last_dt) : dt), full_(full), ceiling_(ceiling) {}
+      : before_(before), last_try_(tried.empty() ? before : tried), tried_(!tried.empty()), work_(work), dt_(dt), lasts_(tried.empty() ? std::min(dt, last_dt) : dt), full_(full), ceiling_(ceiling) {}
 
   /// How far the lists have been gone through.
   struct Place {
@@ -44,6 +44,7 @@ class Layers {
 
  private:
   const std::vector<PairRecord>&before_, &last_try_;
+  bool tried_;
   const Workspace& work_;
   double dt_, lasts_, full_, ceiling_;  // lasts: of a force from which the sweeps start, s
 };

@@ -28,8 +28,7 @@ struct NearList {
   struct EdgePair {
     int first, second;         ///< edges
     int own, surface;          ///< theirs
-    int node[4];
-    int opposite[4];           ///< third corners of the first two facets at either edge, -1: none
+    int node[8];               ///< ends of the first and of the second; third corners of the first two facets at either, where there is none an end of the edge
     int listed;                ///< index in `edges`
     double wake;               ///< as of facets; counts where the pair is watched
   };

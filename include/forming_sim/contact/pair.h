@@ -31,6 +31,14 @@ struct Link {
   double weight[4] = {0, 0, 0, 0};  ///< b: positive on the first feature, negative on the second, sum 0
   int node[4] = {-1, -1, -1, -1};   ///< in the workspace
   int nodes = 0;
+
+  template <int N> void link(const int (&of)[N], const double (&b)[N]) {
+    nodes = N;
+    for (int k = 0; k < N; ++k) {
+      node[k] = of[k];
+      weight[k] = b[k];
+    }
+  }
 };
 
 /// Friction of a pair that rubs.
@@ -57,8 +65,8 @@ struct ContactPair : Link {
   PairKey key;
 
   ContactPair() = default;
-  ContactPair(const PairKey& name, int own_surface, int other_surface, double h, double h0, const Link& link, const Node& along)
-      : Link(link), own(own_surface), surface(other_surface), normal(along), gap(h), base(h0), key(name) {}
+  ContactPair(const PairKey& name, int own_surface, int other_surface, double h, double h0, const Node& along)
+      : own(own_surface), surface(other_surface), normal(along), gap(h), base(h0), key(name) {}
 };
 
 constexpr long kPairsOfAThread = 256;  ///< fewer are not worth another thread
@@ -71,20 +79,22 @@ struct Tie : Link {
   bool to_tool() const { return nodes == 1; }
 };
 
-/// What a node brings to its pairs.
+/// What a node brings to its pairs: a record of four doubles, which lanes load whole.
 struct Share {
   double inverse_mass = 0;          ///< 1/kg; 0: of a tool, or held in all directions
   double area = 0;                  ///< of nodes of bodies: Features::area
-  const Mat3* projector = nullptr;  ///< of held nodes, else null
+  double of_body = 0;               ///< 1: of a body
+  double held = 0;                  ///< 1: some directions are held
 };
 
 /// The nodes of all listed pairs, gathered so that pairs address them densely.
 struct Workspace {
-  std::vector<int> vertex;     ///< feature vertex of each entry, rising; then the feet of plane pairs (-1)
+  std::vector<int> vertex;     ///< feature vertex of each entry: of bodies, rising; of tools; then the feet of planes and of ties (-1)
   int body_entries = 0;        ///< the first so many are nodes of bodies
   NodeField x, v, before;      ///< at the start of the step; running; before the kick
   NodeField mean;              ///< of the velocities before the kick and at the end, once a step is taken
   std::vector<Share> share;
+  std::vector<const Mat3*> projector;  ///< of held nodes, else null
 };
 
 }  // namespace forming_sim

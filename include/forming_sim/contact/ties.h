@@ -5,7 +5,9 @@
 // facet at the start) at the place it had in the frame of that facet; of a rigid
 // tool in the frame of the tool. At the rim, where a facet reaches out of what is tied, vertices of the other surface
 // are tied to it, and edges that cross are tied where they cross: else it would turn into the other body about
-// its tied vertices, which do not see that body. The impulse of a tie makes the end of the step exact,
+// its tied vertices. Features that touch at the start do not meet (Features::touching_facets, touching_edges): they are at no
+// distance from each other, so that their pair has no direction. All others of the two surfaces meet as any do.
+// The impulse of a tie makes the end of the step exact,
 //   r + dt (v_vertex - sum w_k v_k) = r_kept,
 // in the sweeps of contact, all others held. Nothing drifts, the stable step is
 // not changed (a constraint only removes motion), and no work is done but that
