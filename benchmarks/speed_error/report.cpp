@@ -42,6 +42,10 @@ void Report::add(const Finished& run) {
   std::printf("| %s | %s | %ld | %ld | %ld | %.3g | %s |", run.choice.c_str(), run.mesh.c_str(), run.size.cells, run.size.unknowns, run.size.steps, run.size.wall_time, rate(run).c_str());
   double largest = 0;
   for (std::size_t i = 0; i < sought_.size(); ++i) {
+    if (std::isnan(run.found[i])) {
+      std::printf(" not reached |");
+      continue;
+    }
     const double error = error_of(run.found[i], sought_[i].expected);
     largest = std::max(largest, std::abs(error));
     std::printf(" %+.3g %% |", 100 * error);

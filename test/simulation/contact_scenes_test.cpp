@@ -130,6 +130,33 @@ TEST(ContactScenes, ATipIntoACoarseBlock) {
   }
 }
 
+// The force on a tool is what the body stands on it with, however strongly it is damped and however short the last step is. Its
+// impulses by themselves are less, by half the damping of a step, and belong to the mean of two steps.
+TEST(ContactScenes, AStandingBodyWeighsItsWeight) {
+  BlankConfig blank = strip_of(1, .5, 4, 2);
+  blank.origin = Vec3(0, 1e-7, 0);
+  OneBody run(body_of(generate_blank(blank), aluminium()), 8.00001e-2);
+  ToolModel ground;
+  ground.name = "ground";
+  ground.normal = Vec3::UnitY();
+  ground.mesh.dimension = 2;
+  run.model.tools.push_back(ground);
+  run.plan.contact.layer = 1e-5;
+  run.plan.gravity = Vec3(0, -1e4, 0);
+  run.plan.time_step.damping = 1e4;
+  auto sim = run.start();
+  double dt = 0, last_dt = 0;
+  while (sim->step()) {
+    dt = last_dt;
+    last_dt = sim->dt();
+  }
+  const double weight = 1e4 * aluminium().density * .5;
+  std::printf("  force %.9f of the weight; damping %.3g a step, last step %.2g of the one before\n", -sim->tools()[0].force.y() / weight, 1e4 * dt, sim->dt() / dt);
+  EXPECT_NEAR(-sim->tools()[0].force.y() / weight, 1, 1e-6);
+  EXPECT_GT(1e4 * dt, .01);
+  EXPECT_LT(sim->dt(), .9 * dt);
+}
+
 TEST(ContactScenes, OneThreadAndTwoGiveTheSameBits) {
   for (int dimension : {2, 3}) {
     Blocks blocks(dimension, dimension == 2 ? 20 : 6, dimension == 2 ? 23 : 7, .1, 300, 1e-4, 2e-4);

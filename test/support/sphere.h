@@ -1,6 +1,7 @@
 #pragma once
 // A thick sphere under inner pressure, perfectly plastic, in small strain (Hill):
 //   p(c) = 2 Y ln(c/a) + 2 Y/3 (1 - c^3/b^3) when the plastic front stands at c,
+//   u(b) = Y/E (1 - nu) c^3/b^2,
 //   u(a) = Y/E [ (1 - nu) c^3/a^2 - 2/3 (1 - 2 nu) a (1 + 3 ln(c/a) - c^3/b^3) ].
 //
 // The strength is a hundredth of a steel's, so that the strains stay as small as the formulas have them.
@@ -32,6 +33,12 @@ inline double exact_displacement(double c) {
   const MaterialConfig m = steel();
   const double a = kInner, nu = m.poissons_ratio;
   return kYield / m.youngs_modulus * ((1 - nu) * c * c * c / (a * a) - 2. / 3 * (1 - 2 * nu) * a * (1 + 3 * std::log(c / a) - std::pow(c / kOuter, 3)));
+}
+
+/// u(b) when the front stands at c.
+inline double exact_shell(double c) {
+  const MaterialConfig m = steel();
+  return kYield / m.youngs_modulus * (1 - m.poissons_ratio) * c * c * c / (kOuter * kOuter);
 }
 
 constexpr double kDuration = 40e-3;  // s: 200 times what a wave takes

@@ -33,8 +33,8 @@
 // loses its stiffness, since lambda > 0 and tau > 0. The volumes, and with them the pressure, are the triangles' own, and so
 // is the hoop of a ring. Far from the axis a ring is a plane section. At the axis its cells are held by nodes that do not move
 // radially, which the sum above does not know, and are left as they are:
-//   1 - (1 - lambda)(1 - q^2) in place of lambda,   q = (R_max - R_min)/(R_max + R_min) of the cell's corners, 1 at the axis, 0 far from it.
-// The middle node of a ring takes part in its hoops: beta = 0 there, and long cells are too stiff.
+//   1 - (1 - lambda)(1 - q^2) in place of lambda,   q = (R_max - R_min)/(R_max + R_min) of the cell's corners, 1 at the axis, 0 far from it,
+// and beta_s (1 - q^2) in place of beta_s.
 //
 // F~_s is that of a triangle with the edges y_c - lambda beta_s sum_b w_b x_b, fixed combinations of the ways x_b from the apex to the corners:
 //   y_c = sum_b W_cb x_b,  W_cb = lambda delta_cb + (1 - lambda) sum_s V_s/V X_s^b . X_c,
