@@ -11,10 +11,8 @@ namespace {
 using Place = Vector<Pack, 3>;
 
 inline Place places_of(const double* places, const int (&node)[kLanes]) {
-  const double* from[kLanes];
-  for (int l = 0; l < kLanes; ++l) from[l] = places + 4 * static_cast<long>(node[l]);
   Place p;
-  gather_records(from, p[0], p[1], p[2]);
+  gather_records([&](int l) { return places + 4 * static_cast<long>(node[l]); }, p[0], p[1], p[2]);
   return p;
 }
 
