@@ -120,7 +120,7 @@ template <int D> void hourglass_stiffness(const SolidConstants& m, const Fibres<
 }
 
 /// Adds the pair of corners a and a + N/2, N all of them, to the sums sum_a h_alpha,a x_a of all modes; the first pair sets them.
-template <class T, int D, int a> void add_to_modes(const Vector<T, D>& low, const Vector<T, D>& high, Vector<T, D>* sum) {
+template <class T, int D, int a> [[gnu::always_inline]] inline void add_to_modes(const Vector<T, D>& low, const Vector<T, D>& high, Vector<T, D>* sum) {
   constexpr int opposite = a + OnePoint<D>::nodes / 2;
   const Vector<T, D> both = low + high, between = low - high;
   repeat<OnePoint<D>::modes>([&](auto k) {

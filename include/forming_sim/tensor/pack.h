@@ -127,7 +127,7 @@ inline void add_numbers(Pack a, const int index[kLanes], double* to) {
 typedef double Quad __attribute__((vector_size(32), aligned(8)));
 
 /// Loads kLanes nodal records, the one of lane l at at(l), and hands back their components.
-template <class At> void gather_records(const At& at, Pack& x, Pack& y, Pack& z, Pack& fourth) {
+template <class At> [[gnu::always_inline]] inline void gather_records(const At& at, Pack& x, Pack& y, Pack& z, Pack& fourth) {
   const auto two = [&](int k, int l) -> Lanes {
     const Quad &low = *reinterpret_cast<const Quad*>(at(k)), &high = *reinterpret_cast<const Quad*>(at(l));
 #if defined(__AVX512DQ__)
@@ -146,7 +146,7 @@ template <class At> void gather_records(const At& at, Pack& x, Pack& y, Pack& z,
   fourth.v = __builtin_shufflevector(yw, yw_high, 2, 3, 6, 7, 10, 11, 14, 15);
 }
 /// The first three alone.
-template <class At> void gather_records(const At& at, Pack& x, Pack& y, Pack& z) {
+template <class At> [[gnu::always_inline]] inline void gather_records(const At& at, Pack& x, Pack& y, Pack& z) {
   Pack unused;
   gather_records(at, x, y, z, unused);
 }

@@ -171,7 +171,7 @@ template <class T, int D, bool Ring> T extent(const Edges<T, D, Ring>& e) {
 }
 
 /// B = x_m x_k G^mk (3.36); plane strain: B_33 = G^33, ring: r^2 G^33.
-template <class T, int D, bool Ring> Symmetric<T, D> push(const Symmetric<T, D>& G, const Edges<T, D, Ring>& e) {
+template <class T, int D, bool Ring> [[gnu::always_inline]] inline Symmetric<T, D> push(const Symmetric<T, D>& G, const Edges<T, D, Ring>& e) {
   // y^m = G^mk x_k, B = x_m y^m
   Symmetric<T, D> B;
   if constexpr (D == 2) {
@@ -198,7 +198,7 @@ template <class T, int D, bool Ring> Symmetric<T, D> push(const Symmetric<T, D>&
 }
 
 /// s^2 G^x from the s x^m, G^x the components x^m . x^k; plane strain: G^33 = 1, ring: 1/r^2.
-template <int D, bool Ring, class T> Symmetric<T, D> metric_of(const Vector<T, D>* x, const T& s) {
+template <int D, bool Ring, class T> [[gnu::always_inline]] inline Symmetric<T, D> metric_of(const Vector<T, D>* x, const T& s) {
   Symmetric<T, D> A;
   A[0] = dot(x[0], x[0]);
   A[1] = dot(x[1], x[1]);
