@@ -60,27 +60,27 @@ template <int D, bool Ring, bool OnePointCell> class CountedElement {
     find_reciprocal(edges);
     const Counted J = edges.volume / Counted(volume_);
     Counted p = Counted(solid_.K) * (J - Counted(1));
-    Vector<Counted, D> force[D];
+    Vector<Counted, D> force[D], r[Cell::modes], sums[Cell::modes];
     PointResponse<Counted, D> point;
     if constexpr (OnePointCell) {
-      Hourglass<Counted, D> hourglass(solid_, constants_.data(), edges, x);
-      const Vector<Counted, D>* still = nullptr;
-      point = step_with_hourglass(solid_, edges, still, J, memory_.data(), hourglass, hourglass_.data());
-      for (int m = 0; m < D; ++m)
-        for (int i = 0; i < D; ++i) force[m][i] = Counted(0);
-      hourglass.add_forces(Counted(volume_), force, f);
+      sum_modes<Counted, D>(x, sums);
+      const PlaneModuli<Counted> moduli(solid_);
+      Hourglass<Counted, D> hourglass(moduli, constants_.data(), edges, sums, x);
+      point = von_mises_with_hourglass<true>(solid_, edges, J, memory_.data(), hourglass, hourglass_.data());
+      hourglass.gradient(Counted(volume_), r);
     } else {
       point = von_mises_step(solid_, edges, J, memory_.data(), Keep::yes);
     }
     for (int i = 0; i < 3; ++i) point.S[i] += p;
-    for (int m = 0; m < D; ++m) {
-      const Vector<Counted, D> of_mean = -edges.volume * (point.S * edges.up[m]);
-      if constexpr (OnePointCell) force[m] += of_mean;
-      else force[m] = of_mean;
-    }
+    for (int m = 0; m < D; ++m) force[m] = -edges.volume * (point.S * edges.up[m]);
     if constexpr (OnePointCell) {
-      for (int a = 0; a < corners; ++a)
+      for (int k = 0; k < Cell::modes; ++k)
+        for (int m = 0; m < D; ++m) force[m] += dot(edges.up[m], sums[k]) * r[k];
+      const AtCorners<Counted, D> at_corners(r);
+      repeat<corners>([&](auto a) {
+        f[a] -= at_corners.template at<a>();
         for (int m = 0; m < D; ++m) f[a] += weight(a, m) * force[m];
+      });
     } else {
       for (int m = 0; m < D; ++m) f[m + 1] += force[m], f[0] += force[m];
       if constexpr (Ring) {

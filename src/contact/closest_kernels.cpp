@@ -12,10 +12,8 @@ namespace {
 using Place = Vector<Pack, 3>;
 
 template <class NodeOf> [[gnu::always_inline]] inline Place places_of(const double* places, NodeOf&& node_of) {
-  const double* from[kLanes];
-  for (int l = 0; l < kLanes; ++l) from[l] = places + 4 * static_cast<long>(node_of(l));
   Place p;
-  gather_records(from, p[0], p[1], p[2]);
+  gather_records([&](int l) { return places + 4 * static_cast<long>(node_of(l)); }, p[0], p[1], p[2]);
   return p;
 }
 
@@ -24,7 +22,7 @@ template <class NodeOf> [[gnu::always_inline]] inline void add_share(const doubl
   const double* from[kLanes];
   for (int l = 0; l < kLanes; ++l) from[l] = shares + 4 * static_cast<long>(node_of(l));
   Pack inverse_mass, area, of_body, held;
-  gather_records(from, inverse_mass, area, of_body, held);
+  gather_records([&](int l) { return from[l]; }, inverse_mass, area, of_body, held);
   sum.add(k, b, inverse_mass, area, of_body, held);
 }
 inline void store(const PairShares<Pack>& sum, SharesPack& to) {

@@ -21,11 +21,9 @@ inline Pack dot(const Triple& a, const Triple& b) { return a.x * b.x + a.y * b.y
 inline Triple relative(const Movers& movers, const PairPack& p, Pack (&factor)[4]) {
   Triple u{Pack(0.0), Pack(0.0), Pack(0.0)};
   for (int k = 0; k < p.nodes; ++k) {
-    const double* from[kLanes];
-    for (int l = 0; l < kLanes; ++l) from[l] = movers.v + 4 * static_cast<long>(p.node[k][l]);
     Triple v;
     Pack inverse_mass;
-    gather_records(from, v.x, v.y, v.z, inverse_mass);
+    gather_records([&](int l) { return movers.v + 4 * static_cast<long>(p.node[k][l]); }, v.x, v.y, v.z, inverse_mass);
     const Pack b = Pack::load(p.weight[k]);
     u = u + b * v;
     factor[k] = b * inverse_mass;

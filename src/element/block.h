@@ -19,12 +19,11 @@ template <class Cell> using CellIncrement = Increment<Pack, kD<Cell>, Cell::ring
 
 /// A nodal vector of each of kLanes nodes, gathered: one Pack per component.
 template <int D> Vector<Pack, D> gather_vectors(const int* nodes, const double* field) {
-  const double* from[kLanes];
-  for (int l = 0; l < kLanes; ++l) from[l] = field + 4 * static_cast<long>(nodes[l]);
+  const auto record = [&](int l) { return field + 4 * static_cast<long>(nodes[l]); };
   Vector<Pack, D> out;
   Pack z;
-  if constexpr (D == 2) gather_records(from, out[0], out[1], z);
-  else gather_records(from, out[0], out[1], out[2]);
+  if constexpr (D == 2) gather_records(record, out[0], out[1], z);
+  else gather_records(record, out[0], out[1], out[2]);
   return out;
 }
 /// Adds a vector to the slots of kLanes nodes.
@@ -125,15 +124,6 @@ template <class Cell> void hand_back(const double* constants, const Vector<Pack,
     for (int c = 0; c <= 4; ++c) f[b] += weight(constants, c * 4 + b) * on_drawn[c];
 }
 
-/// Hands the forces on the edges of a one-point cell to its nodes, through the weights by which they make the edges.
-template <class Cell>
-void spread(const double* constants, const Vector<Pack, kD<Cell>>* force, Vector<Pack, kD<Cell>>* f) {
-  constexpr int D = kD<Cell>;
-  repeat<Cell::nodes>([&](auto a) {
-    repeat<D>([&](auto m) { f[a] += weight(constants, a * D + m) * force[m]; });
-  });
-}
-
 template <class Cell> Pack volume_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s) {
   Vector<Pack, kD<Cell>> edge[kE<Cell>];
   edges_of<Cell>(constants, x, s, edge);
@@ -157,6 +147,9 @@ template <class Cell> double* memory_of(const CellGroup& g, long block, int s) {
 inline int lanes_in_use(const CellGroup& g, long block) { return block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes; }
 inline Pack initial_volume(const CellGroup& g, const double* memory) { return Pack::load(memory + (g.items - 1) * kLanes); }
 
+/// What a kernel of the forces is made for, so that it is as lean as it can be: the law of material/von_mises.h with a single
+/// layer, or with several; all others are told apart at run time.
+enum class Made { one_layer, layers, any };
 inline bool of_von_mises(Law law) { return law == Law::green_elastic || law == Law::paper; }
 
 /// Where a Pack takes several registers, their operations fill each other's waiting times already.

@@ -2,6 +2,8 @@
 // Only raw arrays and types of this width's namespace are used here, so that no
 // inline function of a wider instruction set can leak into the rest of the program.
 #include "element/bulk_viscosity.h"
+#include "element/classical_block.h"
+#include "element/one_point_block.h"
 #include "forming_sim/element/hourglass.h"
 #include "forming_sim/element/one_point_step.h"
 #include "forming_sim/element/time_step.h"
@@ -10,39 +12,6 @@
 namespace forming_sim {
 namespace FORMING_SIM_ISA {
 namespace {
-
-/// The ways of edges in the last step, from their velocities.
-template <class Cell> void moved(const NodalView& view, Vector<Pack, kD<Cell>>* w) {
-  for (int m = 0; m < kE<Cell>; ++m) w[m] = Pack(view.last_dt) * w[m];
-}
-
-/// Incremental pressure (2.11) of the classical method, p + K tr D dt, with the
-/// mean rate of the cell or that of the element.
-template <class Cell>
-void classical_pressures(const CellGroup& g, const NodalView& view, long block, const Vector<Pack, kD<Cell>>* x,
-                         const Vector<Pack, kD<Cell>>* v, Pack* p) {
-  constexpr int D = kD<Cell>;
-  const double* constants = constants_of<Cell>(g, block);
-  Pack rate[Cell::simplices], sum_V(0.0), sum_rate(0.0);
-  for (int s = 0; s < Cell::simplices; ++s) {
-    CellEdges<Cell> e;
-    edges_of<Cell>(constants, x, s, e.x);
-    find_reciprocal(e);
-    Vector<Pack, D> w[kE<Cell>];
-    edges_of<Cell>(constants, v, s, w);
-    moved<Cell>(view, w);
-    rate[s] = CellIncrement<Cell>(e, w).divergence();
-    sum_V += e.volume;
-    sum_rate += e.volume * rate[s];
-  }
-  const Pack mean = sum_rate / sum_V, theta(g.pressure == PressureMode::element ? 1 : g.element_share);
-  for (int s = 0; s < Cell::simplices; ++s) {
-    double* at = memory_of<Cell>(g, block, s);
-    load(at, kClassicalPressure<D>, p[s]);
-    p[s] += Pack(g.solid.K) * ((Pack(1.0) - theta) * mean + theta * rate[s]);
-    store(at, kClassicalPressure<D>, p[s]);
-  }
-}
 
 /// V and J = V/V0 of every simplex of the block.
 template <class Cell> void find_volumes(const CellGroup& g, long block, const double* constants, const Vector<Pack, kD<Cell>>* x, Pack* V, Pack* J) {
@@ -77,10 +46,6 @@ void pressures(const CellGroup& g, long block, const double* constants, const Pa
   if (g.guard > 0)
     for (int s = 0; s < Cell::simplices; ++s) p[s] += Pack(g.guard) * K * guard_pressure(J[s], free_of_guard<Cell>(constants, s));
 }
-
-/// What a kernel of the forces is made for, so that it is as lean as it can be: the law of material/von_mises.h with a single
-/// layer, or with several; all others, and the laws of one-point cells, are told apart at run time.
-enum class Made { one_layer, layers, any };
 
 /// Simplices of a cell that go through the law together, so that one has work to do while another waits for a root or a
 /// division: as many as there are registers for.
@@ -130,7 +95,7 @@ template <class Cell, Made made>
     Points ratio;
     repeat<together>([&](auto i) {
       law_edges<Cell>(constants, x, drawn_x, first + i, edges[i].x);
-      if (Cell::one_point || classical) find_reciprocal(edges[i]);
+      if (classical) find_reciprocal(edges[i]);
       else find_areas(edges[i]);
       memory[i] = memory_of<Cell>(g, block, first + i);
       part_of(ratio, i) = Cell::drawn ? edges[i].volume / initial_volume(g, memory[i]) : J[first + i];
@@ -150,17 +115,8 @@ template <class Cell, Made made>
         law_edges<Cell>(constants, v, drawn_v, s, w);
         moved<Cell>(view, w);
       }
-      if constexpr (Cell::one_point) {
-        Hourglass<Pack, D, Cell::ring> hourglass(g.solid, constants, e, x);
-        point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J[s], memory[i], hourglass, hourglass_of<Cell>(g, block));
-        for (int m = 0; m < D; ++m)
-          for (int c = 0; c < D; ++c) force[m][c] = Pack(0.0);
-        hourglass.add_forces(V0, force, f);
-      } else if constexpr (made != Made::any) {
-        point = points.of(i);
-      } else {
-        point = point_step(g.solid, e, classical ? w : nullptr, part_of(ratio, i), memory[i], Keep::yes);
-      }
+      if constexpr (made != Made::any) point = points.of(i);
+      else point = point_step(g.solid, e, classical ? w : nullptr, part_of(ratio, i), memory[i], Keep::yes);
       dissipated += point.dissipation * V0;
       if constexpr (Cell::drawn) {  // -V~ S . y^m on the edges of the law, -V p x^m on those of the volume
         CellEdges<Cell> of_volume;
@@ -180,25 +136,16 @@ template <class Cell, Made made>
       }
       for (int c = 0; c < 3; ++c) point.S[c] += p[s];  // sigma = p I + S (3.4)
       // The force on edge m is -V sigma . x^m, that of the hoop of a ring -V sigma . x^3.
-      if constexpr (Cell::one_point) {
-        for (int m = 0; m < D; ++m) force[m] += point.S * (Pack(-1.0) * e.area[m]);
-        spread<Cell>(constants, force, f);
-        if constexpr (Cell::ring) {  // through the weights of x_3
-          const Pack hoop = e.area[2][0] * point.S[2];
-          for (int a = 0; a < Cell::nodes; ++a) f[a][0] -= weight(constants, OnePoint<D, true>::hoop + a) * hoop;
-        }
-      } else {
-        for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]] -= point.S * e.area[m];
-        if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
-          const Pack hoop = e.area[2][0] * point.S[2] * Pack(1.0 / 3);
-          for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]][0] -= hoop;
-          hoops += hoop;
-        }
+      for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]] -= point.S * e.area[m];
+      if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
+        const Pack hoop = e.area[2][0] * point.S[2] * Pack(1.0 / 3);
+        for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]][0] -= hoop;
+        hoops += hoop;
       }
     }
   }
   if constexpr (Cell::drawn) hand_back<Cell>(constants, on_drawn, f);
-  if constexpr (!Cell::one_point) balance_apex<Cell>(hoops, f);
+  balance_apex<Cell>(hoops, f);
   g.plastic_work[block] += sum_of_first(dissipated, in_use);
   g.upright[block] = all(upright);
 
@@ -234,9 +181,15 @@ template <class Cell>
     edges_of<Cell>(constants, x, s, e.x);
     find_reciprocal(e);
     const double* memory = memory_of<Cell>(g, block, s);
-    if constexpr (Cell::one_point && Cell::ring) bound.set(e, x, memory, initial_volume(g, memory), constants, Hourglass<Pack, D, true>(g.solid, constants, e, x));
-    else if constexpr (Cell::one_point) bound.set(e, memory, initial_volume(g, memory), constants, Hourglass<Pack, D>(g.solid, constants, e, x));
-    else {
+    if constexpr (Cell::one_point) {
+      Vector<Pack, D> sums[OnePoint<D>::modes];
+      sum_modes<Pack, D>(x, sums);
+      const PlaneModuli<Pack> moduli(g.solid);
+      Hourglass<Pack, D, Cell::ring> hourglass(moduli, constants, e, sums, x);
+      hourglass.find_strains();
+      if constexpr (Cell::ring) bound.set(e, x, memory, initial_volume(g, memory), constants, hourglass);
+      else bound.set(e, memory, initial_volume(g, memory), constants, hourglass);
+    } else {
       Pack at_edges;
       if (g.edge_omega2) at_edges = Pack::load(g.edge_omega2 + (block * Cell::simplices + s) * kLanes);
       bound.add(e, memory, g.edge_omega2 ? &at_edges : nullptr, initial_volume(g, memory), free_of_guard<Cell>(constants, s), Cell::table[s]);
@@ -283,7 +236,14 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
     double* memory = memory_of<Cell>(g, block, s);
     const Pack V0 = initial_volume(g, memory), law_J = Cell::drawn ? e.volume / V0 : J[s];
     stored += V0 * point_energy(g.solid, e, law_J, memory);
-    if constexpr (Cell::one_point) stored += V0 * Hourglass<Pack, D, Cell::ring>(g.solid, constants, e, x).energy(g.solid, hourglass_of<Cell>(g, block));
+    if constexpr (Cell::one_point) {
+      Vector<Pack, D> sums[OnePoint<D>::modes];
+      sum_modes<Pack, D>(x, sums);
+      const PlaneModuli<Pack> moduli(g.solid);
+      Hourglass<Pack, D, Cell::ring> hourglass(moduli, constants, e, sums, x);
+      hourglass.find_strains();
+      stored += V0 * hourglass.energy(g.solid, hourglass_of<Cell>(g, block));
+    }
     if (classical) stored += V[s] * p[s] * p[s] * Pack(0.5 / g.solid.K);
     else stored += Pack(0.5 * g.solid.K * own) * V0 * (J[s] - Pack(1.0)) * (J[s] - Pack(1.0));
     if (g.guard > 0) stored += Pack(g.guard * g.solid.K) * V0 * guard_energy(J[s], free_of_guard<Cell>(constants, s));
@@ -309,15 +269,17 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
 }
 
 template <class Cell, Made made> void forces_of_blocks(const CellGroup& g, const NodalView& view, int first, int last) {
-  for (int b = first; b < last; ++b) forces_of_block<Cell, made>(g, view, b);
+  const PlaneModuli<Pack> moduli(g.solid);
+  for (int b = first; b < last; ++b) {
+    if constexpr (Cell::one_point) forces_of_one_point_block<Cell, made>(g, moduli, view, b);
+    else forces_of_block<Cell, made>(g, view, b);
+  }
 }
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
   with_cell(g, [&](auto cell) {
     using Cell = decltype(cell);
-    if constexpr (!Cell::one_point) {
-      if (of_von_mises(g.solid.law) && g.solid.layers == 1) return forces_of_blocks<Cell, Made::one_layer>(g, view, first, last);
-      if (of_von_mises(g.solid.law)) return forces_of_blocks<Cell, Made::layers>(g, view, first, last);
-    }
+    if (of_von_mises(g.solid.law) && g.solid.layers == 1) return forces_of_blocks<Cell, Made::one_layer>(g, view, first, last);
+    if (of_von_mises(g.solid.law)) return forces_of_blocks<Cell, Made::layers>(g, view, first, last);
     forces_of_blocks<Cell, Made::any>(g, view, first, last);
   });
 }

@@ -42,6 +42,7 @@ template <int D, bool Ring = false> class Start {
     for (int a = 0; a < N; ++a) put(Cell::weights + a * D, Eigen::Matrix<double, D, 1>(w_.col(a)));
     Eigen::Matrix<double, M, D> start = h_ * X_.transpose() * E_ / c_;
     for (int k = 0; k < M; ++k) put(Cell::start + k * D, Eigen::Matrix<double, D, 1>(start.row(k)));
+    put_strain(start);
     Eigen::Matrix<double, N, 1> share;
     for (int a = 0; a < N; ++a) share[a] = result.share[a];
     const Square inertia = w_ * share.cwiseInverse().asDiagonal() * w_.transpose();
@@ -105,17 +106,44 @@ template <int D, bool Ring = false> class Start {
     w_ = c_ * E_.transpose() * b_;
     const Square U = E_.transpose() * J;
     for (int i = 0; i < D; ++i) {
-      put(Cell::fibres + D * i, Eigen::Matrix<double, D, 1>(U.col(i).normalized()));
-      result.constants[Cell::slopes + i] = c_ / (N * U.col(i).norm());
+      const double slope = c_ / (N * U.col(i).norm());
+      put(Cell::fibres + D * i, Eigen::Matrix<double, D, 1>(slope * U.col(i).normalized()));
+      result.constants[Cell::slopes + i] = slope;
     }
     if constexpr (D == 3)
       for (int d = 0; d < 3; ++d) {
-        const Vec3 a = U.col((d + 1) % 3).normalized(), b = U.col((d + 2) % 3).normalized();
-        const double sine = a.cross(b).norm();
-        result.constants[Cell::skew + 2 * d] = a.dot(b) / sine;
-        result.constants[Cell::skew + 2 * d + 1] = 1 / sine;
+        const int i = (d + 1) % 3, j = (d + 2) % 3;
+        const double* slope = result.constants.data() + Cell::slopes;
+        const Vec3 a = U.col(i).normalized(), b = U.col(j).normalized();
+        const double sine = a.cross(b).norm(), cotangent = a.dot(b) / sine;
+        const double skew[4] = {cotangent, 1 / (sine * sine), slope[j] / (slope[i] * sine), slope[i] / (slope[j] * sine)};
+        for (int k = 0; k < 4; ++k) result.constants[Cell::skew + 4 * d + k] = skew[k];
       }
     result.edges.template topLeftCorner<D, D>() = c_ * E_;
+  }
+
+  /// The fibres that take z.
+  Fibres<double, D> fibres() const {
+    Vector<double, D> unit[D] = {};
+    for (int m = 0; m < D; ++m) unit[m][m] = 1;
+    return Fibres<double, D>(result.constants.data(), unit);
+  }
+
+  void put_strain(const Eigen::Matrix<double, M, D>& start) {
+    Vector<double, D> z[M];
+    for (int k = 0; k < M; ++k)
+      for (int m = 0; m < D; ++m) z[k][m] = start(k, m);
+    double* to = result.constants.data() + Cell::strain;
+    HourglassStrain<double, D> strain;
+    strain.from(z, fibres(), result.constants.data());
+    for (int d = 0; d < D; ++d) {
+      *to++ = strain.plane[d].a;
+      if (D == 2) continue;
+      *to++ = strain.plane[d].b;
+      *to++ = strain.plane[d].shear;
+    }
+    if (D == 3)
+      for (double warp : strain.warp) *to++ = warp;
   }
 
   void put_hoop() {
@@ -142,7 +170,7 @@ template <int D, bool Ring = false> class Start {
     for (int column = 0; column < M * D; ++column) {
       Vector<double, D> z[M] = {}, g[M];
       for (int a = 0; a < M; ++a) z[a][column % D] = L(a, column / D);
-      hourglass_stiffness<D>(solid, Fibres<double, D>(result.constants.data()), z, g);
+      hourglass_stiffness<D>(solid, fibres(), result.constants.data(), z, g);
       for (int row = 0; row < M * D; ++row) {
         k(row, column) = 0;
         for (int a = 0; a < M; ++a) k(row, column) += L(a, row / D) * g[a][row % D];

@@ -48,63 +48,85 @@ template <class T, int D, bool Ring = false> class Hourglass {
   using Cell = OnePoint<D, Ring>;
 
  public:
-  /// constants: of the cell; x: of its corners; e: its edges.
-  Hourglass(const SolidConstants& m, const double* constants, const Edges<T, D, Ring>& e, const Vector<T, D>* x) : moduli_(m), edges_(e), fibres_(constants) {
-    Vector<T, D> sum[Cell::modes];
-    sum_modes<T, D>(x, sum);
-    repeat<Cell::modes>([&](auto k) {
-      repeat<D>([&](auto i) {
-        T start;
-        load(constants, Cell::start + k * D + i, start);
-        rise_[k][i] = dot(e.up[i], sum[k]);
-        z_[k][i] = rise_[k][i] - start;
-      });
+  /// constants: of the cell; e: its edges, with their reciprocal vectors; sums: sum_a h_alpha,a x_a of its corners, sum_modes(); x: of a
+  /// ring, the corners. Nothing is found yet: that is work to do while the law of the mean waits for its roots.
+  Hourglass(const PlaneModuli<T>& moduli, const double* constants, const Edges<T, D, Ring>& e, const Vector<T, D>* sums, const Vector<T, D>* x)
+      : moduli_(moduli), edges_(e), sums_(sums), x_(x), constants_(constants) {}
+
+  /// The strains that vary across the cell.
+  void find_strains() {
+    fibres_ = Fibres<T, D>(constants_, edges_.up);
+    strain_.from(sums_, fibres_, constants_);
+    const auto less_start = [&](int item, T& strain) {
+      T start;
+      load(constants_, Cell::strain + item, start);
+      strain -= start;
+    };
+    repeat<D>([&](auto d) {
+      less_start(D == 2 ? d : 3 * d, strain_.plane[d].a);
+      if constexpr (D == 3) {
+        less_start(3 * d + 1, strain_.plane[d].b);
+        less_start(3 * d + 2, strain_.plane[d].shear);
+        less_start(9 + d, strain_.warp[d]);
+      }
     });
-    strain_.from(z_, fibres_);
-    if constexpr (Ring) hoop_ = HoopStrain<T>(constants, e, x, strain_);
-    constants_ = constants;
-    repeat<3>([&](auto d) { stress_.warp[d] = T(0); });
+    if constexpr (Ring) hoop_ = HoopStrain<T>(constants_, edges_, x_, strain_);
   }
 
   /// Stresses of a body without plasticity.
-  void add_elastic() { add(Strain(), T(1)); }
-
-  /// One step of a layer whose law has answered `point` and stored its memory. Where the cell yields by
+  void set_elastic() {
+    repeat<D>([&](auto d) { stress_.plane[d] = moduli_.stress(strain_.plane[d]); });
+    if constexpr (D == 3) repeat<3>([&](auto d) { stress_.warp[d] = T(moduli_.E * (1.0 / 3)) * strain_.warp[d]; });
+  }
+  /// One step of a body of one layer whose law has answered `point` and stored its memory. Where the cell yields by
   /// its variation, mean and variation flow together, and both answers change.
+  void set_layer(const SolidConstants& m, const LayerConstants& layer, const T& factor, const T& J, PointResponse<T, D>& point, double* memory,
+                 double* hourglass_memory) {
+    stress_ = step_of_layer(m, layer, factor, J, point, memory, hourglass_memory);
+  }
+  /// The same of one layer among others; stresses are first set to zero.
+  void clear() {
+    repeat<D>([&](auto d) { stress_.plane[d] = {T(0), T(0), T(0)}; });
+    if constexpr (D == 3) repeat<3>([&](auto d) { stress_.warp[d] = T(0); });
+  }
   void add_layer(const SolidConstants& m, const LayerConstants& layer, const T& factor, const T& J, PointResponse<T, D>& point, double* memory,
                  double* hourglass_memory) {
-    Strain ep = load_plastic(hourglass_memory);
-    if (layer.hardening.kind != HardeningCurve::elastic && flow(m, layer, factor, J, point, memory, ep, hourglass_memory)) store_plastic(ep, hourglass_memory);
-    add(ep, T(layer.weight));
+    const Strain s = step_of_layer(m, layer, factor, J, point, memory, hourglass_memory);
+    const T w(layer.weight);
+    repeat<D>([&](auto d) {
+      stress_.plane[d].a += w * s.plane[d].a;
+      stress_.plane[d].b += w * s.plane[d].b;
+      if constexpr (D == 3) {
+        stress_.plane[d].shear += w * s.plane[d].shear;
+        stress_.warp[d] += w * s.warp[d];
+      }
+    });
   }
 
   /// Stored energy per initial volume, J/m3; memory: hourglass_items.
   T energy(const SolidConstants& m, const double* memory) const {
-    if (m.law == Law::hyperelastic) return layer_energy(Strain());
+    if (m.law == Law::hyperelastic) return layer_energy(nullptr);
     T sum(0);
-    for (int k = 0; k < m.layers; ++k, memory += kHourglassItems<D> * lanes_of<T>) sum += T(m.layer[k].weight) * layer_energy(load_plastic(memory));
+    for (int k = 0; k < m.layers; ++k, memory += kHourglassItems<D> * lanes_of<T>) sum += T(m.layer[k].weight) * layer_energy(memory);
     return sum;
   }
 
-  const T& z(int mode, int m) const { return z_[mode][m]; }
-  const T& dissipation() const { return dissipation_; }  ///< per initial volume, J/m3
+  T z(int mode, int m) const {
+    T start;
+    load(constants_, Cell::start + mode * D + m, start);
+    return dot(edges_.up[m], sums_[mode]) - start;
+  }
 
-  /// Minus the gradient of U: on the edges and, directly, on the corners.
-  void add_forces(const T& V0, Vector<T, D>* on_edges, Vector<T, D>* on_corners) const {
-    Vector<T, D> g[Cell::modes];
-    stress_.gradient(fibres_, g);
-    Vector<T, D> r[Cell::modes];
-    repeat<Cell::modes>([&](auto k) {
-      r[k] = (V0 * g[k][0]) * edges_.up[0];  // dU / d(sum_a h_a x_a)
-      repeat<D - 1>([&](auto m) { r[k] += (V0 * g[k][m + 1]) * edges_.up[m + 1]; });
-      repeat<D>([&](auto m) { on_edges[m] += rise_[k][m] * r[k]; });  // d x^m = -(x^m . d x_k) x^k
-    });
-    take_modes<T, D>(r, on_corners);
-    if constexpr (Ring)
-      for (int d = 0; d < 2; ++d) {
-        const T force = T(1.0 / 3) * V0 * stress_.plane[d].b;
-        for (int a = 0; a < 4; ++a) on_corners[a][0] -= force * hoop_.rate(1 - d, a);
-      }
+  /// The gradient of U. r: by the sums of the modes, r_alpha = dU/d(sum_a h_alpha,a x_a). With it the edges bear
+  /// sum_alpha r_alpha (sum_alpha . x^m), since d x^m = -(x^m . d x_k) x^k, and the corners -sum_alpha h_alpha,a r_alpha.
+  void gradient(const T& V0, Vector<T, D>* r) const {
+    stress_.gradient(fibres_, constants_, r);
+    const T third = T(1.0 / 3) * V0;
+    repeat<Cell::modes>([&](auto k) { r[k] = third * r[k]; });
+  }
+  /// Of a ring: what its hoops pull at corner a beside that.
+  T hoop_force(const T& V0, int a) const {
+    return T(1.0 / 3) * V0 * (stress_.plane[0].b * hoop_.rate(1, a) + stress_.plane[1].b * hoop_.rate(0, a));
   }
 
   /// Of a ring: d of the fibre strain e_d, and of the hoop strain that varies with coordinate i, by x_a (r_a).
@@ -113,34 +135,27 @@ template <class T, int D, bool Ring = false> class Hourglass {
     for (int m = 0; m < D; ++m) {
       T w;
       load(constants_, Cell::weights + a * D + m, w);
-      gamma -= rise_[0][m] * w;
+      gamma -= dot(edges_.up[m], sums_[0]) * w;
     }
-    Vector<T, D> row = fibres_.along[d][0] * edges_.up[0];
-    row += fibres_.along[d][1] * edges_.up[1];
-    return (gamma * fibres_.slope[d]) * row;
+    return gamma * fibres_.along[d];
   }
   T hoop_rate(int i, int a) const { return hoop_.rate(i, a); }
 
  private:
   using Strain = HourglassStrain<T, D>;
 
-  static Strain load_plastic(const double* memory) {
-    Strain ep;
-    repeat<D>([&](auto d) {
-      load(memory, d * kPlaneItems<D>, ep.plane[d].a);
-      load(memory, d * kPlaneItems<D> + 1, ep.plane[d].b);
-      if constexpr (D == 3) load(memory, d * kPlaneItems<D> + 2, ep.plane[d].shear);
-    });
-    if constexpr (D == 3) repeat<3>([&](auto d) { load(memory, 3 * kPlaneItems<D> + d, ep.warp[d]); });
+  static Plane<T> load_plane(const double* memory, int d) {
+    Plane<T> ep;
+    load(memory, d * kPlaneItems<D>, ep.a);
+    load(memory, d * kPlaneItems<D> + 1, ep.b);
+    if constexpr (D == 3) load(memory, d * kPlaneItems<D> + 2, ep.shear);
+    else ep.shear = T(0);
     return ep;
   }
-  static void store_plastic(const Strain& ep, double* memory) {
-    repeat<D>([&](auto d) {
-      store(memory, d * kPlaneItems<D>, ep.plane[d].a);
-      store(memory, d * kPlaneItems<D> + 1, ep.plane[d].b);
-      if constexpr (D == 3) store(memory, d * kPlaneItems<D> + 2, ep.plane[d].shear);
-    });
-    if constexpr (D == 3) repeat<3>([&](auto d) { store(memory, 3 * kPlaneItems<D> + d, ep.warp[d]); });
+  static void store_plane(const Plane<T>& ep, double* memory, int d) {
+    store(memory, d * kPlaneItems<D>, ep.a);
+    store(memory, d * kPlaneItems<D> + 1, ep.b);
+    if constexpr (D == 3) store(memory, d * kPlaneItems<D> + 2, ep.shear);
   }
 
   /// The cell's axes E_m turned as its edges are: the orthonormal vectors nearest to the edges' directions,
@@ -180,54 +195,95 @@ template <class T, int D, bool Ring = false> class Hourglass {
   }
 
   /// G^mk = x^m . B x^k.
-  void pull(const Symmetric<T, D>& B, Symmetric<T, D>& G) const {
+  static void pull(const Edges<T, D, Ring>& edges, const Symmetric<T, D>& B, Symmetric<T, D>& G) {
     Vector<T, D> Bx[D];
-    for (int m = 0; m < D; ++m) Bx[m] = B * edges_.up[m];
-    for (int m = 0; m < D; ++m) G[m] = dot(edges_.up[m], Bx[m]);
-    G[3] = dot(edges_.up[0], Bx[1]);
+    for (int m = 0; m < D; ++m) Bx[m] = B * edges.up[m];
+    for (int m = 0; m < D; ++m) G[m] = dot(edges.up[m], Bx[m]);
+    G[3] = dot(edges.up[0], Bx[1]);
     if constexpr (D == 2) {
-      G[2] = Ring ? B[2] * edges_.up[2][0] * edges_.up[2][0] : B[2];
+      G[2] = Ring ? B[2] * edges.up[2][0] * edges.up[2][0] : B[2];
     } else {
-      G[4] = dot(edges_.up[1], Bx[2]);
-      G[5] = dot(edges_.up[2], Bx[0]);
+      G[4] = dot(edges.up[1], Bx[2]);
+      G[5] = dot(edges.up[2], Bx[0]);
     }
   }
 
-  T layer_energy(const Strain& ep) const {
+  /// memory: of the layer; null without plasticity.
+  T layer_energy(const double* memory) const {
     T sum(0);
     for (int d = 0; d < D; ++d) {
-      const Plane<T> elastic = strain_.plane[d] - ep.plane[d];
+      const Plane<T> elastic = memory ? strain_.plane[d] - load_plane(memory, d) : strain_.plane[d];
       sum += T(1.0 / 6) * work(moduli_.stress(elastic), elastic);
     }
     if constexpr (D == 3)
       for (int d = 0; d < 3; ++d) {
-        const T elastic = strain_.warp[d] - ep.warp[d];
+        T ep(0);
+        if (memory) load(memory, 3 * kPlaneItems<D> + d, ep);
+        const T elastic = strain_.warp[d] - ep;
         sum += T(moduli_.E / 18) * elastic * elastic;
       }
     return sum;
   }
 
-  /// All coordinates, one after the other, and the last mode; whether ep changed.
-  bool flow(const SolidConstants& m, const LayerConstants& layer, const T& factor, const T& J, PointResponse<T, D>& point, double* memory, Strain& ep,
-            double* hourglass_memory) {
+  /// The stresses of a layer after its step, those of the last mode over 3.
+  Strain step_of_layer(const SolidConstants& m, const LayerConstants& layer, const T& factor, const T& J, PointResponse<T, D>& point, double* memory,
+                       double* hourglass_memory) {
+    Strain s = plane_stresses(hourglass_memory);
+    T limit(1e300), left(1);  // of the last mode
+    if (layer.hardening.kind != HardeningCurve::elastic) {
+      if (!point.knows_yield) {
+        T p;
+        load(memory, Symmetric<T, D>::size, p);
+        point.yield = yield_stress(layer.hardening, p);
+      }
+      limit = point.yield.value;
+      left = point.kept;
+      if (may_yield(point, s, hourglass_memory)) {
+        const Flowed after = flow(m, constants_, edges_, strain_, factor, J, point, memory, hourglass_memory);
+        point.S = after.S;
+        point.dissipation = after.dissipation;
+        limit = after.limit;
+        left = after.left;
+        s = plane_stresses(read_again(hourglass_memory));
+      }
+    }
+    if constexpr (D == 3) relax(limit, left, s.warp, point.dissipation, hourglass_memory);
+    return s;
+  }
+
+  Strain plane_stresses(const double* memory) const {
+    Strain s;
+    repeat<D>([&](auto d) { s.plane[d] = moduli_.stress(strain_.plane[d] - load_plane(memory, d)); });
+    return s;
+  }
+
+  /// A layer after mean and variation have flowed together: its S and dissipation, and of the last mode the
+  /// limit and the share that is left.
+  struct Flowed {
+    Symmetric<T, D> S;
+    T dissipation, limit, left;
+  };
+  /// All coordinates, one after the other. Out of line, with all it needs by value: what a step without such a flow has in
+  /// registers stays there.
+  [[gnu::noinline]] static Flowed flow(const SolidConstants& m, const double* constants, Edges<T, D, Ring> edges, Strain strain, T factor,
+                                        T J, PointResponse<T, D> point, double* memory, double* hourglass_memory) {
     constexpr int size = Symmetric<T, D>::size;
-    T p;
-    load(memory, size, p);
-    const YieldStress<T> yield = yield_stress(layer.hardening, p);
-    if (!may_yield(point.S, yield, ep, hourglass_memory)) return relax_all(layer, yield.value, point.kept, ep);
-    const Axes axes(edges_);
-    const auto plane = [&](int d) { return PlaneOf<T, D>(axes.e, fibres_, d); };
-    MeanFlow<T, D> mean{point.S, {}, T(2) * factor, yield.value, yield.slope, T(0)};
+    const PlaneModuli<T> moduli(m);
+    const Axes axes(edges);
+    const Fibres<T, D> turned(constants, axes.e);
+    const auto plane = [&](int d) { return PlaneOf<T, D>(turned, constants, d); };
+    MeanFlow<T, D> mean{point.S, {}, T(2) * factor, point.yield.value, point.yield.slope, T(0)};
     repeat<size>([&](auto i) { mean.strain[i] = T(0); });
+    Plane<T> ep[D];
+    repeat<D>([&](auto d) { ep[d] = load_plane(hourglass_memory, d); });
     T rise[D], share[D], most(0);  // p'; 1 where the coordinate's variation takes part, else 0
     repeat<D>([&](auto d) {
       load(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise[d]);
-      const T excess = normal<T, D>(mean, moduli_.stress(strain_.plane[d] - ep.plane[d]), rise[d], plane(d)).excess;
+      const T excess = normal<T, D>(mean, moduli.stress(strain.plane[d] - ep[d]), rise[d], plane(d)).excess;
       share[d] = select(excess > T(1e-12), T(1), T(0));
       most = larger(most, share[d]);
     });
-    const bool together = any(most > T(0));
-    if (together) {
+    if (any(most > T(0))) {
       // From the trial on: what the law has returned is taken back.
       const T returned = most * (T(1) / point.kept - T(1));
       const T dp = sqrt(T(1.5) * contract(mean.S, mean.S)) * returned / (T(1.5) * mean.modulus);
@@ -235,49 +291,41 @@ template <class T, int D, bool Ring = false> class Hourglass {
       mean.harden(-dp);
       repeat<D>([&](auto d) {
         if (!any(share[d] > T(0))) return;
-        dissipation_ += T(layer.weight) * flow_to_surface<T, D>(mean, moduli_, strain_.plane[d], share[d], ep.plane[d], rise[d], plane(d));
+        point.dissipation += flow_to_surface<T, D>(mean, moduli, strain.plane[d], share[d], ep[d], rise[d], plane(d));
+        store_plane(ep[d], hourglass_memory, d);
         store(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise[d]);
       });
       flow_of_mean(mean);
-      take_mean_flow(m, factor, J, mean.strain, mean.p, point, memory);
+      take_mean_flow(m, factor, J, edges, mean.strain, mean.p, point, memory);
     }
-    const T left = smaller(point.kept * mean.sigma / larger(mean.sigma + T(3) * T(moduli_.mu) * mean.p, T(0.5) * mean.sigma), T(1));
-    return relax_all(layer, mean.sigma, left, ep) || together;
+    const T left = smaller(point.kept * mean.sigma / larger(mean.sigma + T(3) * T(moduli.mu) * mean.p, T(0.5) * mean.sigma), T(1));
+    return {point.S, point.dissipation, mean.sigma, left};
   }
 
-  /// Whether a coordinate can be outside its surface: Q_n + mu <= Q_n + sqrt(Q_n Q_m) + Q_m, without directions; asked
-  /// first without roots, by sqrt(Q_n Q_m) <= (Q_n + Q_m)/2.
-  bool may_yield(const Symmetric<T, D>& S, const YieldStress<T>& yield, const Strain& ep, const double* hourglass_memory) const {
-    const T one = T(1) / yield.value, n2 = T(1.5) * contract(S, S) * one * one;
-    T q2[D], back[D], most(0);  // of each coordinate: squared face stress and the shift by p', over sigma_s
+  /// Whether a coordinate can be outside its surface, without directions: Q_n + mu <= Q_n + n m + m^2 with n^2 = Q_n and
+  /// m <= h (s + H |p'| n/sigma_s), s the norm of the face stress over sigma_s. Asked first, times sigma_s^4, without roots and divisions:
+  /// n <= 1 since the law has answered, m^2 <= 2 h^2 (s^2 + (H p'/sigma_s)^2).
+  static bool may_yield(const PointResponse<T, D>& point, const Strain& stress, const double* hourglass_memory) {
+    constexpr double h = kFaceStress, limit = 1 + 1e-12;
+    const T n2 = T(1.5) * contract(point.S, point.S), sigma2 = point.yield.value * point.yield.value;
+    T q2, rise;  // of the coordinates the largest: squared norm of the face stress, |p'|
     repeat<D>([&](auto d) {
-      T rise;
-      load(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise);
-      const Plane<T> s = moduli_.stress(strain_.plane[d] - ep.plane[d]);
-      q2[d] = (s.a * s.a + s.b * s.b - s.a * s.b + T(3) * s.shear * s.shear) * one * one;
-      back[d] = absolute(yield.slope * rise) * one;
-      most = larger(most, q2[d] + back[d] * back[d] * n2);
+      T p;
+      load(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, p);
+      const Plane<T>& s = stress.plane[d];
+      const T q2_d = s.a * (s.a - s.b) + s.b * s.b + T(3) * s.shear * s.shear;
+      q2 = d == 0 ? q2_d : larger(q2, q2_d);
+      rise = d == 0 ? absolute(p) : larger(rise, absolute(p));
     });
-    if (!any(T(1.5) * (n2 + T(2 * kFaceStress * kFaceStress) * most) > T(1))) return false;
-    const T n = sqrt(n2);
-    most = T(0);
-    repeat<D>([&](auto d) {
-      const T m = T(kFaceStress) * (sqrt(q2[d]) + back[d] * n);
-      most = larger(most, n2 + n * m + m * m);
-    });
-    return any(most > T(1 + 1e-12));
-  }
-
-  /// The last mode, of hexahedra; whether it flows.
-  bool relax_all(const LayerConstants& layer, const T& limit, const T& left, Strain& ep) {
-    bool changed = false;
-    if constexpr (D == 3) repeat<3>([&](auto d) { changed |= relax(limit, left, T(layer.weight), d, ep); });
-    return changed;
+    const T back = point.yield.slope * rise, m2 = T(2 * h * h) * (q2 + back * back), left = larger(T(limit) * sigma2 - n2 - m2, T(0));
+    if (!any(n2 * m2 > left * left)) return false;
+    const T one = T(1) / point.yield.value, n = sqrt(n2) * one, m = T(h) * (sqrt(q2) + absolute(back) * n) * one;
+    return any(n * n + n * m + m * m > T(limit));
   }
 
   /// The plastic strain of the mean, D, enters the law's memory: B <- B - D B - B D, or the
   /// classical S <- S - 2 mu D; it dissipates S : D.
-  void take_mean_flow(const SolidConstants& m, const T& factor, const T& J, const Symmetric<T, D>& flow, const T& dp, PointResponse<T, D>& point, double* memory) {
+  static void take_mean_flow(const SolidConstants& m, const T& factor, const T& J, const Edges<T, D, Ring>& edges, const Symmetric<T, D>& flow, const T& dp, PointResponse<T, D>& point, double* memory) {
     constexpr int size = Symmetric<T, D>::size;
     if (m.law == Law::classical) {
       for (int i = 0; i < size; ++i) {
@@ -286,10 +334,10 @@ template <class T, int D, bool Ring = false> class Hourglass {
       }
     } else {
       Symmetric<T, D> G = load_memory<T, D>(memory);
-      Symmetric<T, D> B = push(G, edges_);
+      Symmetric<T, D> B = push(G, edges);
       const Symmetric<T, D> change = twice_symmetric_product(flow, B);
       for (int i = 0; i < size; ++i) B[i] -= change[i];
-      pull(B, G);
+      pull(edges, B, G);
       for (int i = 0; i < size; ++i) store(memory, i, G[i]);
       B = deviator(B);
       for (int i = 0; i < size; ++i) point.S[i] = factor * B[i];
@@ -300,63 +348,82 @@ template <class T, int D, bool Ring = false> class Hourglass {
     store(memory, size, p + dp);
   }
 
-  /// The last mode: it relaxes as a stress does that is not along the flow, and does not pass the yield stress.
-  bool relax(const T& limit, const T& kept, const T& weight, int d, Strain& ep) {
-    const T elastic = strain_.warp[d] - ep.warp[d], s = T(moduli_.E) * elastic;
-    T left = kept;
-    if (any(absolute(s) > limit)) left = smaller(left, limit / larger(absolute(s), limit));
-    if (!any(left < T(1))) return false;
-    const T rate = (T(1) - left) * elastic;
-    ep.warp[d] += rate;
-    dissipation_ += weight * T(1.0 / 9) * left * s * rate;
-    return true;
-  }
-
-  void add(const Strain& ep, const T& weight) {
-    repeat<D>([&](auto d) {
-      const Plane<T> s = moduli_.stress(strain_.plane[d] - ep.plane[d]);
-      stress_.plane[d].a += weight * s.a;
-      stress_.plane[d].b += weight * s.b;
-      stress_.plane[d].shear += weight * s.shear;
+  /// The last mode, of hexahedra: it relaxes as a stress does that is not along the flow, and does not pass the yield stress.
+  void relax(const T& limit, const T& kept, T* warp, T& dissipation, double* memory) const {
+    T ep[3], elastic[3], most(0);
+    repeat<3>([&](auto d) {
+      load(memory, 3 * kPlaneItems<D> + d, ep[d]);
+      elastic[d] = strain_.warp[d] - ep[d];
+      most = larger(most, absolute(elastic[d]));
     });
-    if constexpr (D == 3) repeat<3>([&](auto d) { stress_.warp[d] += weight * T(moduli_.E) * (strain_.warp[d] - ep.warp[d]); });
+    const bool beyond = any(T(moduli_.E) * most > limit);
+    if (beyond || any(kept < T(1)))
+      repeat<3>([&](auto d) {
+        T left = kept;
+        if (beyond) left = smaller(left, limit / larger(T(moduli_.E) * absolute(elastic[d]), limit));
+        const T rate = (T(1) - left) * elastic[d];
+        store(memory, 3 * kPlaneItems<D> + d, ep[d] + rate);
+        elastic[d] *= left;
+        dissipation += T(moduli_.E * (1.0 / 9)) * elastic[d] * rate;
+      });
+    repeat<3>([&](auto d) { warp[d] = T(moduli_.E * (1.0 / 3)) * elastic[d]; });
   }
 
-  const PlaneModuli<T> moduli_;
+  const PlaneModuli<T>& moduli_;
   const Edges<T, D, Ring>& edges_;
+  const Vector<T, D>*sums_, *x_;
   const double* constants_;
   std::conditional_t<Ring, HoopStrain<T>, int> hoop_;
-  const Fibres<T, D> fibres_;
-  Vector<T, D> rise_[Cell::modes], z_[Cell::modes];
+  Fibres<T, D> fibres_;
   Strain strain_, stress_;
-  T dissipation_{0.0};
 };
 
-/// One step of the law at the centre and of the variation about it. memory, hourglass_memory: of
-/// the cell, the latter kHourglassItems of each layer; none of a hyperelastic body.
-template <class T, int D, bool Ring>
-PointResponse<T, D> step_with_hourglass(const SolidConstants& m, const Edges<T, D, Ring>& e, const Vector<T, D>* moved, const T& J, double* memory,
-                                        Hourglass<T, D, Ring>& hourglass, double* hourglass_memory) {
-  constexpr int size = Symmetric<T, D>::size;
-  if (m.law == Law::hyperelastic) {
-    hourglass.add_elastic();
-    return hyperelastic_step(m, e, J, memory);
+/// One step of a law of material/von_mises.h at the centre and of the variation about it. memory, hourglass_memory: of the cell, the latter
+/// kHourglassItems of each layer. one: the body has a single layer.
+template <bool one, class T, int D, bool Ring>
+PointResponse<T, D> von_mises_with_hourglass(const SolidConstants& m, const Edges<T, D, Ring>& e, const T& J, double* memory, Hourglass<T, D, Ring>& hourglass,
+                                             double* hourglass_memory) {
+  const T factor = stress_factor(m, J);
+  if constexpr (one) {
+    PointResponse<T, D> r = layer_step(m, 0, factor, e, J, memory, Keep::yes);
+    hourglass.find_strains();
+    hourglass.set_layer(m, m.layer[0], factor, J, r, memory, hourglass_memory);
+    return r;
   }
   PointResponse<T, D> sum;
-  for (int i = 0; i < size; ++i) sum.S[i] = T(0);
+  repeat<Symmetric<T, D>::size>([&](auto i) { sum.S[i] = T(0); });
   sum.dissipation = T(0);
-  const T factor = m.law == Law::classical ? T(m.mu) : stress_factor(m, J);
+  hourglass.find_strains();
+  hourglass.clear();
   for (int k = 0; k < m.layers; ++k) {
-    PointResponse<T, D> r = m.law == Law::classical ? classical_step(m, e, moved, J, memory, Keep::yes) : layer_step(m, k, factor, e, J, memory, Keep::yes);
+    PointResponse<T, D> r = layer_step(m, k, factor, e, J, memory, Keep::yes);
     hourglass.add_layer(m, m.layer[k], factor, J, r, memory, hourglass_memory);
     const T w(m.layer[k].weight);
-    for (int i = 0; i < size; ++i) sum.S[i] += w * r.S[i];
+    repeat<Symmetric<T, D>::size>([&](auto i) { sum.S[i] += w * r.S[i]; });
     sum.dissipation += w * r.dissipation;
     memory += kLayerItems<D> * lanes_of<T>;
     hourglass_memory += kHourglassItems<D> * lanes_of<T>;
   }
-  sum.dissipation += hourglass.dissipation();
   return sum;
+}
+
+/// The same of any law; a hyperelastic body has no hourglass_memory. moved: as in point_step().
+template <class T, int D, bool Ring>
+PointResponse<T, D> step_with_hourglass(const SolidConstants& m, const Edges<T, D, Ring>& e, const Vector<T, D>* moved, const T& J, double* memory,
+                                        Hourglass<T, D, Ring>& hourglass, double* hourglass_memory) {
+  if (m.law == Law::hyperelastic) {
+    hourglass.find_strains();
+    hourglass.set_elastic();
+    return hyperelastic_step(m, e, J, memory);
+  }
+  if (m.law == Law::classical) {
+    PointResponse<T, D> r = classical_step(m, e, moved, J, memory, Keep::yes);
+    hourglass.find_strains();
+    hourglass.set_layer(m, m.layer[0], T(m.mu), J, r, memory, hourglass_memory);
+    return r;
+  }
+  return m.layers == 1 ? von_mises_with_hourglass<true>(m, e, J, memory, hourglass, hourglass_memory)
+                       : von_mises_with_hourglass<false>(m, e, J, memory, hourglass, hourglass_memory);
 }
 
 }  // namespace forming_sim

@@ -54,16 +54,19 @@ template <class T, int D> struct Normal {
 template <class T, int D> struct PlaneOf {
   Symmetric<T, D> first, second, across;  ///< t_1 t_1, t_2 t_2, sym(t_1 t_2)
 
-  /// axes: of the cell now.
-  PlaneOf(const Vector<T, D>* axes, const Fibres<T, D>& f, int d) {
+  /// fibres: those that take z, turned with the cell.
+  PlaneOf(const Fibres<T, D>& turned, const double* constants, int d) {
+    T slope;
+    const int i = D == 2 ? d : (d + 1) % 3;
+    load(constants, OnePoint<D>::slopes + i, slope);
+    const Vector<T, D> t = T(1) / slope * turned.along[i];
     if constexpr (D == 2) {
-      const Vector<T, 2> t = turned(axes, f.along[d]);
       first = dyad(t, t);
       second = {{T(0), T(0), T(1), T(0)}};
       across = {{T(0), T(0), T(0), T(0)}};
     } else {
-      const Vector<T, 3>& u = f.along[(d + 1) % 3];
-      const Vector<T, 3> t = turned(axes, u), v = turned(axes, f.over_sine[d] * f.along[(d + 2) % 3] - f.cotangent[d] * u);
+      const Skew<T> skew(constants, d);  // t_2 = (u_j - cos u_i)/sin
+      const Vector<T, 3> v = skew.second / slope * turned.along[(d + 2) % 3] - skew.cotangent * t;
       first = dyad(t, t);
       second = dyad(v, v);
       across = dyad(t, v);
@@ -80,11 +83,6 @@ template <class T, int D> struct PlaneOf {
   Plane<T> part(const Symmetric<T, D>& a) const { return {contract(first, a), contract(second, a), T(2) * contract(across, a)}; }
 
  private:
-  static Vector<T, D> turned(const Vector<T, D>* axes, const Vector<T, D>& u) {
-    Vector<T, D> r = u[0] * axes[0];
-    for (int m = 1; m < D; ++m) r += u[m] * axes[m];
-    return r;
-  }
   static Symmetric<T, D> dyad(const Vector<T, D>& t, const Vector<T, D>& v) {
     const T half(0.5);
     if constexpr (D == 2) return {{t[0] * v[0], t[1] * v[1], T(0), half * (t[0] * v[1] + t[1] * v[0])}};

@@ -8,7 +8,7 @@ namespace forming_sim {
 
 /// A plane strain or stress tensor: normal components and the shear (of a strain: twice).
 template <class T> struct Plane {
-  T a = T(0), b = T(0), shear = T(0);
+  T a, b, shear;
 };
 
 /// Elastic moduli as Young's, that of plane stress over 1, Poisson's ratio.
@@ -26,115 +26,134 @@ template <class T> Plane<T> operator-(const Plane<T>& x, const Plane<T>& y) { re
 /// s : e
 template <class T> T work(const Plane<T>& s, const Plane<T>& e) { return s.a * e.a + s.b * e.b + s.shear * e.shear; }
 
-/// The fibres of a cell and the planes that they span, constants of one_point.h.
+/// By what the amplitudes z of the modes make strains of the fibres: a_i u_i, a_i = `slopes` of one_point.h.
 template <class T, int D> struct Fibres {
-  Vector<T, D> along[D];  ///< u_i
-  T slope[D];
-  T cotangent[3], over_sine[3];  ///< 3D: of the plane across coordinate d
+  Vector<T, D> along[D];
 
-  explicit Fibres(const double* constants) {
-    using Cell = OnePoint<D>;
+  Fibres() = default;
+  /// base: in which the components that are kept are given. With the vectors E_m of the start they take z; with x^m, since
+  /// z_alpha,m = x^m . sum_a h_alpha,a x_a - start_alpha,m, they take the sums of the modes.
+  Fibres(const double* constants, const Vector<T, D>* base) {
     repeat<D>([&](auto i) {
-      repeat<D>([&](auto m) { load(constants, Cell::fibres + D * i + m, along[i][m]); });
-      load(constants, Cell::slopes + i, slope[i]);
-    });
-    if constexpr (D == 3)
-      repeat<3>([&](auto d) {
-        load(constants, Cell::skew + 2 * d, cotangent[d]);
-        load(constants, Cell::skew + 2 * d + 1, over_sine[d]);
+      repeat<D>([&](auto m) {
+        T component;
+        load(constants, OnePoint<D>::fibres + D * i + m, component);
+        if constexpr (m == 0) along[i] = component * base[m];
+        else along[i] += component * base[m];
       });
+    });
+  }
+};
+
+/// Of the angle between the fibres u_i and u_j of the plane across coordinate d: one_point.h.
+template <class T> struct Skew {
+  T cotangent, over_sine2, first, second;
+  Skew(const double* constants, int d) {
+    constexpr int at = OnePoint<3>::skew;
+    load(constants, at + 4 * d, cotangent);
+    load(constants, at + 4 * d + 1, over_sine2);
+    load(constants, at + 4 * d + 2, first);
+    load(constants, at + 4 * d + 3, second);
   }
 };
 
 /// e_d and e_m from z, and the transposed map.
 ///
-/// In 3D the strains a' = u_i . Z u_i, b' = u_j . Z u_j and c' = 2 u_i . sym(Z) u_j of the fibres are at hand first; with
-/// t_1 = u_i and t_2 = (u_j - cos u_i)/sin the components along t_1 and t_2 follow.
+/// In 3D the strains of the fibres are at hand first, A = a_i u_i . z_j, B = a_j u_j . z_i, and C/sin their shear over the sine;
+/// with t_1 = u_i and t_2 = (u_j - cos u_i)/sin the components along t_1 and t_2 follow:
+///   e_11 = A,  2 e_12 = C/sin - 2 cot A,  e_22 = B/sin^2 - cot (2 e_12 + cot A).
 template <class T, int D> struct HourglassStrain {
   Plane<T> plane[D];
   T warp[3];  ///< 3D: of the last mode
 
-  void from(const Vector<T, D>* z, const Fibres<T, D>& f) {
+  void from(const Vector<T, D>* z, const Fibres<T, D>& f, const double* constants) {
     if constexpr (D == 2) {
-      repeat<2>([&](auto i) { plane[i].a = f.slope[i] * dot(f.along[i], z[0]); });
+      repeat<2>([&](auto i) { plane[i] = {dot(f.along[i], z[0]), T(0), T(0)}; });
     } else {
       repeat<3>([&](auto d) {
         constexpr int i = (d + 1) % 3, j = (d + 2) % 3;
-        const Vector<T, 3> zi = f.slope[j] * z[i], zj = f.slope[i] * z[j];
-        const T a = dot(f.along[i], zj), b = dot(f.along[j], zi), c = dot(f.along[i], zi) + dot(f.along[j], zj);
-        const T cot = f.cotangent[d], over = f.over_sine[d];
-        plane[d] = {a, over * over * b + cot * (cot * a - over * c), over * c - T(2) * cot * a};
-        warp[d] = f.slope[d] * dot(f.along[d], z[3]);
+        const Skew<T> skew(constants, d);
+        Plane<T>& e = plane[d];
+        e.a = dot(f.along[i], z[j]);
+        e.shear = skew.first * dot(f.along[i], z[i]) + skew.second * dot(f.along[j], z[j]) - T(2) * skew.cotangent * e.a;
+        e.b = skew.over_sine2 * dot(f.along[j], z[i]) - skew.cotangent * (e.shear + skew.cotangent * e.a);
+        warp[d] = dot(f.along[d], z[3]);
       });
     }
   }
-  /// With stresses in place of strains: dU/dz per volume.
-  void gradient(const Fibres<T, D>& f, Vector<T, D>* g) const {
+  /// With stresses in place of strains, those of the last mode over 3: 3 dU/dz per volume.
+  void gradient(const Fibres<T, D>& f, const double* constants, Vector<T, D>* g) const {
     if constexpr (D == 2) {
-      g[0] = (T(1.0 / 3) * f.slope[0] * plane[0].a) * f.along[0];
-      g[0] += (T(1.0 / 3) * f.slope[1] * plane[1].a) * f.along[1];
+      g[0] = plane[0].a * f.along[0];
+      g[0] += plane[1].a * f.along[1];
     } else {
-      repeat<4>([&](auto k) { g[k] = {{T(0), T(0), T(0)}}; });
       repeat<3>([&](auto d) {
         constexpr int i = (d + 1) % 3, j = (d + 2) % 3;
+        const Skew<T> skew(constants, d);
         const Plane<T>& s = plane[d];
-        const T cot = f.cotangent[d], over = f.over_sine[d];
-        const T a = s.a + cot * (cot * s.b - T(2) * s.shear), b = over * over * s.b, c = over * (s.shear - cot * s.b);
-        const T si = T(1.0 / 3) * f.slope[i], sj = T(1.0 / 3) * f.slope[j];
-        g[j] += (si * a) * f.along[i];
-        g[j] += (si * c) * f.along[j];
-        g[i] += (sj * b) * f.along[j];
-        g[i] += (sj * c) * f.along[i];
-        g[3] += (T(1.0 / 9) * f.slope[d] * warp[d]) * f.along[d];
+        const T shear = s.shear - skew.cotangent * s.b, a = s.a - skew.cotangent * (skew.cotangent * s.b + T(2) * shear);
+        const auto add = [&](auto k, const T& by_i, const T& by_j) {  // the first time g_k is set: that of d = 0 has none yet, nor j of d = 1
+          constexpr bool first = d == 0 || (d == 1 && k == (d + 2) % 3);
+          if constexpr (first) g[k] = by_i * f.along[i];
+          else g[k] += by_i * f.along[i];
+          g[k] += by_j * f.along[j];
+        };
+        add(std::integral_constant<int, i>(), skew.first * shear, skew.over_sine2 * s.b);
+        add(std::integral_constant<int, j>(), a, skew.second * shear);
+        if constexpr (d == 0) g[3] = warp[d] * f.along[d];
+        else g[3] += warp[d] * f.along[d];
       });
     }
   }
 };
 
-/// g = dU/dz per volume of an elastic cell.
-template <int D> void hourglass_stiffness(const SolidConstants& m, const Fibres<double, D>& fibres, const Vector<double, D>* z, Vector<double, D>* g) {
+/// g = dU/dz per volume of an elastic cell. fibres: those that take z.
+template <int D> void hourglass_stiffness(const SolidConstants& m, const Fibres<double, D>& fibres, const double* constants, const Vector<double, D>* z, Vector<double, D>* g) {
   const PlaneModuli<double> moduli(m);
   HourglassStrain<double, D> e, s;
-  e.from(z, fibres);
+  e.from(z, fibres, constants);
   for (int d = 0; d < D; ++d) s.plane[d] = moduli.stress(e.plane[d]);
   if constexpr (D == 3)
-    for (int d = 0; d < 3; ++d) s.warp[d] = moduli.E * e.warp[d];
-  s.gradient(fibres, g);
+    for (int d = 0; d < 3; ++d) s.warp[d] = moduli.E / 3 * e.warp[d];
+  s.gradient(fibres, constants, g);
+  for (int k = 0; k < OnePoint<D>::modes; ++k) g[k] = 1.0 / 3 * g[k];
 }
 
-/// sum_a h_alpha,a x_a of all modes; the signs are those of kHourglass.
+/// Adds the pair of corners a and a + N/2, N all of them, to the sums sum_a h_alpha,a x_a of all modes; the first pair sets them.
+template <class T, int D, int a> [[gnu::always_inline]] inline void add_to_modes(const Vector<T, D>& low, const Vector<T, D>& high, Vector<T, D>* sum) {
+  constexpr int opposite = a + OnePoint<D>::nodes / 2;
+  const Vector<T, D> both = low + high, between = low - high;
+  repeat<OnePoint<D>::modes>([&](auto k) {
+    constexpr bool even = kHourglass<D>[k][a] == kHourglass<D>[k][opposite], plus = kHourglass<D>[k][a] > 0;
+    const Vector<T, D>& x = even ? both : between;
+    if constexpr (a == 0) repeat<D>([&](auto i) { sum[k][i] = plus ? x[i] : -x[i]; });
+    else if constexpr (plus) sum[k] += x;
+    else sum[k] -= x;
+  });
+}
 template <class T, int D> void sum_modes(const Vector<T, D>* x, Vector<T, D>* sum) {
-  repeat<D>([&](auto i) {
-    if constexpr (D == 2) {
-      sum[0][i] = (x[0][i] - x[1][i]) + (x[2][i] - x[3][i]);
-    } else {
-      T even[4], odd[4];  // in zeta
-      repeat<4>([&](auto k) { even[k] = x[k + 4][i] + x[k][i], odd[k] = x[k + 4][i] - x[k][i]; });
-      const T u = odd[2] - odd[0], v = odd[3] - odd[1];
-      sum[0][i] = u + v;
-      sum[1][i] = u - v;
-      sum[2][i] = (even[0] - even[1]) + (even[2] - even[3]);
-      sum[3][i] = (odd[0] - odd[1]) + (odd[2] - odd[3]);
-    }
-  });
+  constexpr int half = OnePoint<D>::nodes / 2;
+  repeat<half>([&](auto a) { add_to_modes<T, D, a>(x[a], x[a + half], sum); });
 }
-/// f_a -= sum_alpha h_alpha,a r_alpha.
-template <class T, int D> void take_modes(const Vector<T, D>* r, Vector<T, D>* f) {
-  repeat<D>([&](auto i) {
+/// sum_alpha h_alpha,a r_alpha of every corner a, from sums and differences of pairs of modes.
+template <class T, int D> struct AtCorners {
+  static constexpr int pairs = D == 2 ? 1 : 2;
+  Vector<T, D> both[pairs], between[pairs];
+
+  explicit AtCorners(const Vector<T, D>* r) {
+    if constexpr (D == 2) both[0] = r[0];
+    else repeat<2>([&](auto k) { both[k] = r[2 * k] + r[2 * k + 1], between[k] = r[2 * k] - r[2 * k + 1]; });
+  }
+  template <int a> Vector<T, D> at() const {
+    constexpr auto& h = kHourglass<D>;
     if constexpr (D == 2) {
-      repeat<4>([&](auto a) { f[a][i] = a % 2 == 0 ? f[a][i] - r[0][i] : f[a][i] + r[0][i]; });
+      return h[0][a] > 0 ? both[0] : -both[0];
     } else {
-      const T p = r[0][i] + r[1][i], m = r[0][i] - r[1][i], low = r[2][i] - r[3][i], high = r[2][i] + r[3][i];
-      f[0][i] -= p + low;
-      f[1][i] -= m - low;
-      f[2][i] += p - low;
-      f[3][i] += m + low;
-      f[4][i] += p - high;
-      f[5][i] += m + high;
-      f[6][i] -= p + high;
-      f[7][i] -= m - high;
+      const Vector<T, 3>&first = h[0][a] == h[1][a] ? both[0] : between[0], &second = h[2][a] == h[3][a] ? both[1] : between[1];
+      if constexpr (h[0][a] > 0) return h[2][a] > 0 ? first + second : first - second;
+      else return h[2][a] > 0 ? second - first : -(first + second);
     }
-  });
-}
+  }
+};
 
 }  // namespace forming_sim

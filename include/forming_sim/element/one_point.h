@@ -17,6 +17,8 @@
 // with h the signs of xi eta (2D), or of eta zeta, zeta xi, xi eta, xi eta zeta (3D), at the
 // corners, and `start` such that all z vanish wherever x is a linear image of X:
 // z_alpha,m = 2^D/c times the component m of F^-1 q_alpha, q_alpha the displacement of the mode.
+// The strains that vary across the cell are linear in z (element/hourglass_strain.h), and so
+// linear in the x^m times the sums of the modes, less what `strain` holds of them.
 #include <vector>
 
 #include "forming_sim/material/constants.h"
@@ -28,11 +30,12 @@ namespace forming_sim {
 template <int D, bool Ring = false> struct OnePoint {
   static constexpr int nodes = D == 2 ? 4 : 8, modes = D == 2 ? 1 : 4, pairs = D * (D + 1) / 2;
   static constexpr int weights = 0;                     ///< [node][m]
-  static constexpr int start = weights + nodes * D;     ///< [mode][m]
-  static constexpr int fibres = start + modes * D;      ///< [i][m] u_i . E_m, u_i = g_i/|g_i|, g_i = dX/dxi_i at the centre
-  static constexpr int slopes = fibres + D * D;         ///< [i] c/2^D/|g_i|
-  static constexpr int skew = slopes + D;               ///< 3D: [d] cotangent and 1/sine of the angle from u_i to u_j, d, i, j cyclic
-  static constexpr int inertia = skew + (D == 2 ? 0 : 2 * D);          ///< [pair] sum_a w_ma w_ka / share_a
+  static constexpr int fibres = weights + nodes * D;    ///< [i][m] a_i u_i . E_m, u_i = g_i/|g_i|, g_i = dX/dxi_i at the centre
+  static constexpr int skew = fibres + D * D;           ///< 3D: [d] with the angle from u_i to u_j, d, i, j cyclic: its cotangent, 1/sin^2, a_j/a_i over its sine, a_i/a_j over it
+  static constexpr int strain = skew + (D == 2 ? 0 : 4 * D);           ///< of `start`: 2D [d] e_d; 3D [d] three of e_d, then the three of xi eta zeta
+  static constexpr int slopes = strain + (D == 2 ? D : 4 * D);         ///< [i] a_i = c/2^D/|g_i|
+  static constexpr int start = slopes + D;              ///< [mode][m]
+  static constexpr int inertia = start + modes * D;     ///< [pair] sum_a w_ma w_ka / share_a
   static constexpr int stiffness = inertia + pairs;     ///< [m] Pa, bounds the modes' stiffness: element/one_point_step.h
   static constexpr int looseness = stiffness + D;       ///< 1 / smallest eigenvalue of the modes' inverse inertia
   static constexpr int slant = looseness + 1;           ///< cosine between the modes and the uniform shapes, 0 for a parallelepiped

@@ -62,7 +62,9 @@ template <class T, int D, bool Ring>
 [[gnu::noinline]] PointResponse<T, D> classical_step(const SolidConstants& m, Edges<T, D, Ring> e, const Vector<T, D>* moved, const T& J,
                                                      double* memory, Keep keep) {
   constexpr int size = Symmetric<T, D>::size;
-  PointResponse<T, D> r{load_memory<T, D>(memory), T(0)};
+  PointResponse<T, D> r;
+  r.S = load_memory<T, D>(memory);
+  r.dissipation = T(0);
   if (!moved) return r;
   const Increment<T, D, Ring> d(e, moved);
   const Symmetric<T, D> turn = jaumann(d, r.S);
@@ -86,7 +88,8 @@ template <class T, int D, bool Ring>
     const auto yields = q > yield.value;
     if (any(yields)) {
       const T k = q * T(1 / (3 * m.mu));
-      const T u = select(yields, solve_correction(h, select(yields, q, yield.value), p, k, yield), T(0));
+      YieldStress<T> reached = yield;
+      const T u = select(yields, solve_correction(h, select(yields, q, yield.value), p, k, reached), T(0));
       p += u * k;
       for (int i = 0; i < size; ++i) r.S[i] *= T(1) - u;  // (2.15)
       r.dissipation = J * (T(1) - u) * q * u * k;         // q_S dp

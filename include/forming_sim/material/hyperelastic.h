@@ -42,7 +42,10 @@ template <class T, int D, bool Ring>
   const Symmetric<T, D> B = isochoric(e, J, memory);
   Symmetric<T, D> S = square(B);
   for (int i = 0; i < Symmetric<T, D>::size; ++i) S[i] = (T(m.h1) * B[i] + T(m.h2) * S[i]) / J;
-  return {deviator(S), T(0)};
+  PointResponse<T, D> r;
+  r.S = deviator(S);
+  r.dissipation = T(0);
+  return r;
 }
 
 /// Per initial volume, J/m3.

@@ -29,10 +29,14 @@ template <class T, int D> struct PointResponse {
   Symmetric<T, D> S;  ///< Cauchy stress beside the pressure, Pa
   T dissipation;      ///< plastic work of the step per initial volume, J/m3
   T kept = T(1);      ///< of a single layer: S over that of the trial, 1: elastic
+  bool knows_yield = false;  ///< of a single layer: whether the law asked for `yield`
+  YieldStress<T> yield;      ///< at its p after the step
 
   /// What it answers for one of points_in<T> points.
   PointResponse<PartOf<T>, D> of(int point) const {
-    PointResponse<PartOf<T>, D> r{{}, part_of(dissipation, point), part_of(kept, point)};
+    PointResponse<PartOf<T>, D> r;
+    r.dissipation = part_of(dissipation, point);
+    r.kept = part_of(kept, point);
     repeat<Symmetric<T, D>::size>([&](auto i) { r.S[i] = part_of(S[i], point); });
     return r;
   }
@@ -48,18 +52,19 @@ enum class Keep { yes, no };
 constexpr double kOnTheSurface = 1e-13;
 
 /// u = 1 - a of (1-u) q = sigma_s(p + u k): Newton inside a bracket, to round-off, from where the
-/// parabola at u = 0 has its root to second order; at: sigma_s at p.
-template <class T> T solve_correction(const HardeningCurve& h, const T& q, const T& p, const T& k, const YieldStress<T>& at) {
+/// parabola at u = 0 has its root to second order; at: sigma_s at p, and then at p + u k.
+template <class T> T solve_correction(const HardeningCurve& h, const T& q, const T& p, const T& k, YieldStress<T>& at) {
+  const YieldStress<T> start = at;
   const T over_slope = T(1) / (q + k * at.slope), first = (q - at.value) * over_slope;
   T u = smaller(first * (T(1) - T(0.5) * k * k * at.bend * first * over_slope), T(1));
   T low(0), high(1);
   for (int i = 0; i < 60; ++i) {
-    const YieldStress<T> y = yield_stress_beyond(h, p, at, u * k);
-    const T value = (T(1) - u) * q - y.value;
+    at = yield_stress_beyond(h, p, start, u * k);
+    const T value = (T(1) - u) * q - at.value;
     if (!any(absolute(value) > T(kOnTheSurface) * q)) break;
     low = select(value > T(0), u, low);
     high = select(value > T(0), high, u);
-    T next = u + value / (q + k * y.slope);
+    T next = u + value / (q + k * at.slope);
     next = select(next > high, T(0.5) * (low + high), next);
     u = select(next < low, T(0.5) * (low + high), next);
   }
@@ -90,36 +95,47 @@ template <class T> T stress_factor(const SolidConstants& m, const T& J) {
   return m.law == Law::paper ? T(m.mu) : T(m.mu) * power_minus_five_thirds(J);
 }
 
-/// The correction of a layer whose trial B' = s I + D, m = D : D, has q_S'^2 = Q: its a, p and dissipation.
+/// What a correction makes of a layer: its a, p, dissipation, and the yield stress after it.
+template <class T> struct Correction {
+  T kept, p, dissipation;
+  YieldStress<T> yield;
+};
+
+/// The correction of a layer whose trial B' = s I + D, m = D : D, has q_S'^2 = Q.
 template <class T, int D>
-void flow(const HardeningCurve& hardening, const T& factor, const T& s, const Symmetric<T, D>& deviator, const T& m, const T& J, const T& Q, T& p,
-          PointResponse<T, D>& r) {
-  const YieldStress<T> yield = yield_stress(hardening, p);
+Correction<T> correct(const HardeningCurve& hardening, const T& factor, const T& s, const Symmetric<T, D>& deviator, const T& m, const T& J, const T& Q, const T& p) {
+  YieldStress<T> yield = yield_stress(hardening, p);
   const auto yields = Q > yield.value * yield.value * T(1 + 2 * kOnTheSurface);
-  if (!any(yields)) return;
+  if (!any(yields)) return {T(1), p, T(0), yield};
   const T d = determinant(deviator, cofactor(deviator));
   const T over_det = T(1) / (s * (s * s - T(0.5) * m) + d);
   const T k = sqrt(T(1.5) * (s * (s * m - T(6) * d) + m * m * T(1.0 / 6))) * (over_det * T(1.0 / 3));
   const T safe_q = select(yields, sqrt(Q), yield.value);  // lanes that do not yield solve to u = 0
   const T u = select(yields, solve_correction(hardening, safe_q, p, k, yield), T(0));
-  r.kept = T(1) - u;
-  p += u * k;
+  const T kept = T(1) - u;
   // J S : D_p with the stress after the correction, which is the one that moves the nodes
-  r.dissipation = factor * r.kept * J * T(0.5) * u * ((s * m - T(3) * d) * over_det);
+  return {kept, p + u * k, factor * kept * J * T(0.5) * u * ((s * m - T(3) * d) * over_det), yield};
 }
 
 /// What a layer answers, as if the body were made of it. B: the trial B' (3.51); J: V/V0 of the element; p: plastic strain, updated.
 template <class T, int D>
 PointResponse<T, D> update_layer(const HardeningCurve& hardening, T factor, const Symmetric<T, D>& B, const T& J, T& p) {
   PointResponse<T, D> r;
-  r.S = deviator(B);
+  const Symmetric<T, D> B_D = deviator(B);
   r.dissipation = T(0);
   if (hardening.kind != HardeningCurve::elastic) {
-    const T m = contract(r.S, r.S), Q = T(1.5) * m * factor * factor;  // q_S'^2: the root is needed only where something yields
-    if (any(Q > T(hardening.lowest * hardening.lowest))) flow(hardening, factor, trace(B) * T(1.0 / 3), r.S, m, J, Q, p, r);
+    const T m = contract(B_D, B_D), Q = T(1.5) * m * factor * factor;  // q_S'^2: the root is needed only where something yields
+    if (any(Q > T(hardening.lowest * hardening.lowest))) {
+      const Correction<T> c = correct(hardening, factor, trace(B) * T(1.0 / 3), B_D, m, J, Q, p);
+      r.kept = c.kept;
+      r.dissipation = c.dissipation;
+      r.yield = c.yield;
+      r.knows_yield = true;
+      p = c.p;
+    }
   }
   factor *= r.kept;
-  repeat<Symmetric<T, D>::size>([&](auto i) { r.S[i] = factor * r.S[i]; });
+  repeat<Symmetric<T, D>::size>([&](auto i) { r.S[i] = factor * B_D[i]; });
   return r;
 }
 
@@ -130,11 +146,20 @@ template <class T, int D> Symmetric<T, D> load_memory(const double* from) {
   return G;
 }
 
+/// G^x = over A of a point.
+template <class T, int D> struct Metric {
+  Symmetric<T, D> A;
+  T over;
+};
+/// From what find_areas() gives, and from what find_reciprocal() gives.
+template <class T, int D, bool Ring> Metric<T, D> metric_of_areas(const Edges<T, D, Ring>& e) { return {area_metric(e), T(1) / (e.volume * e.volume)}; }
+template <class T, int D, bool Ring> Metric<T, D> metric_of_vectors(const Edges<T, D, Ring>& e) { return {metric_of<D, Ring>(e.up, T(1)), T(1)}; }
+
 /// One step of layer k of points_in<T> points (tensor/several.h), whose memories of that layer start at `memory`; factor: stress_factor(m, J);
-/// metric: G^x of the points where it is at hand, else null.
-template <class T, int D, bool Ring>
+/// metric: gives the Metric of a point where it yields.
+template <class T, int D, bool Ring, class MetricOf>
 PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, const Edges<PartOf<T>, D, Ring>* e, const T& J, double* const* memory, Keep keep,
-                               const Symmetric<PartOf<T>, D>* metric = nullptr) {
+                               const MetricOf& metric) {
   using Part = PartOf<T>;
   constexpr int size = Symmetric<T, D>::size;
   Symmetric<T, D> B;
@@ -148,17 +173,22 @@ PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, 
   const PointResponse<T, D> r = update_layer(m.layer[k].hardening, factor, B, J, p);
   if (keep == Keep::yes && any(p > before))
     repeat<points_in<T>>([&](auto i) {
-      const Symmetric<Part, D> A = metric ? metric[i] : area_metric(e[i]), G = load_memory<Part, D>(read_again(memory[i]));
-      const Part a = part_of(r.kept, i), share = metric ? Part(1) - a : (Part(1) - a) / (e[i].volume * e[i].volume);
-      repeat<size>([&](auto c) { store(memory[i], c, a * G[c] + share * A[c]); });  // (3.54)
+      const Metric<Part, D> target = metric(i);
+      const Symmetric<Part, D> G = load_memory<Part, D>(read_again(memory[i]));
+      const Part a = part_of(r.kept, i), share = (Part(1) - a) * target.over;
+      repeat<size>([&](auto c) { store(memory[i], c, a * G[c] + share * target.A[c]); });  // (3.54)
       store(memory[i], size, part_of(p, i));
     });
   return r;
 }
-/// Of one point.
+template <class T, int D, bool Ring>
+PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, const Edges<PartOf<T>, D, Ring>* e, const T& J, double* const* memory, Keep keep) {
+  return layer_step(m, k, factor, e, J, memory, keep, [&](int i) { return metric_of_areas(e[i]); });
+}
+/// Of one point whose reciprocal vectors are at hand.
 template <class T, int D, bool Ring>
 PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, const Edges<T, D, Ring>& e, const T& J, double* memory, Keep keep) {
-  return layer_step(m, k, factor, &e, J, &memory, keep);
+  return layer_step(m, k, factor, &e, J, &memory, keep, [&](int) { return metric_of_vectors(e); });
 }
 
 /// One step of all layers of points_in<T> points.
@@ -170,15 +200,13 @@ PointResponse<T, D> von_mises_step(const SolidConstants& m, const Edges<PartOf<T
   repeat<Symmetric<T, D>::size>([&](auto i) { sum.S[i] = T(0); });
   sum.dissipation = T(0);
   double* of_layer[points_in<T>];
-  Symmetric<PartOf<T>, D> metric[points_in<T>];
+  Metric<PartOf<T>, D> metric[points_in<T>];
   repeat<points_in<T>>([&](auto i) {
     of_layer[i] = memory[i];
-    metric[i] = area_metric(e[i]);
-    const PartOf<T> scale = PartOf<T>(1) / (e[i].volume * e[i].volume);
-    repeat<Symmetric<T, D>::size>([&](auto c) { metric[i][c] *= scale; });
+    metric[i] = metric_of_areas(e[i]);
   });
   for (int k = 0; k < m.layers; ++k) {
-    const PointResponse<T, D> r = layer_step(m, k, factor, e, J, of_layer, keep, metric);
+    const PointResponse<T, D> r = layer_step(m, k, factor, e, J, of_layer, keep, [&](int i) -> const Metric<PartOf<T>, D>& { return metric[i]; });
     for (double*& at : of_layer) at += kLayerItems<D> * lanes_of<PartOf<T>>;
     const T w(m.layer[k].weight);
     repeat<Symmetric<T, D>::size>([&](auto i) { sum.S[i] += w * r.S[i]; });

@@ -126,25 +126,29 @@ inline void add_numbers(Pack a, const int index[kLanes], double* to) {
 /// Four doubles anywhere in memory: a nodal record.
 typedef double Quad __attribute__((vector_size(32), aligned(8)));
 
-/// Loads kLanes nodal records and hands back their components.
-inline void gather_records(const double* const from[kLanes], Pack& x, Pack& y, Pack& z, Pack& fourth) {
-  Quad q[kLanes];
-  for (int l = 0; l < kLanes; ++l) q[l] = *reinterpret_cast<const Quad*>(from[l]);
-  Lanes a[4];
-  for (int k = 0; k < 4; ++k) a[k] = __builtin_shufflevector(q[k], q[k + 4], 0, 1, 2, 3, 4, 5, 6, 7);
-  const Lanes t0 = __builtin_shufflevector(a[0], a[1], 0, 8, 2, 10, 4, 12, 6, 14);
-  const Lanes t1 = __builtin_shufflevector(a[0], a[1], 1, 9, 3, 11, 5, 13, 7, 15);
-  const Lanes t2 = __builtin_shufflevector(a[2], a[3], 0, 8, 2, 10, 4, 12, 6, 14);
-  const Lanes t3 = __builtin_shufflevector(a[2], a[3], 1, 9, 3, 11, 5, 13, 7, 15);
-  x.v = __builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13);
-  y.v = __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13);
-  z.v = __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15);
-  fourth.v = __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15);
+/// Loads kLanes nodal records, the one of lane l at at(l), and hands back their components.
+template <class At> [[gnu::always_inline]] inline void gather_records(const At& at, Pack& x, Pack& y, Pack& z, Pack& fourth) {
+  const auto two = [&](int k, int l) -> Lanes {
+    const Quad &low = *reinterpret_cast<const Quad*>(at(k)), &high = *reinterpret_cast<const Quad*>(at(l));
+#if defined(__AVX512DQ__)
+    return _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512((__m256d)low), (__m256d)high, 1);
+#else
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+#endif
+  };
+  const Lanes even = two(0, 2), odd = two(1, 3), even_high = two(4, 6), odd_high = two(5, 7);
+  const Lanes xz = __builtin_shufflevector(even, odd, 0, 8, 2, 10, 4, 12, 6, 14), yw = __builtin_shufflevector(even, odd, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Lanes xz_high = __builtin_shufflevector(even_high, odd_high, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes yw_high = __builtin_shufflevector(even_high, odd_high, 1, 9, 3, 11, 5, 13, 7, 15);
+  x.v = __builtin_shufflevector(xz, xz_high, 0, 1, 4, 5, 8, 9, 12, 13);
+  y.v = __builtin_shufflevector(yw, yw_high, 0, 1, 4, 5, 8, 9, 12, 13);
+  z.v = __builtin_shufflevector(xz, xz_high, 2, 3, 6, 7, 10, 11, 14, 15);
+  fourth.v = __builtin_shufflevector(yw, yw_high, 2, 3, 6, 7, 10, 11, 14, 15);
 }
 /// The first three alone.
-inline void gather_records(const double* const from[kLanes], Pack& x, Pack& y, Pack& z) {
+template <class At> [[gnu::always_inline]] inline void gather_records(const At& at, Pack& x, Pack& y, Pack& z) {
   Pack unused;
-  gather_records(from, x, y, z, unused);
+  gather_records(at, x, y, z, unused);
 }
 
 typedef double Pair __attribute__((vector_size(16), aligned(8)));

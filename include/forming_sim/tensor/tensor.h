@@ -12,9 +12,19 @@ template <class T, int D> struct Vector {
   T c[D];
   T& operator[](int i) { return c[i]; }
   const T& operator[](int i) const { return c[i]; }
+  friend Vector operator+(const Vector& a, const Vector& b) {
+    Vector r;
+    repeat<D>([&](auto i) { r.c[i] = a.c[i] + b.c[i]; });
+    return r;
+  }
   friend Vector operator-(const Vector& a, const Vector& b) {
     Vector r;
     repeat<D>([&](auto i) { r.c[i] = a.c[i] - b.c[i]; });
+    return r;
+  }
+  friend Vector operator-(const Vector& a) {
+    Vector r;
+    repeat<D>([&](auto i) { r.c[i] = -a.c[i]; });
     return r;
   }
   Vector& operator+=(const Vector& b) {
@@ -33,8 +43,8 @@ template <class T, int D> struct Vector {
 };
 
 template <class T, int D> T dot(const Vector<T, D>& a, const Vector<T, D>& b) {
-  T s = a[0] * b[0];
-  for (int i = 1; i < D; ++i) s += a[i] * b[i];
+  T s = a[0] * b[0] + a[1] * b[1];
+  if constexpr (D == 3) s += a[2] * b[2];
   return s;
 }
 template <class T> Vector<T, 3> cross(const Vector<T, 3>& a, const Vector<T, 3>& b) {
@@ -52,15 +62,19 @@ template <class T, int D> struct Symmetric {
 template <class T, int D> T trace(const Symmetric<T, D>& a) { return a[0] + a[1] + a[2]; }
 
 /// A - tr(A)/3 I, also in plane strain.
-template <class T, int D> Symmetric<T, D> deviator(Symmetric<T, D> a) {
+template <class T, int D> Symmetric<T, D> deviator(const Symmetric<T, D>& a) {
   const T mean = trace(a) * T(1.0 / 3);
-  repeat<3>([&](auto i) { a[i] -= mean; });
-  return a;
+  Symmetric<T, D> r;
+  repeat<Symmetric<T, D>::size>([&](auto i) {
+    if constexpr (i < 3) r[i] = a[i] - mean;
+    else r[i] = a[i];
+  });
+  return r;
 }
 /// A : B
 template <class T, int D> T contract(const Symmetric<T, D>& a, const Symmetric<T, D>& b) {
   T off = a[3] * b[3];
-  for (int i = 4; i < Symmetric<T, D>::size; ++i) off += a[i] * b[i];
+  if constexpr (D == 3) off += a[4] * b[4] + a[5] * b[5];
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + T(2) * off;
 }
 /// von Mises norm q = sqrt(3/2 A_D : A_D) of a deviator.
@@ -157,7 +171,7 @@ template <class T, int D, bool Ring> T extent(const Edges<T, D, Ring>& e) {
 }
 
 /// B = x_m x_k G^mk (3.36); plane strain: B_33 = G^33, ring: r^2 G^33.
-template <class T, int D, bool Ring> Symmetric<T, D> push(const Symmetric<T, D>& G, const Edges<T, D, Ring>& e) {
+template <class T, int D, bool Ring> [[gnu::always_inline]] inline Symmetric<T, D> push(const Symmetric<T, D>& G, const Edges<T, D, Ring>& e) {
   // y^m = G^mk x_k, B = x_m y^m
   Symmetric<T, D> B;
   if constexpr (D == 2) {
@@ -183,21 +197,23 @@ template <class T, int D, bool Ring> Symmetric<T, D> push(const Symmetric<T, D>&
   return B;
 }
 
-/// V^2 G^x, G^x the components x^m . x^k; plane strain: G^33 = 1, ring: 1/r^2.
-template <class T, int D, bool Ring> Symmetric<T, D> area_metric(const Edges<T, D, Ring>& e) {
+/// s^2 G^x from the s x^m, G^x the components x^m . x^k; plane strain: G^33 = 1, ring: 1/r^2.
+template <int D, bool Ring, class T> [[gnu::always_inline]] inline Symmetric<T, D> metric_of(const Vector<T, D>* x, const T& s) {
   Symmetric<T, D> A;
-  A[0] = dot(e.area[0], e.area[0]);
-  A[1] = dot(e.area[1], e.area[1]);
-  A[3] = dot(e.area[0], e.area[1]);
+  A[0] = dot(x[0], x[0]);
+  A[1] = dot(x[1], x[1]);
+  A[3] = dot(x[0], x[1]);
   if constexpr (D == 2) {
-    if constexpr (Ring) A[2] = e.area[2][0] * e.area[2][0];
-    else A[2] = e.volume * e.volume;
+    if constexpr (Ring) A[2] = x[2][0] * x[2][0];
+    else A[2] = s * s;
   } else {
-    A[2] = dot(e.area[2], e.area[2]);
-    A[4] = dot(e.area[1], e.area[2]);
-    A[5] = dot(e.area[2], e.area[0]);
+    A[2] = dot(x[2], x[2]);
+    A[4] = dot(x[1], x[2]);
+    A[5] = dot(x[2], x[0]);
   }
   return A;
 }
+/// V^2 G^x.
+template <class T, int D, bool Ring> Symmetric<T, D> area_metric(const Edges<T, D, Ring>& e) { return metric_of<D, Ring>(e.area, e.volume); }
 
 }  // namespace forming_sim

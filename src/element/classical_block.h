@@ -1,0 +1,55 @@
+#pragma once
+// What the classical method asks of a block of cells beside positions. For files that are compiled once per vector width only.
+#include "element/block.h"
+
+namespace forming_sim {
+namespace FORMING_SIM_ISA {
+
+/// The ways of edges in the last step, from their velocities.
+template <class Cell> void moved(const NodalView& view, Vector<Pack, kD<Cell>>* w) {
+  for (int m = 0; m < kE<Cell>; ++m) w[m] = Pack(view.last_dt) * w[m];
+}
+
+/// Incremental pressure (2.11) of the classical method, p + K tr D dt, with the
+/// mean rate of the cell or that of the element.
+template <class Cell>
+void classical_pressures(const CellGroup& g, const NodalView& view, long block, const Vector<Pack, kD<Cell>>* x,
+                         const Vector<Pack, kD<Cell>>* v, Pack* p) {
+  constexpr int D = kD<Cell>;
+  const double* constants = constants_of<Cell>(g, block);
+  Pack rate[Cell::simplices], sum_V(0.0), sum_rate(0.0);
+  for (int s = 0; s < Cell::simplices; ++s) {
+    CellEdges<Cell> e;
+    edges_of<Cell>(constants, x, s, e.x);
+    find_reciprocal(e);
+    Vector<Pack, D> w[kE<Cell>];
+    edges_of<Cell>(constants, v, s, w);
+    moved<Cell>(view, w);
+    rate[s] = CellIncrement<Cell>(e, w).divergence();
+    sum_V += e.volume;
+    sum_rate += e.volume * rate[s];
+  }
+  const Pack mean = sum_rate / sum_V, theta(g.pressure == PressureMode::element ? 1 : g.element_share);
+  for (int s = 0; s < Cell::simplices; ++s) {
+    double* at = memory_of<Cell>(g, block, s);
+    load(at, kClassicalPressure<D>, p[s]);
+    p[s] += Pack(g.solid.K) * ((Pack(1.0) - theta) * mean + theta * rate[s]);
+    store(at, kClassicalPressure<D>, p[s]);
+  }
+}
+
+/// Of one-point cells: p, and the ways w of the edges.
+template <class Cell> [[gnu::noinline]] Pack classical_step_of_edges(const CellGroup& g, const NodalView& view, long block, Vector<Pack, kD<Cell>>* w) {
+  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
+  Vector<Pack, kD<Cell>> x[Cell::nodes], v[Cell::nodes];
+  gather<Cell>(nodes, view.x, x);
+  gather<Cell>(nodes, view.v, v);
+  edges_of<Cell>(constants_of<Cell>(g, block), v, 0, w);
+  moved<Cell>(view, w);
+  Pack p;
+  classical_pressures<Cell>(g, view, block, x, v, &p);
+  return p;
+}
+
+}  // namespace FORMING_SIM_ISA
+}  // namespace forming_sim

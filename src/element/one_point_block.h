@@ -1,0 +1,91 @@
+#pragma once
+// The forces of a block of one-point cells (element/one_point.h). For files that are compiled once per vector width only.
+//
+// On the way in the nodes are gathered in pairs, and only the edges and the sums of the modes remain of them; on the way out
+// each node's force is made when it is added up. With p I + S = sigma and r_alpha = dU/d(sum_alpha) of the hourglass energy,
+// sum_alpha = sum_a h_alpha,a x_a, the force on edge m is
+//   M . x^m,  M = sum_alpha r_alpha (x) sum_alpha - V sigma,
+// and that on corner a sum_m w_ma M . x^m - sum_alpha h_alpha,a r_alpha.
+#include "element/bulk_viscosity.h"
+#include "element/classical_block.h"
+#include "forming_sim/element/hourglass.h"
+
+namespace forming_sim {
+namespace FORMING_SIM_ISA {
+
+/// Edges of one-point cells and the sums of their modes.
+template <class Cell> void gather_one_point(const int* nodes, const double* field, const double* constants, Vector<Pack, kD<Cell>>* edge, Vector<Pack, kD<Cell>>* sums) {
+  constexpr int D = kD<Cell>, half = Cell::nodes / 2;
+  if constexpr (Cell::ring) edge[2] = {{Pack(0.0), Pack(0.0)}};
+  const auto add_to_edges = [&](auto a, const Vector<Pack, D>& x) {
+    repeat<D>([&](auto m) {
+      if constexpr (a == 0) edge[m] = weight(constants, m) * x;
+      else edge[m] += weight(constants, a * D + m) * x;
+    });
+    if constexpr (Cell::ring) edge[2][0] += weight(constants, OnePoint<D, true>::hoop + a) * x[0];
+  };
+  repeat<half>([&](auto a) {
+    const Vector<Pack, D> low = gather_vectors<D>(nodes + a * kLanes, field), high = gather_vectors<D>(nodes + (a + half) * kLanes, field);
+    add_to_edges(a, low);
+    add_to_edges(std::integral_constant<int, a + half>(), high);
+    add_to_modes<Pack, D, a>(low, high, sums);
+  });
+}
+
+template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_block(const CellGroup& g, const PlaneModuli<Pack>& moduli, const NodalView& view, long block) {
+  constexpr int D = kD<Cell>;
+  const double* constants = constants_of<Cell>(g, block);
+  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
+  double* memory = memory_of<Cell>(g, block, 0);
+  CellEdges<Cell> e;
+  Vector<Pack, D> sums[OnePoint<D>::modes];
+  gather_one_point<Cell>(nodes, view.x, constants, e.x, sums);
+  find_reciprocal(e);
+  const Pack V0 = initial_volume(g, memory), J = e.volume / V0;
+  g.upright[block] = all(J > Pack(0.0));
+  const int in_use = lanes_in_use(g, block);
+
+  Vector<Pack, D> x[Cell::ring ? Cell::nodes : 1];
+  if constexpr (Cell::ring) gather<Cell>(nodes, view.x, x);
+  Hourglass<Pack, D, Cell::ring> hourglass(moduli, constants, e, sums, x);
+  PointResponse<Pack, D> point;
+  Pack p = Pack(g.solid.K) * (J - Pack(1.0));
+  if constexpr (made == Made::any) {
+    Vector<Pack, D> w[kE<Cell>];
+    const bool classical = g.solid.law == Law::classical;
+    if (classical) p = classical_step_of_edges<Cell>(g, view, block, w);
+    point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J, memory, hourglass, hourglass_of<Cell>(g, block));
+  } else {
+    point = von_mises_with_hourglass<made == Made::one_layer>(g.solid, e, J, memory, hourglass, hourglass_of<Cell>(g, block));
+  }
+  if (g.linear_viscosity > 0 || g.quadratic_viscosity > 0) {
+    const Viscosity viscosity = viscosity_of_block<Cell>(g, view, block);
+    p += viscosity.q;
+    g.viscous_work[block] += sum_of_first(viscosity.power, in_use) * view.dt;
+  }
+  g.plastic_work[block] += sum_of_first(point.dissipation * V0, in_use);
+
+  Vector<Pack, D> r[OnePoint<D>::modes], M[D], force[D];
+  hourglass.gradient(V0, r);
+  constexpr int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+  for (int c = 0; c < 3; ++c) point.S[c] += p;  // sigma = p I + S (3.4)
+  repeat<D>([&](auto i) {
+    repeat<D>([&](auto j) { M[i][j] = r[0][i] * sums[0][j] - e.volume * point.S[place[i][j]]; });
+    repeat<OnePoint<D>::modes - 1>([&](auto k) { M[i] += r[k + 1][i] * sums[k + 1]; });
+  });
+  repeat<D>([&](auto m) { repeat<D>([&](auto i) { force[m][i] = dot(M[i], e.up[m]); }); });
+  Pack hoop;  // of a ring, through the weights of x_3
+  if constexpr (Cell::ring) hoop = e.area[2][0] * point.S[2];
+
+  const AtCorners<Pack, D> corners(r);
+  const int* slots = g.slots + block * Cell::nodes * kLanes;
+  repeat<Cell::nodes>([&](auto a) {
+    Vector<Pack, D> f = weight(constants, a * D) * force[0] - corners.template at<a>();
+    repeat<D - 1>([&](auto m) { f += weight(constants, a * D + m + 1) * force[m + 1]; });
+    if constexpr (Cell::ring) f[0] -= weight(constants, OnePoint<D, true>::hoop + a) * hoop + hourglass.hoop_force(V0, a);
+    add_vectors(f, slots + a * kLanes, g.sums);
+  });
+}
+
+}  // namespace FORMING_SIM_ISA
+}  // namespace forming_sim
