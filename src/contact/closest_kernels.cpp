@@ -19,10 +19,8 @@ template <class NodeOf> [[gnu::always_inline]] inline Place places_of(const doub
 
 /// Adds node k of the pairs, of weight b.
 template <class NodeOf> [[gnu::always_inline]] inline void add_share(const double* shares, int k, const Pack& b, NodeOf&& node_of, PairShares<Pack>& sum) {
-  const double* from[kLanes];
-  for (int l = 0; l < kLanes; ++l) from[l] = shares + 4 * static_cast<long>(node_of(l));
   Pack inverse_mass, area, of_body, held;
-  gather_records([&](int l) { return from[l]; }, inverse_mass, area, of_body, held);
+  gather_records([&](int l) { return shares + 4 * static_cast<long>(node_of(l)); }, inverse_mass, area, of_body, held);
   sum.add(k, b, inverse_mass, area, of_body, held);
 }
 inline void store(const PairShares<Pack>& sum, SharesPack& to) {

@@ -67,10 +67,9 @@ template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_block
 
   Vector<Pack, D> r[OnePoint<D>::modes], M[D], force[D];
   hourglass.gradient(V0, r);
-  constexpr int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
   for (int c = 0; c < 3; ++c) point.S[c] += p;  // sigma = p I + S (3.4)
   repeat<D>([&](auto i) {
-    repeat<D>([&](auto j) { M[i][j] = r[0][i] * sums[0][j] - e.volume * point.S[place[i][j]]; });
+    repeat<D>([&](auto j) { M[i][j] = r[0][i] * sums[0][j] - e.volume * point.S[kFull[i][j]]; });
     repeat<OnePoint<D>::modes - 1>([&](auto k) { M[i] += r[k + 1][i] * sums[k + 1]; });
   });
   repeat<D>([&](auto m) { repeat<D>([&](auto i) { force[m][i] = dot(M[i], e.up[m]); }); });
