@@ -4,30 +4,6 @@
 
 namespace forming_sim {
 
-Closest closest_on_triangle_border(const Node& p, const Node& a, const Node& b, const Node& c) {
-  const Node* corner[3] = {&a, &b, &c};
-  Closest best;
-  best.squared = -1;
-  for (int k = 0; k < 3; ++k) {
-    const int l = (k + 1) % 3;
-    // Corners in rising order, so that both facets at an edge compute the same.
-    const int i = std::min(k, l), j = std::max(k, l);
-    const double s = closest_on_segment(p, *corner[i], *corner[j]);
-    const Node r = p - *corner[i] - s * (*corner[j] - *corner[i]);
-    const double squared = dot3(r, r);
-    if (best.squared >= 0 && squared >= best.squared) continue;
-    best = Closest();
-    best.apart = r;
-    best.squared = squared;
-    best.weight[0] = best.weight[1] = best.weight[2] = 0;
-    best.weight[i] = 1 - s;
-    best.weight[j] = s;
-    best.feature = s == 0 || s == 1 ? Closest::corner : Closest::edge;
-    best.which = best.feature == Closest::edge ? k : (s == 0 ? i : j);
-  }
-  return best;
-}
-
 ClosestEdges closest_on_edges(const Node& a0, const Node& a1, const Node& b0, const Node& b1) {
   const CrossingEdges<double> crossing = crossing_edges(between(b0, a0), between(a0, a1), between(b0, b1));
   if (crossing.inside) {

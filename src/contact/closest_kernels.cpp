@@ -33,10 +33,15 @@ inline void store(const PairShares<Pack>& sum, SharesPack& to) {
 inline void face(const double* places, const double* shares, FacePack& p) {
   const auto corner = [&](int k) { return places_of(places, [&](int l) { return p.corner[l][k]; }); };
   const Place a = corner(0), point = places_of(places, [&](int l) { return p.point[l]; });
-  const OverFace<Pack> f = over_face<Pack>(point - a, corner(1) - a, corner(2) - a);
+  const Place r = point - a, u = corner(1) - a, v = corner(2) - a;
+  const OverFace<Pack> f = over_face<Pack>(r, u, v);
+  const OnBorder<Pack> border = on_border<Pack>(r, u, v);
   f.beta.store(p.beta);
   f.gamma.store(p.gamma);
-  for (int k = 0; k < 3; ++k) f.apart[k].store(p.apart[k]);
+  border.side.store(p.side);
+  border.s.store(p.s);
+  for (int k = 0; k < 3; ++k) select(f.inside, f.apart[k], border.apart[k]).store(p.apart[k]);
+  select(f.inside, dot(f.apart, f.apart), border.squared).store(p.squared);
   select(f.inside, Pack(1.0), Pack(0.0)).store(p.inside);
   const Pack weight[4] = {1.0, f.beta + f.gamma - Pack(1.0), -f.beta, -f.gamma};
   PairShares<Pack> sum;

@@ -113,15 +113,14 @@ class Phase {
       hits_.clear();
       for (; i < count && candidates_[i].group == group; ++i) {
         NearList::FacetEntry& e = list.facets[candidates_[i].entry];
+        const double distance = std::sqrt(squared_distance(g, e, i));
+        if (distance > range_.reach) {
+          e.wake = range_.travel + distance;
+          continue;
+        }
         hits_.emplace_back();
         Hit& hit = hits_.back();
         find_closest(g, e, i, hit.closest);
-        const double distance = std::sqrt(hit.closest.squared);
-        if (distance > range_.reach) {
-          e.wake = range_.travel + distance;
-          hits_.pop_back();
-          continue;
-        }
         hit.entry = candidates_[i].entry;
         hit.candidate = i;
         hit.feature = feature_of(hit.closest, e.facet);
@@ -139,18 +138,20 @@ class Phase {
     candidates_.clear();
   }
 
+  double squared_distance(const NearList::VertexGroup& g, const NearList::FacetEntry& e, long candidate) const {
+    if (f_.dimension == 2) return closest_on_segment_facet(work_.x[g.node], work_.x[e.node[0]], work_.x[e.node[1]]).squared;
+    return faces_[candidate / kLanes].squared[candidate % kLanes];
+  }
   void find_closest(const NearList::VertexGroup& g, const NearList::FacetEntry& e, long candidate, Closest& c) const {
-    const Node& p = work_.x[g.node];
     if (f_.dimension == 2) {
-      c = closest_on_segment_facet(p, work_.x[e.node[0]], work_.x[e.node[1]]);
+      c = closest_on_segment_facet(work_.x[g.node], work_.x[e.node[0]], work_.x[e.node[1]]);
       return;
     }
     const FacePack& pack = faces_[candidate / kLanes];
     const long l = candidate % kLanes;
-    if (pack.inside[l] == 0)
-      c = closest_on_triangle_border(p, work_.x[e.node[0]], work_.x[e.node[1]], work_.x[e.node[2]]);
-    else
-      lie_in_face(pack.beta[l], pack.gamma[l], Node(pack.apart[0][l], pack.apart[1][l], pack.apart[2][l], 0), c);
+    const Node apart(pack.apart[0][l], pack.apart[1][l], pack.apart[2][l], 0);
+    if (pack.inside[l] != 0) lie_in_face(pack.beta[l], pack.gamma[l], apart, c);
+    else lie_on_border(static_cast<int>(pack.side[l]), pack.s[l], apart, c);
   }
 
   void meet_edges(NearList& list, const int* awake, int count) {

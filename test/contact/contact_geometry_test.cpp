@@ -119,17 +119,24 @@ TEST(ContactClosest, FacesInLanesAreThoseOneByOne) {
       for (int l = 0; l < kLanes; ++l) {
         const Closest c = closest_on_triangle(x[4 * l], x[4 * l + 1], x[4 * l + 2], x[4 * l + 3]);
         ASSERT_EQ(pack.inside[l] == 1, c.feature == Closest::face) << "lane " << l << " of turn " << turn;
-        if (pack.inside[l] == 0) continue;
-        ++inside;
-        const Closest found = closest_in_face(pack.beta[l], pack.gamma[l], Node(pack.apart[0][l], pack.apart[1][l], pack.apart[2][l], 0));
+        const Node apart(pack.apart[0][l], pack.apart[1][l], pack.apart[2][l], 0);
+        Closest found;
+        if (pack.inside[l] == 1) lie_in_face(pack.beta[l], pack.gamma[l], apart, found);
+        else lie_on_border(static_cast<int>(pack.side[l]), pack.s[l], apart, found);
+        EXPECT_NEAR(pack.squared[l], c.squared, 1e-12);
         EXPECT_NEAR(found.squared, c.squared, 1e-12);
-        Link link;
-        link.link({4 * l, corner[l][0], corner[l][1], corner[l][2]}, {1, -found.weight[0], -found.weight[1], -found.weight[2]});
-        expect_shares(shares, link, pack.shares, l);
+        if (l == 6) continue;  // sides lie on one another: either is right
+        EXPECT_EQ(found.feature, c.feature);
+        EXPECT_EQ(found.which, c.which);
         for (int k = 0; k < 3; ++k) {
           EXPECT_NEAR(found.weight[k], c.weight[k], 1e-12);
           EXPECT_NEAR(found.apart[k], c.apart[k], 1e-12);
         }
+        if (pack.inside[l] == 0) continue;
+        ++inside;
+        Link link;
+        link.link({4 * l, corner[l][0], corner[l][1], corner[l][2]}, {1, -found.weight[0], -found.weight[1], -found.weight[2]});
+        expect_shares(shares, link, pack.shares, l);
       }
     }
     EXPECT_GT(inside, 200);

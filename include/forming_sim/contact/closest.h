@@ -52,11 +52,7 @@ inline Closest closest_on_segment_facet(const Node& p, const Node& a, const Node
   return c;
 }
 
-/// Closest point of the closed triangle abc. A triangle without area (an angle
-/// below 1e-6) is its three edges.
-Closest closest_on_triangle_border(const Node& p, const Node& a, const Node& b, const Node& c);
-
-/// Inside the triangle, as OverFace has it.
+/// Inside a triangle, as OverFace has it.
 inline void lie_in_face(double beta, double gamma, const Node& apart, Closest& f) {
   f.feature = Closest::face;
   f.weight[1] = beta;
@@ -65,16 +61,32 @@ inline void lie_in_face(double beta, double gamma, const Node& apart, Closest& f
   f.apart = apart;
   f.squared = dot3(apart, apart);
 }
-inline Closest closest_in_face(double beta, double gamma, const Node& apart) {
-  Closest f;
-  lie_in_face(beta, gamma, apart, f);
-  return f;
+/// On its border, as OnBorder has it.
+inline void lie_on_border(int side, double s, const Node& apart, Closest& f) {
+  const int i = side == 2 ? 0 : side, j = side == 2 ? 2 : side + 1;
+  f.weight[0] = f.weight[1] = f.weight[2] = 0;
+  f.weight[i] = 1 - s;
+  f.weight[j] = s;
+  f.feature = s == 0 || s == 1 ? Closest::corner : Closest::edge;
+  f.which = f.feature == Closest::edge ? side : s == 0 ? i : j;
+  f.apart = apart;
+  f.squared = dot3(apart, apart);
 }
 
+/// Closest point of the closed triangle abc. A triangle without area (an angle
+/// below 1e-6) is its three edges.
 inline Closest closest_on_triangle(const Node& p, const Node& a, const Node& b, const Node& c) {
-  const OverFace<double> over = over_face(between(a, p), between(a, b), between(a, c));
-  if (!over.inside) return closest_on_triangle_border(p, a, b, c);
-  return closest_in_face(over.beta, over.gamma, Node(over.apart[0], over.apart[1], over.apart[2], 0));
+  const Vector<double, 3> r = between(a, p), u = between(a, b), v = between(a, c);
+  const auto node = [](const Vector<double, 3>& d) { return Node(d[0], d[1], d[2], 0); };
+  Closest found;
+  const OverFace<double> over = over_face(r, u, v);
+  if (over.inside) {
+    lie_in_face(over.beta, over.gamma, node(over.apart), found);
+  } else {
+    const OnBorder<double> border = on_border(r, u, v);
+    lie_on_border(static_cast<int>(border.side), border.s, node(border.apart), found);
+  }
+  return found;
 }
 
 /// Closest points a0 + s (a1 - a0) and b0 + t (b1 - b0) of two segments.

@@ -1,6 +1,5 @@
 #pragma once
-// Listed pairs in lanes: the closest points of kLanes of them at a time, where these lie
-// inside the features (inside.h). Compiled once per vector width.
+// Listed pairs in lanes: the closest points of kLanes of them at a time (inside.h). Compiled once per vector width.
 #include "forming_sim/tensor/isa.h"
 #include "forming_sim/tensor/pack.h"
 
@@ -15,10 +14,11 @@ struct alignas(64) SharesPack {
 struct alignas(64) FacePack {
   const int* corner[kLanes];                    ///< three nodes of each triangle, where the list has them
   double beta[kLanes], gamma[kLanes];           ///< found: weights of the second and third corner
-  double apart[3][kLanes];                      ///< found: from the foot to the point, m
-  double inside[kLanes];                        ///< found: 1 where the foot is inside the triangle; else the rest means nothing
+  double side[kLanes], s[kLanes];               ///< found: where on the border, if it is there
+  double apart[3][kLanes], squared[kLanes];     ///< found: from the closest point to the point, m; its square
+  double inside[kLanes];                        ///< found: 1 where the closest point is inside the triangle, 0 where it is on its border
   int point[kLanes];                            ///< node
-  SharesPack shares;                            ///< found
+  SharesPack shares;                            ///< found; of those inside
 };
 
 /// Two edges each.

@@ -1,6 +1,6 @@
 #pragma once
 // Closest points that lie inside both features: a point over a face, and two edges that
-// cross. T: double, or a Pack of eight such pairs.
+// cross; and that of a point on the border of a face. T: double, or a Pack of eight such pairs.
 #include "forming_sim/tensor/tensor.h"
 
 namespace forming_sim {
@@ -28,6 +28,38 @@ template <class T> OverFace<T> over_face(const Vector<T, 3>& r, const Vector<T, 
   f.apart = (dot(r, n) * over) * n;
   f.inside = (area2 > T(1e-12) * dot(u, u) * dot(v, v)) & (beta > border) & (gamma > border) & (area2 - beta - gamma > border);
   return f;
+}
+
+/// Of a point and the border of a triangle: on the side between the corners i and j, i < j, the point x_i + s (x_j - x_i).
+template <class T> struct OnBorder {
+  T side;              ///< k of the side between the corners k and (k+1) mod 3
+  T s;                 ///< 0 and 1 also where it is less than kBorder away; 0 where the side has no length
+  Vector<T, 3> apart;  ///< from there to the point, m
+  T squared;           ///< distance squared, m^2
+};
+/// r, u, v: as above.
+template <class T> OnBorder<T> on_border(const Vector<T, 3>& r, const Vector<T, 3>& u, const Vector<T, 3>& v) {
+  const T zero(0.0), one(1.0);
+  const auto on_side = [&](int k, const Vector<T, 3>& from, const Vector<T, 3>& d) {
+    const T length2 = dot(d, d), s = select(length2 > zero, dot(from, d) / length2, zero);
+    OnBorder<T> o;
+    o.side = T(k);
+    o.s = select(s > T(kBorder), select(T(1 - kBorder) > s, s, one), zero);
+    o.apart = from - o.s * d;
+    o.squared = dot(o.apart, o.apart);
+    return o;
+  };
+  OnBorder<T> best = on_side(0, r, u);
+  const auto offer = [&](const OnBorder<T>& other) {
+    const auto nearer = best.squared > other.squared;
+    best.side = select(nearer, other.side, best.side);
+    best.s = select(nearer, other.s, best.s);
+    for (int i = 0; i < 3; ++i) best.apart[i] = select(nearer, other.apart[i], best.apart[i]);
+    best.squared = select(nearer, other.squared, best.squared);
+  };
+  offer(on_side(1, r - u, v - u));
+  offer(on_side(2, r, v));
+  return best;
 }
 
 /// Of the segments a0 + s u and b0 + t v.
