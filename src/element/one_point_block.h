@@ -32,6 +32,23 @@ template <class Cell> void gather_one_point(const int* nodes, const double* fiel
   });
 }
 
+/// What varies across the cells of a block whose nodes are gathered.
+template <class Cell> class Variation {
+ public:
+  Variation(const CellGroup& g, const double* constants, const CellEdges<Cell>& e, const Vector<Pack, kD<Cell>>* x) : moduli_(g.solid), hourglass(moduli_, constants, e, sums_, x) {
+    sum_modes<Pack, kD<Cell>>(x, sums_);
+    hourglass.find_strains();
+  }
+  Variation(const Variation&) = delete;
+
+ private:
+  PlaneModuli<Pack> moduli_;
+  Vector<Pack, kD<Cell>> sums_[OnePoint<kD<Cell>>::modes];
+
+ public:
+  Hourglass<Pack, kD<Cell>, Cell::ring> hourglass;
+};
+
 template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_block(const CellGroup& g, const PlaneModuli<Pack>& moduli, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
   const double* constants = constants_of<Cell>(g, block);
