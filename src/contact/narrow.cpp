@@ -113,14 +113,17 @@ class Phase {
       hits_.clear();
       for (; i < count && candidates_[i].group == group; ++i) {
         NearList::FacetEntry& e = list.facets[candidates_[i].entry];
-        const double distance = std::sqrt(squared_distance(g, e, i));
+        Closest in_plane;
+        if (f_.dimension == 2) in_plane = closest_on_segment_facet(work_.x[g.node], work_.x[e.node[0]], work_.x[e.node[1]]);
+        const double distance = std::sqrt(f_.dimension == 2 ? in_plane.squared : faces_[i / kLanes].squared[i % kLanes]);
         if (distance > range_.reach) {
           e.wake = range_.travel + distance;
           continue;
         }
         hits_.emplace_back();
         Hit& hit = hits_.back();
-        find_closest(g, e, i, hit.closest);
+        if (f_.dimension == 2) hit.closest = in_plane;
+        else take(faces_[i / kLanes], static_cast<int>(i % kLanes), hit.closest);
         hit.entry = candidates_[i].entry;
         hit.candidate = i;
         hit.feature = feature_of(hit.closest, e.facet);
@@ -138,20 +141,10 @@ class Phase {
     candidates_.clear();
   }
 
-  double squared_distance(const NearList::VertexGroup& g, const NearList::FacetEntry& e, long candidate) const {
-    if (f_.dimension == 2) return closest_on_segment_facet(work_.x[g.node], work_.x[e.node[0]], work_.x[e.node[1]]).squared;
-    return faces_[candidate / kLanes].squared[candidate % kLanes];
-  }
-  void find_closest(const NearList::VertexGroup& g, const NearList::FacetEntry& e, long candidate, Closest& c) const {
-    if (f_.dimension == 2) {
-      c = closest_on_segment_facet(work_.x[g.node], work_.x[e.node[0]], work_.x[e.node[1]]);
-      return;
-    }
-    const FacePack& pack = faces_[candidate / kLanes];
-    const long l = candidate % kLanes;
-    const Node apart(pack.apart[0][l], pack.apart[1][l], pack.apart[2][l], 0);
-    if (pack.inside[l] != 0) lie_in_face(pack.beta[l], pack.gamma[l], apart, c);
-    else lie_on_border(static_cast<int>(pack.side[l]), pack.s[l], apart, c);
+  static void take(const FacePack& found, int lane, Closest& c) {
+    const Node apart(found.apart[0][lane], found.apart[1][lane], found.apart[2][lane], 0);
+    if (found.inside[lane] != 0) lie_in_face(found.beta[lane], found.gamma[lane], apart, c);
+    else lie_on_border(static_cast<int>(found.side[lane]), found.s[lane], apart, c);
   }
 
   void meet_edges(NearList& list, const int* awake, int count) {
