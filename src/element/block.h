@@ -89,7 +89,7 @@ void edges_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s, V
 /// Up to which |J - 1| there is no guard of simplex s (element/guard.h).
 template <class Cell> Pack free_of_guard(const double* constants, int s) {
   if constexpr (Cell::drawn)
-    if (constants) return weight(constants, kCrossedFree + s);
+    if (constants) return weight(constants, kCrossedGuard + s);
   return Pack(kFreeOfGuard);
 }
 

@@ -68,7 +68,7 @@ std::array<double, kCrossedItems> crossed_weights(const Vec3* corners, bool ring
       for (int m = 0; m < 2; ++m)
         items[c * 4 + kCrossed[s][m + 1]] += (1 - lambda) * V[s] / sum * up[s].row(m).dot((corners[c] - apex).head<2>());
   }
-  for (int s = 0; s < 4; ++s) items[kCrossedFree + s] = kFreeOfGuard;
+  for (int s = 0; s < 4; ++s) items[kCrossedGuard + s] = kFreeOfGuard;
   if (!by_shape) return items;
   const Eigen::Vector4d w = affine.transpose() * (affine * affine.transpose()).inverse().col(0);
   const double r = m.a.norm() / m.b.norm(), q = near_axis(corners, ring);
@@ -76,7 +76,7 @@ std::array<double, kCrossedItems> crossed_weights(const Vec3* corners, bool ring
   for (int s = 0; s < 4; ++s) {
     const double own = s % 2 == 0 ? r : 1 / r;
     beta[s] = (1 - tau_of(own)) * (1 - q * q);
-    items[kCrossedFree + s] = free_of(own);
+    items[kCrossedGuard + s] = free_of(own);
   }
   beta -= shift.transpose() * (shift * shift.transpose()).inverse() * (shift * beta);
   for (int b = 0; b < 4; ++b) {

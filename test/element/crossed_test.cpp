@@ -178,8 +178,8 @@ TEST(Crossed, AGuardKeepsTrianglesFromCollapse) {
   ASSERT_GE(middle, 0);
   const Vec3 corners[5] = {{0, 0, 0}, {1, 0, 0}, {1, 0.8, 0}, {0, 0.8, 0}, {0.5, 0.4, 0}};
   const auto items = crossed_weights(corners, false, 1, true);
-  EXPECT_DOUBLE_EQ(items[kCrossedFree], 0.2 / 0.8);
-  EXPECT_DOUBLE_EQ(items[kCrossedFree + 1], 0.2);
+  EXPECT_DOUBLE_EQ(items[kCrossedGuard], 0.2 / 0.8);
+  EXPECT_DOUBLE_EQ(items[kCrossedGuard + 1], 0.2);
   const double K = soft.youngs_modulus / (3 * (1 - 2 * soft.poissons_ratio));
   for (int i = 0; i < 2; ++i) {
     const auto force = [&](double part) {  // J of the triangles before and behind: 1 -+ part

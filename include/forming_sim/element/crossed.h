@@ -43,7 +43,6 @@
 #include <array>
 
 #include "forming_sim/material/constants.h"
-#include "forming_sim/mesh/cell_tables.h"
 #include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
@@ -52,7 +51,7 @@ namespace forming_sim {
 double crossed_lambda(const SolidConstants& solid, const Vec3* corners, bool ring);
 
 /// What a cell keeps of the above: W_cb at c 4 + b, then -lambda w_b, then beta_s, then up to which |J - 1| triangle s is free of its guard (element/guard.h). by_shape: false for beta = 0.
-constexpr int kCrossedApex = 16, kCrossedFreed = 20, kCrossedFree = 24, kCrossedItems = 28;
+constexpr int kCrossedApex = 16, kCrossedFreed = 20, kCrossedGuard = 24, kCrossedItems = 28;
 std::array<double, kCrossedItems> crossed_weights(const Vec3* corners, bool ring, double lambda, bool by_shape);
 
 /// sum_b item(first + b) x_b.
