@@ -8,8 +8,8 @@
 
 namespace forming_sim {
 
-Books::Books(const Workspace& work, const std::vector<Rub>& rubs, int tools, double layer, ContactStep& step)
-    : work_(work), rubs_(rubs), step_(step) {
+Books::Books(const Workspace& work, const std::vector<Rub>& rubs, int bodies, int tools, double layer, ContactStep& step)
+    : work_(work), rubs_(rubs), bodies_(bodies), step_(step) {
   step.tool_impulse.assign(tools, Vec3::Zero());
   step.tool_angular_impulse.assign(tools, Vec3::Zero());
   step.layer = layer;
@@ -55,11 +55,11 @@ void Books::add(const ContactPair& pair) {
   step_.layer = std::max(step_.layer, pair.layer);
   const Node along = pair.impulse * pair.normal;
   if (pair.rub < 0) {
-    normal_ += dot3(along, book(pair, pair.tool, along));
+    normal_ += dot3(along, book(pair, pair.tool(bodies_), along));
     return;
   }
   const Node& slip = rubs_[pair.rub].slip;
-  const Node mean = book(pair, pair.tool, along + slip);
+  const Node mean = book(pair, pair.tool(bodies_), along + slip);
   normal_ += dot3(along, mean);
   step_.friction_work -= dot3(slip, mean);
 }

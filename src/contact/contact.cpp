@@ -125,37 +125,37 @@ const std::vector<Vec3>& Contact::body_shifts() const { return impl_->body_shift
 const std::vector<std::string>& Contact::warnings() const { return impl_->warnings; }
 
 namespace {
-constexpr std::uint64_t kMagic = 0x37746361746e6f43u;  // "Contact7"
+constexpr std::uint64_t kMagic = 0x38746361746e6f43u;  // "Contact8"
 struct SavedHeader {
-  std::uint64_t magic, vertices, facets, records, tools, slip;
+  std::uint64_t magic, vertices, facets, records, drags, tools, slip;
   double potential, previous_dt;
 
   std::size_t size() const;
 };
-static_assert(std::is_trivially_copyable<PairRecord>::value, "saved byte by byte");
+static_assert(std::is_trivially_copyable<PairRecord>::value && std::is_trivially_copyable<Drag>::value, "saved byte by byte");
 
 /// Position and rotation of a tool as twelve numbers.
 constexpr std::size_t kPose = 12;
 
 std::size_t SavedHeader::size() const {
-  return sizeof *this + records * sizeof(PairRecord) + (tools * kPose + slip) * sizeof(double);
+  return sizeof *this + records * sizeof(PairRecord) + drags * sizeof(Drag) + (tools * kPose + slip) * sizeof(double);
 }
 
-template <class Item> void append(const std::vector<Item>& items, std::vector<char>& data) {
+template <class Items> void append(const Items& items, std::vector<char>& data) {
   const char* first = reinterpret_cast<const char*>(items.data());
-  data.insert(data.end(), first, first + items.size() * sizeof(Item));
+  data.insert(data.end(), first, first + items.size() * sizeof(typename Items::value_type));
 }
-template <class Item> std::vector<Item> take(std::size_t count, const char*& from) {
-  std::vector<Item> items(count);
-  if (count > 0) std::memcpy(static_cast<void*>(items.data()), from, count * sizeof(Item));
-  from += count * sizeof(Item);
-  return items;
+template <class Items> void take(std::size_t count, const char*& from, Items& items) {
+  const std::size_t bytes = count * sizeof(typename Items::value_type);
+  items.resize(count);
+  if (count > 0) std::memcpy(static_cast<void*>(items.data()), from, bytes);
+  from += bytes;
 }
 }  // namespace
 
 std::vector<char> Contact::save() const {
   const Impl& m = *impl_;
-  const SavedHeader header{kMagic, static_cast<std::uint64_t>(m.features.vertex_count), m.features.facets.size(), m.records.size(), m.previous_motion.size(), m.slip.size(), m.potential, m.previous_dt};
+  const SavedHeader header{kMagic, static_cast<std::uint64_t>(m.features.vertex_count), m.features.facets.size(), m.records.pairs.size(), m.records.drags.size(), m.previous_motion.size(), m.slip.size(), m.potential, m.previous_dt};
   std::vector<double> poses;
   for (const ToolMotion& tool : m.previous_motion) {
     poses.insert(poses.end(), tool.position0.data(), tool.position0.data() + 3);
@@ -164,7 +164,8 @@ std::vector<char> Contact::save() const {
   std::vector<char> data;
   data.reserve(header.size());
   append(std::vector<SavedHeader>{header}, data);
-  append(m.records, data);
+  append(m.records.pairs, data);
+  append(m.records.drags, data);
   append(poses, data);
   append(m.slip, data);
   return data;
@@ -173,21 +174,24 @@ std::vector<char> Contact::save() const {
 void Contact::restore(const std::vector<char>& data) {
   Impl& m = *impl_;
   SavedHeader header;
-  const bool whole = data.size() >= sizeof header && (std::memcpy(&header, data.data(), sizeof header), header.magic == kMagic) && data.size() == header.size();
+  const bool whole = data.size() >= sizeof header && (std::memcpy(&header, data.data(), sizeof header), header.magic == kMagic) && data.size() == header.size() &&
+                     (header.drags == 0 || header.drags == header.records);
   if (!whole) throw Error(Code::resume_error, "the saved contact is damaged or of another version");
   if (header.vertices != static_cast<std::uint64_t>(m.features.vertex_count) || header.facets != m.features.facets.size() || header.slip != m.slip.size())
     throw Error(Code::resume_error, "the saved contact has other surfaces than this scene: resume with the scene that was saved");
   const char* from = data.data() + sizeof header;
-  m.records = take<PairRecord>(header.records, from);
+  take(header.records, from, m.records.pairs);
+  take(header.drags, from, m.records.drags);
   m.thickest = m.layer;
-  for (const PairRecord& record : m.records) m.thickest = std::max(m.thickest, record.layer);
-  const std::vector<double> poses = take<double>(header.tools * kPose, from);
+  for (const PairRecord& record : m.records.pairs) m.thickest = std::max(m.thickest, record.layer);
+  std::vector<double> poses;
+  take(header.tools * kPose, from, poses);
   m.previous_motion.assign(header.tools, ToolMotion());
   for (std::size_t t = 0; t < header.tools; ++t) {
     m.previous_motion[t].position0 = Eigen::Map<const Vec3>(&poses[t * kPose]);
     m.previous_motion[t].rotation0 = Eigen::Map<const Mat3>(&poses[t * kPose + 3]);
   }
-  m.slip = take<double>(header.slip, from);
+  take(header.slip, from, m.slip);
   m.potential = header.potential;
   m.previous_dt = header.previous_dt;
   m.listed = false;

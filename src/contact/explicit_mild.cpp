@@ -12,7 +12,7 @@ namespace forming_sim {
 namespace {
 
 // Every listed vertex and the nearest vertex of the other surface, each pair once.
-void pair_nearest_nodes(double reach, double travel, NearList& list, const Features& features, const Workspace& work, std::vector<ContactPair>& pairs) {
+void pair_nearest_nodes(double reach, double travel, NearList& list, const Features& features, const Workspace& work, LargeArray<ContactPair>& pairs) {
   for (NearList::VertexGroup& g : list.groups) {
     if (g.wake > (travel + reach) * (1 + 1e-12)) continue;
     int node = -1, vertex = -1;
@@ -49,7 +49,7 @@ void pair_nearest_nodes(double reach, double travel, NearList& list, const Featu
 // 2 / (a bound on the greatest frequency of the layer): the largest row sum of
 // M^-1 sum k (b n)(b n)^T over the directions in which the nodes are free. One
 // pair alone gives 2 / sqrt(k w).
-double stable_step(const PowerLaw& law, const Workspace& work, const std::vector<ContactPair>& pairs, std::vector<double>& sum) {
+double stable_step(const PowerLaw& law, const Workspace& work, const LargeArray<ContactPair>& pairs, std::vector<double>& sum) {
   sum.assign(work.x.size(), 0.0);
   double most = 0;
   for (const ContactPair& pair : pairs) {
@@ -95,7 +95,7 @@ ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x
     gather(x, v, dt, motion, planes);
     // ---- pairs; a plane repels from both its sides, as a surface does
     if (config.pairing == "node_node") {
-      add_plane_pairs(features, work, planes, layer, reach, list, near.pairs);
+      add_plane_pairs(features, work, planes, reach, list, near.pairs);
       pair_nearest_nodes(reach, travel, list, features, work, near.pairs);
     } else {
       narrow_phase(constants(), nullptr, planes, true, {reach, 0, travel}, team, list, near);

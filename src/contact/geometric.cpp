@@ -107,8 +107,8 @@ ContactStep Contact::Impl::advance_geometric(double dt, NodeField& x, NodeField&
         g.wake = travel + nearest_side(g, deepest, pair);
         if (pair.nodes > 0 && pair.gap < layer) put_back(pair);
       }
-    std::vector<ContactPair> on_planes;
-    add_plane_pairs(features, work, planes, layer, layer, list, on_planes);
+    LargeArray<ContactPair> on_planes;
+    add_plane_pairs(features, work, planes, layer, list, on_planes);
     for (ContactPair& pair : on_planes) {
       work.x[pair.node[1]] = work.x[pair.node[0]] - pair.gap * pair.normal;
       if (pair.gap < layer) put_back(pair);

@@ -43,7 +43,7 @@ struct Contact::Impl {
   std::vector<HeldNode> held;
   std::vector<int> held_of;
   // ---- what the next step depends on
-  std::vector<PairRecord> records;
+  PairRecords records;
   double thickest = 0;      ///< of their layers, at least `layer`
   double potential = 0;
   std::vector<double> slip; ///< of the bodies' nodes, m; empty where nothing rubs
@@ -65,7 +65,7 @@ struct Contact::Impl {
   NodeField v_star;
   Narrow near;
   Sweeps sweeps;
-  std::vector<PairRecord> tried;  ///< pairs of the last attempt at this step that failed
+  PairRecords tried;  ///< pairs of the last attempt at this step that failed
   std::vector<double> moved;
   std::vector<double> sum, weighted, total;  ///< per entry of the workspace
 
@@ -87,7 +87,7 @@ struct Contact::Impl {
   /// Adds the slip of the step (step.dt: the step taken) to the nodes', and books the ties; the
   /// caller adds the pairs.
   Books open_books(ContactStep& step);
-  Books empty_books(ContactStep& step) const { return Books(work, near.rubs, static_cast<int>(tools.names.size()), layer, step); }
+  Books empty_books(ContactStep& step) const { return Books(work, near.rubs, features.bodies, static_cast<int>(tools.names.size()), layer, step); }
 
   // surface_fields.cpp
   /// Adds to the slip of every node that rubs what its pairs slid in the step,

@@ -96,7 +96,8 @@ std::string Contact::Impl::name_of_entry(int entry) const {
 }
 
 std::string Contact::Impl::name_of_other(const ContactPair& pair) const {
-  return pair.tool >= 0 ? "tool " + tools.names[pair.tool] : "body " + body_names[pair.surface];
+  const int tool = pair.tool(features.bodies);
+  return tool >= 0 ? "tool " + tools.names[tool] : "body " + body_names[pair.surface];
 }
 
 void Contact::Impl::check_unmovable(double time) {
@@ -147,7 +148,7 @@ void Contact::Impl::close_books(ContactStep& step) {
   std::deque<Chunk> chunks;
   const long count = static_cast<long>(near.pairs.size());
   for (long i = 0; i < count; i += kPairsOfAThread) chunks.emplace_back(*this);
-  records.resize(count);
+  records.resize(count, !near.rubs.empty());
   team.share(static_cast<long>(chunks.size()), 1, [&](long first, long last) {
     for (long c = first; c < last; ++c) {
       Chunk& chunk = chunks[c];
@@ -158,8 +159,8 @@ void Contact::Impl::close_books(ContactStep& step) {
         chunk.books.add(pair);
         chunk.start += mild_potential(pair.gap, pair.layer, pair.stiffness);
         chunk.step.min_gap_over_layer = std::min(chunk.step.min_gap_over_layer, pair.end_gap / layer);
-        if (!relax_layer(push_speed * step.dt, pair, chunk.end)) continue;
-        records[begin + chunk.kept++] = record_of(pair, near.rubs, step.dt);
+        if (!relax_layer(layer, push_speed * step.dt, pair, chunk.end)) continue;
+        records.put(begin + chunk.kept++, pair, near.rubs, step.dt);
         chunk.thickest = std::max(chunk.thickest, pair.layer);
       }
     }
@@ -167,11 +168,12 @@ void Contact::Impl::close_books(ContactStep& step) {
   Books books = open_books(step);
   RelaxedPotential end;
   double start = 0;
-  auto kept = records.begin(), from = kept;
+  long kept = 0, from = 0;
   thickest = layer;
   for (const Chunk& chunk : chunks) {
-    kept = kept == from ? kept + chunk.kept : std::move(from, from + chunk.kept, kept);
-    from += std::min(kPairsOfAThread, records.end() - from);
+    records.move(from, kept, chunk.kept);
+    kept += chunk.kept;
+    from += kPairsOfAThread;
     books.add(chunk.books);
     thickest = std::max(thickest, chunk.thickest);
     start += chunk.start;
@@ -179,7 +181,7 @@ void Contact::Impl::close_books(ContactStep& step) {
     end.after += chunk.end.after;
     step.min_gap_over_layer = std::min(step.min_gap_over_layer, chunk.step.min_gap_over_layer);
   }
-  records.erase(kept, records.end());
+  records.resize(kept, !near.rubs.empty());
   step.soft_start_work = end.after - end.before;
   step.potential = end.after;
   // Potential that comes or goes with the change of features counts as dissipation, of either sign.
@@ -191,7 +193,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
   ContactStep step;
   Laps laps(times);
   bool all = false;  // let pairs that push askew act before they are in their layer
-  tried.clear();
+  tried.resize(0, false);
   for (;;) {
     const std::vector<ToolMotion> motion = tools_at(dt);
     predict(dt, v_star);
@@ -233,10 +235,13 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
       moved_by(way);
       break;
     }
-    tried.clear();
-    sweeps.take_back(0, static_cast<long>(near.pairs.size()), near.pairs, near.rubs);
+    const long count = static_cast<long>(near.pairs.size());
+    sweeps.take_back(0, count, near.pairs, near.rubs);
+    tried.resize(count, !near.rubs.empty());
+    long pressed = 0;
     for (const ContactPair& pair : near.pairs)
-      if (pair.impulse > 0) tried.push_back(record_of(pair, near.rubs, dt));
+      if (pair.impulse > 0) tried.put(pressed++, pair, near.rubs, dt);
+    tried.resize(pressed, !near.rubs.empty());
     if (!all) {
       all = true;
       continue;

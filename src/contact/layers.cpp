@@ -35,7 +35,7 @@ template <class PairOrRecord> int meetings(const PairOrRecord& pair, Meeting (&a
 /// The records whose pairs are gone, by their meetings; each may be taken once.
 class Left {
  public:
-  Left(const std::vector<PairRecord>& before, const std::vector<ContactPair>& pairs) {
+  Left(const LargeArray<PairRecord>& before, const LargeArray<ContactPair>& pairs) {
     size_t p = 0;
     for (const PairRecord& record : before) {
       while (p < pairs.size() && pairs[p].key < record.key) ++p;
@@ -76,54 +76,70 @@ class Left {
   std::vector<Entry> entries_;
 };
 
-/// The record of a key, null: none. place: before the first call -1; keys rise from call to call.
-inline const PairRecord* find(const std::vector<PairRecord>& records, const PairKey& key, long& place) {
+/// The record of a key: whether there is one, and its place. Before the first call the place is -1; keys rise from call to call.
+inline bool find(const LargeArray<PairRecord>& records, const PairKey& key, long& place) {
   const long count = static_cast<long>(records.size());
   if (place < 0) place = std::lower_bound(records.begin(), records.end(), key, [](const PairRecord& r, const PairKey& k) { return r.key < k; }) - records.begin();
   while (place < count && records[place].key < key) ++place;
-  return place < count && records[place].key == key ? &records[place] : nullptr;
+  return place < count && records[place].key == key;
 }
 
 }  // namespace
 
 bool Layers::give(ContactPair& pair, std::vector<Rub>& rubs, Place& place) const {
-  const PairRecord* known = find(before_, pair.key, place.before);
-  const PairRecord* last = tried_ ? find(last_try_, pair.key, place.last_try) : known;
+  const bool known = find(before_.pairs, pair.key, place.before);
+  const bool pressed = tried_ ? find(last_try_.pairs, pair.key, place.last_try) : known;
+  const double base = pair.base(full_);
   pair.impulse = 0;
-  if (last && pair.w > 0) {
-    pair.impulse = lasts_ * last->force;
-    if (pair.rub >= 0) rubs[pair.rub].slip = lasts_ * Node(last->drag[0], last->drag[1], last->drag[2], 0);
+  if (pressed && pair.w > 0) {
+    const long last = tried_ ? place.last_try : place.before;
+    pair.impulse = lasts_ * last_try_.pairs[last].force;
+    if (pair.rub >= 0 && !last_try_.drags.empty()) {
+      const double(&drag)[3] = last_try_.drags[last].force;
+      rubs[pair.rub].slip = lasts_ * Node(drag[0], drag[1], drag[2], 0);
+    }
   }
   if (known) {
-    pair.layer = pair.base < full_ ? std::min(known->layer, pair.base) : known->layer;
+    const double layer = before_.pairs[place.before].layer;
+    pair.layer = pair.askew ? std::min(layer, base) : layer;
     return false;
   }
-  if (pair.gap < pair.base) {
+  if (pair.gap < base) {
     pair.layer = pair.gap;
     return true;
   }
   const double raised = std::min(ceiling_, 0.1 * closing_speed(pair, work_) * dt_);
-  pair.layer = std::max(pair.base, std::min(pair.gap, raised));
+  pair.layer = std::max(base, std::min(pair.gap, raised));
   return false;
 }
 
-void Layers::hand_over(const std::vector<long>& born, std::vector<ContactPair>& pairs) const {
+void Layers::hand_over(const std::vector<long>& born, LargeArray<ContactPair>& pairs) const {
   if (born.empty()) return;
-  Left left(before_, pairs);
+  Left left(before_.pairs, pairs);
   for (long i : born) left.inherit(pairs[i]);
 }
 
-PairRecord record_of(const ContactPair& pair, const std::vector<Rub>& rubs, double dt) {
+void PairRecords::put(long i, const ContactPair& pair, const std::vector<Rub>& rubs, double dt) {
+  pairs[i] = {pair.key, pair.own, pair.surface, pair.layer, pair.end_gap, pair.impulse / dt};
+  if (drags.empty()) return;
   const Node drag = pair.rub >= 0 ? Node(rubs[pair.rub].slip / dt) : Node(Node::Zero());
-  return {pair.key, pair.own, pair.surface, pair.layer, pair.end_gap, pair.impulse / dt, {drag[0], drag[1], drag[2]}};
+  drags[i] = {{drag[0], drag[1], drag[2]}};
 }
 
-bool relax_layer(double growth, ContactPair& pair, RelaxedPotential& potential) {
-  const double old = pair.layer, before = mild_potential(pair.end_gap, old, pair.stiffness);
-  pair.layer = old < pair.base ? std::min(pair.base, old + growth) : std::max(pair.base, old - growth);
+void PairRecords::move(long from, long to, long count) {
+  const auto within = [&](auto& all) {
+    if (!all.empty() && to < from) std::move(all.begin() + from, all.begin() + from + count, all.begin() + to);
+  };
+  within(pairs);
+  within(drags);
+}
+
+bool relax_layer(double full, double growth, ContactPair& pair, RelaxedPotential& potential) {
+  const double base = pair.base(full), old = pair.layer, before = mild_potential(pair.end_gap, old, pair.stiffness);
+  pair.layer = old < base ? std::min(base, old + growth) : std::max(base, old - growth);
   potential.before += before;
   potential.after += pair.layer == old ? before : mild_potential(pair.end_gap, pair.layer, pair.stiffness);
-  return pair.end_gap < std::max(pair.layer, pair.base);
+  return pair.end_gap < std::max(pair.layer, base);
 }
 
 }  // namespace forming_sim

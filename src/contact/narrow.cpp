@@ -58,13 +58,13 @@ class Phase {
 
   /// Before the next vertex, or at the end of all: in their order, complete.
   void finish_vertex() {
-    std::vector<ContactPair>& all = out_.pairs;
+    LargeArray<ContactPair>& all = out_.pairs;
     const auto first = all.begin() + static_cast<long>(finished_);
     if (!std::is_sorted(first, all.end(), rising)) std::sort(first, all.end(), rising);
     finish();
   }
   /// After all vertices, before the edges: pairs of two vertices, found from either side.
-  void finish_corners(std::vector<ContactPair>& corners) {
+  void finish_corners(LargeArray<ContactPair>& corners) {
     put_in_order(corners);
     out_.pairs.insert(out_.pairs.end(), corners.begin(), corners.end());
     finish();
@@ -73,7 +73,7 @@ class Phase {
     for (ContactPair& pair : out_.pairs) take(pair);
     finish();
   }
-  std::vector<ContactPair>& corners() { return corners_; }
+  LargeArray<ContactPair>& corners() { return corners_; }
   void finish() {
     for (; finished_ < out_.pairs.size(); ++finished_) {
       ContactPair& pair = out_.pairs[finished_];
@@ -174,12 +174,13 @@ class Phase {
 
   double cross(const NearList& list, int index, const EdgePack& pack, int l) {
     const NearList::EdgePair& e = list.watched[index];
-    const double distance = pack.distance[l], base = pack.outside[l] != 0 ? layer_ : layer_ / 2;
+    const double distance = pack.distance[l];
+    const bool askew = pack.outside[l] == 0;
     if (distance > range_.reach) return distance;
     watch_touch(index, -1, distance);
-    if (!(distance > 0) || !offered(base, distance)) return distance;
+    if (!(distance > 0) || !offered(askew, distance)) return distance;
     const double s = pack.s[l], t = pack.t[l];
-    out_.pairs.emplace_back(PairKey::make(PairKey::edge_edge, e.first, 0, e.second), e.own, e.surface, distance, base,
+    out_.pairs.emplace_back(PairKey::make(PairKey::edge_edge, e.first, 0, e.second), e.own, e.surface, distance, askew,
                             Node(pack.normal[0][l], pack.normal[1][l], pack.normal[2][l], 0));
     ContactPair& pair = out_.pairs.back();
     pair.link({e.node[0], e.node[1], e.node[2], e.node[3]}, {1 - s, s, t - 1, -t});
@@ -233,23 +234,23 @@ class Phase {
     const double gap = std::sqrt(dot3(d, d));
     if (!(gap > 0)) return;  // no direction; the start check and the continuous check exclude it
     const Node normal = d / gap;
-    double base = layer_;
+    bool askew = false;
     // Seen from the vertex, is the other feature's point the nearest too?
     const Node& from = work_.x[g.node];
     const double sense = turned ? -1 : 1;
     for (int i = g.near_first; i < g.near_last; ++i) {
       const Node along = work_.x[list.neighbours[i]] - from;
       const double nearer = -sense * dot3(normal, along) - layer_;
-      if (nearer > 0 && nearer * nearer > kWedge * kWedge * dot3(along, along)) base = layer_ / 2;
+      if (nearer > 0 && nearer * nearer > kWedge * kWedge * dot3(along, along)) askew = true;
     }
-    if (!offered(base, gap)) return;
+    if (!offered(askew, gap)) return;
     if (turned) {  // the same pair is found from both sides
       std::swap(first, second);
       std::swap(own, surface);
     }
-    std::vector<ContactPair>& pairs = corners ? corners_ : out_.pairs;
+    LargeArray<ContactPair>& pairs = corners ? corners_ : out_.pairs;
     pairs.emplace_back(corners ? PairKey::make(PairKey::vertex_vertex, first, 0, second) : PairKey::make(PairKey::vertex_facet, first, c.feature, second), own,
-                       surface, gap, base, normal);
+                       surface, gap, askew, normal);
     ContactPair& pair = pairs.back();
     if (corners) {
       pair.link({turned ? other : g.node, turned ? g.node : other}, {1, -1});
@@ -275,7 +276,7 @@ class Phase {
     constants_.take(sum.w, sum.mean_area(), sum.movers, sum.held, pair);
   }
 
-  bool offered(double base, double gap) const { return all_ || base == layer_ || gap < base; }
+  bool offered(bool askew, double gap) const { return all_ || !askew || gap < layer_ / 2; }
 
   const PairConstants& constants_;
   const Layers* layers_;
@@ -290,7 +291,7 @@ class Phase {
   std::vector<Candidate> candidates_;  ///< listed pairs that are awake, group by group
   std::vector<FacePack> faces_;        ///< the same in lanes
   std::vector<Hit> hits_;              ///< of a group
-  std::vector<ContactPair> corners_;  ///< pairs of two vertices
+  LargeArray<ContactPair> corners_;   ///< pairs of two vertices
   int vertex_ = -1;                   ///< whose pairs are being found
   size_t finished_;                   ///< so many pairs are in order and complete
   Layers::Place place_;
@@ -306,7 +307,7 @@ void Narrow::clear() {
   close.clear();
 }
 
-void put_in_order(std::vector<ContactPair>& pairs) {
+void put_in_order(LargeArray<ContactPair>& pairs) {
   std::sort(pairs.begin(), pairs.end(), rising);
   pairs.erase(std::unique(pairs.begin(), pairs.end(), [](const ContactPair& a, const ContactPair& b) { return a.key == b.key; }), pairs.end());
 }
@@ -314,13 +315,13 @@ void put_in_order(std::vector<ContactPair>& pairs) {
 // Of a point x and its foot f on the plane, which go to x1 and f1: along the normal n1 with which the
 // step ends, (x - f) . n1 + (v_x - v_f) . n1 dt = (x1 - f1) . n1 is the gap at the end itself, as f1
 // lies on the plane, however far both slide and the plane turns.
-void add_plane_pairs(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, double reach,
-                     const NearList& list, std::vector<ContactPair>& pairs) {
+void add_plane_pairs(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double reach,
+                     const NearList& list, LargeArray<ContactPair>& pairs) {
   for (const NearList::PlanePair& p : list.planes) {
     const PlanePose& plane = planes[p.tool];
     const double gap = dot3(work.x[p.node] - plane.point, plane.normal) * dot3(plane.normal, plane.end_normal);
     if (gap > reach) continue;
-    pairs.emplace_back(PairKey::make(PairKey::plane, p.vertex, 0, p.tool), features.vertex_surface[p.vertex], features.bodies + p.tool, gap, layer, plane.end_normal);
+    pairs.emplace_back(PairKey::make(PairKey::plane, p.vertex, 0, p.tool), features.vertex_surface[p.vertex], features.bodies + p.tool, gap, false, plane.end_normal);
     pairs.back().link({p.node, p.foot}, {1, -1});
   }
 }
@@ -367,9 +368,9 @@ void narrow_phase(const PairConstants& constants, const Layers* layers, const st
                   NearList& list, Narrow& result) {
   result.clear();
   Phase on_planes(constants, layers, all, range, result);
-  add_plane_pairs(constants.features, constants.work, planes, constants.layer, range.reach, list, result.pairs);
+  add_plane_pairs(constants.features, constants.work, planes, range.reach, list, result.pairs);
   on_planes.finish_planes();
-  std::vector<std::vector<ContactPair>> corners(team.size());
+  std::vector<LargeArray<ContactPair>> corners(team.size());
   const auto same_vertex = [&](long i) { return list.groups[i].vertex == list.groups[i - 1].vertex; };
   share_out(team, static_cast<long>(list.groups.size()), kGroupsOfAThread, same_vertex, result, [&](int share, Narrow& into, long first, long last) {
     Phase phase(constants, layers, all, range, into);

@@ -48,7 +48,7 @@ const PairKernels& pair_kernels_of(Isa isa) {
 Sweeps::Sweeps(Team& team, const char* kernels) : team_(team), kernels_(pair_kernels_of(choose_isa(kernels))) {}
 
 // Every tile takes the first colour that none of its nodes has yet.
-void Sweeps::cut(std::size_t nodes, const std::vector<ContactPair>& pairs) {
+void Sweeps::cut(std::size_t nodes, const LargeArray<ContactPair>& pairs) {
   const long count = static_cast<long>(pairs.size());
   const long size = tile_size_ = std::clamp((count / kTilesAimedAt + kLanes - 1) / kLanes * kLanes, kLeastPairsOfATile, kMostPairsOfATile);
   tile_count_ = (count + size - 1) / size;
@@ -94,7 +94,7 @@ template <class Work> void Sweeps::each_tile(Work&& work) {
 // Every pair takes the first colour that none of its nodes has in this tile; a colour fills packs of its own, so that
 // packs that follow each other mostly do not wait for each other's nodes. Tiles of the same colour do so at the same
 // time: none writes to a node of another.
-void Sweeps::pack(Tile& tile, const std::vector<ContactPair>& pairs, const std::vector<Rub>& rubs) {
+void Sweeps::pack(Tile& tile, const LargeArray<ContactPair>& pairs, const std::vector<Rub>& rubs) {
   for (long i = tile.first; i < tile.last; ++i) each_mover(pairs[i], [&](int n) { taken_[n] = 0; });
   long of_colour[kBits + 1] = {};  // the last: pairs left over
   bool any_rubs = false;
@@ -139,7 +139,7 @@ void Sweeps::pack(Tile& tile, const std::vector<ContactPair>& pairs, const std::
       p.weight[k][l] = used ? pair.weight[k] : 0;
     }
     if (pair.held) p.held = 1;
-    p.nodes = std::max(p.nodes, pair.nodes);
+    p.nodes = std::max<int>(p.nodes, pair.nodes);
     for (int j = 0; j < 3; ++j) p.normal[j][l] = pair.normal[j];
     p.gap[l] = pair.gap;
     p.layer[l] = pair.layer;
@@ -155,7 +155,7 @@ void Sweeps::pack(Tile& tile, const std::vector<ContactPair>& pairs, const std::
   }
 }
 
-void Sweeps::take_back(long first, long last, std::vector<ContactPair>& pairs, std::vector<Rub>& rubs) const {
+void Sweeps::take_back(long first, long last, LargeArray<ContactPair>& pairs, std::vector<Rub>& rubs) const {
   for (long i = first; i < last; ++i) {
     ContactPair& pair = pairs[i];
     const Tile& tile = tiles_[i / tile_size_];
@@ -169,7 +169,7 @@ void Sweeps::take_back(long first, long last, std::vector<ContactPair>& pairs, s
   }
 }
 
-SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, const std::vector<ContactPair>& pairs,
+SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, const LargeArray<ContactPair>& pairs,
                           const std::vector<Rub>& rubs) {
   cut(work.share.size(), pairs);
   projector_.resize(work.share.size());

@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "forming_sim/element/cell_group.h"
+#include "forming_sim/parallel/large_array.h"
 
 namespace forming_sim {
 
 class AlikeBlocks {
  public:
   /// The number of the set of constants in `sets` that a block has, to 2^-36 of each; a set that is not there yet is appended.
-  int find(const std::vector<Lane>& constants, std::vector<Lane>& sets) {
+  int find(const std::vector<Lane>& constants, LargeArray<Lane>& sets) {
     std::vector<double> rounded;
     rounded.reserve(constants.size() * kLanes);
     for (const Lane& lane : constants)

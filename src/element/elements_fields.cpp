@@ -138,7 +138,7 @@ ElementFields Elements::observe(const NodeField& x) const {
 
 void Elements::append_state(std::vector<double>& to) const {
   for (const Group& g : groups_) {
-    for (const std::vector<Lane>* storage : {&g.memory_storage, &g.hourglass_storage}) {
+    for (const LargeArray<Lane>* storage : {&g.memory_storage, &g.hourglass_storage}) {
       const double* memory = reinterpret_cast<const double*>(storage->data());
       to.insert(to.end(), memory, memory + storage->size() * kLanes);
     }
@@ -154,7 +154,7 @@ const double* Elements::read_state(const double* from) {
     from += count;
   };
   for (Group& g : groups_) {
-    for (std::vector<Lane>* storage : {&g.memory_storage, &g.hourglass_storage})
+    for (LargeArray<Lane>* storage : {&g.memory_storage, &g.hourglass_storage})
       take(reinterpret_cast<double*>(storage->data()), storage->size() * kLanes);
     take(g.plastic.data(), g.plastic.size());
     take(g.viscous.data(), g.viscous.size());

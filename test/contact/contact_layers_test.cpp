@@ -19,7 +19,6 @@ ContactPair pair_of(const PairKey& key, int own, int surface, double gap) {
   pair.own = own;
   pair.surface = surface;
   pair.gap = gap;
-  pair.base = h0;
   return pair;
 }
 PairKey on_facet(int vertex, int facet) { return PairKey::make(PairKey::vertex_facet, vertex, Closest::face, facet); }
@@ -27,12 +26,12 @@ PairKey on_vertex(int vertex, int other) { return PairKey::make(PairKey::vertex_
 PairKey on_edge(int edge, int other) { return PairKey::make(PairKey::edge_edge, edge, 0, other); }
 
 /// The layers that `pairs` get after a step that ended with `before`, in the order of their keys.
-std::vector<double> layers(std::vector<PairRecord> before, std::vector<ContactPair> pairs) {
+std::vector<double> layers(LargeArray<PairRecord> before, LargeArray<ContactPair> pairs) {
   std::sort(before.begin(), before.end(), [](const PairRecord& a, const PairRecord& b) { return a.key < b.key; });
   std::sort(pairs.begin(), pairs.end(), [](const ContactPair& a, const ContactPair& b) { return a.key < b.key; });
   std::vector<Rub> rubs;
   const Workspace work;
-  give_layers(Layers(before, {}, work, 1e-6, 1e-6, h0, h0), pairs, rubs);
+  give_layers(Layers({before, {}}, {}, work, 1e-6, 1e-6, h0, h0), pairs, rubs);
   std::vector<double> found;
   for (const ContactPair& pair : pairs) found.push_back(pair.layer);
   return found;

@@ -74,7 +74,7 @@ TEST(ContactSearch, SleepingPairsAreMissedByNone) {
       for (std::size_t i = 0; i < now.pairs.size(); ++i) {
         ASSERT_EQ(near.pairs[i].key, now.pairs[i].key) << "step " << steps;
         EXPECT_EQ(near.pairs[i].gap, now.pairs[i].gap);
-        EXPECT_EQ(near.pairs[i].base, now.pairs[i].base);
+        EXPECT_EQ(near.pairs[i].askew, now.pairs[i].askew);
         EXPECT_EQ(near.pairs[i].w, now.pairs[i].w);
       }
       EXPECT_EQ(near.close.size(), now.close.size());

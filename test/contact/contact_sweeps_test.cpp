@@ -16,7 +16,7 @@ constexpr double kDt = 1e-3;
 /// Pairs between random nodes, half of which rub; some nodes held, some of a tool.
 struct Heap {
   Workspace work;
-  std::vector<ContactPair> pairs;
+  LargeArray<ContactPair> pairs;
   std::vector<Rub> rubs;
   Mat3 held = Vec3(1, 0, 1).asDiagonal();
 

@@ -4,7 +4,7 @@
 
 namespace contact_test {
 
-inline void give_layers(const forming_sim::Layers& layers, std::vector<forming_sim::ContactPair>& pairs, std::vector<forming_sim::Rub>& rubs) {
+inline void give_layers(const forming_sim::Layers& layers, forming_sim::LargeArray<forming_sim::ContactPair>& pairs, std::vector<forming_sim::Rub>& rubs) {
   forming_sim::Layers::Place place;
   std::vector<long> born;
   for (std::size_t i = 0; i < pairs.size(); ++i)

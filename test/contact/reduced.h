@@ -14,7 +14,7 @@ namespace contact_test {
 class Reduced {
  public:
   /// Takes away from the pairs of a step.
-  using Reduce = std::function<void(const Workspace&, std::vector<ContactPair>&)>;
+  using Reduce = std::function<void(const Workspace&, LargeArray<ContactPair>&)>;
 
   Reduced(const World& world, Reduce reduce) : reduce_(std::move(reduce)), layer_(world.config.layer) {
     ContactSetup setup;
@@ -52,10 +52,12 @@ class Reduced {
     give_layers({records_, {}, work_, dt, dt, layer_, layer_}, near_.pairs, near_.rubs);
     sweeps_.solve(dt, 1e-3 * layer_, 50, work_, ties_, near_.pairs, near_.rubs);
     RelaxedPotential potential;
-    records_.clear();
+    records_.resize(static_cast<long>(near_.pairs.size()), !near_.rubs.empty());
+    long kept = 0;
     sweeps_.take_back(0, static_cast<long>(near_.pairs.size()), near_.pairs, near_.rubs);
     for (ContactPair& pair : near_.pairs)
-      if (relax_layer(.1 * dt, pair, potential)) records_.push_back(record_of(pair, near_.rubs, dt));
+      if (relax_layer(layer_, .1 * dt, pair, potential)) records_.put(kept++, pair, near_.rubs, dt);
+    records_.resize(kept, !near_.rubs.empty());
     for (int i = 0; i < work_.body_entries; ++i) world.v[work_.vertex[i]] = work_.v[i];
     for (size_t i = 0; i < world.x.size(); ++i) world.x[i] += dt * world.v[i];
     world.time += dt;
@@ -82,21 +84,21 @@ class Reduced {
   Team team_{1};
   Sweeps sweeps_{team_};
   std::vector<TiePair> ties_;
-  std::vector<PairRecord> records_;
+  PairRecords records_;
 };
 
 // ---- reductions
 
-inline void drop(std::vector<ContactPair>& pairs, const std::function<bool(const ContactPair&)>& which) {
+inline void drop(LargeArray<ContactPair>& pairs, const std::function<bool(const ContactPair&)>& which) {
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), which), pairs.end());
 }
 inline bool is_edge_pair(const ContactPair& pair) { return pair.key.kind() == PairKey::edge_edge; }
 
-inline void without_edges(const Workspace&, std::vector<ContactPair>& pairs) { drop(pairs, is_edge_pair); }
+inline void without_edges(const Workspace&, LargeArray<ContactPair>& pairs) { drop(pairs, is_edge_pair); }
 
 /// Without pairs of edges at an angle below `least`, rad.
 inline Reduced::Reduce without_parallel_edges(double least) {
-  return [least](const Workspace& work, std::vector<ContactPair>& pairs) {
+  return [least](const Workspace& work, LargeArray<ContactPair>& pairs) {
     drop(pairs, [&](const ContactPair& p) {
       if (!is_edge_pair(p)) return false;
       const Node u = work.x[p.node[1]] - work.x[p.node[0]], v = work.x[p.node[3]] - work.x[p.node[2]];
@@ -110,15 +112,15 @@ inline Reduced::Reduce without_parallel_edges(double least) {
 inline bool same_vertex(const ContactPair& a, const ContactPair& b) { return is_edge_pair(a) == is_edge_pair(b) && a.key.first() == b.key.first(); }
 
 /// Of every vertex its nearest feature alone, as a search for the closest point gives it.
-inline void nearest_only(const Workspace&, std::vector<ContactPair>& pairs) {
-  const std::vector<ContactPair> all = pairs;
+inline void nearest_only(const Workspace&, LargeArray<ContactPair>& pairs) {
+  const LargeArray<ContactPair> all = pairs;
   drop(pairs, [&](const ContactPair& p) {
     return std::any_of(all.begin(), all.end(), [&](const ContactPair& o) { return same_vertex(o, p) && (o.gap < p.gap || (o.gap == p.gap && o.key < p.key)); });
   });
 }
 
 /// Without pairs whose first feature is a tool's vertex.
-inline void without_tool_nodes(const Workspace& work, std::vector<ContactPair>& pairs) {
+inline void without_tool_nodes(const Workspace& work, LargeArray<ContactPair>& pairs) {
   drop(pairs, [&](const ContactPair& p) { return !is_edge_pair(p) && p.node[0] >= work.body_entries; });
 }
 

@@ -9,7 +9,7 @@ class Books {
  public:
   /// Fills tool impulses, tool_work, held_work, friction_work, active and layer of the step,
   /// which start at 0 (layer: at h0).
-  Books(const Workspace& work, const std::vector<Rub>& rubs, int tools, double layer, ContactStep& step);
+  Books(const Workspace& work, const std::vector<Rub>& rubs, int bodies, int tools, double layer, ContactStep& step);
   void add(const TiePair& tie);
   void add(const ContactPair& pair);
   /// What another thread has booked of the same step.
@@ -23,6 +23,7 @@ class Books {
 
   const Workspace& work_;
   const std::vector<Rub>& rubs_;
+  int bodies_;
   ContactStep& step_;
   double normal_ = 0;
 };

@@ -25,7 +25,7 @@ struct PairConstants {
   void take(double w, double mean_area, double movers, double held, ContactPair& pair) const {
     pair.w = w;
     pair.stiffness = modulus * layer * mean_area;
-    pair.movers = static_cast<std::uint8_t>(movers);
+    pair.movers = static_cast<std::uint16_t>(movers);
     pair.held = held != 0;
   }
   void finish(ContactPair& pair, std::vector<Rub>& rubs) const {
@@ -33,7 +33,6 @@ struct PairConstants {
     if (pair.held) pair.w = held_w(pair);
     // Held against the normal up to rounding is held.
     if (pair.w <= 1e-12 * any) pair.w = pair.stiffness = 0;
-    pair.tool = std::max(-1, std::max(pair.own, pair.surface) - features.bodies);
     const double friction = features.relation(pair.own, pair.surface).friction;
     pair.rub = -1;
     if (!(friction > 0)) return;

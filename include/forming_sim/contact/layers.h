@@ -12,10 +12,28 @@ namespace forming_sim {
 struct PairRecord {
   PairKey key;
   std::int32_t own, surface;  ///< surfaces of the first and of the second feature
-  double layer;  ///< h0 of the pair, m
-  double gap;    ///< h at the end of the step, m
-  double force = 0;             ///< mean of the step along the normal, N
-  double drag[3] = {0, 0, 0};   ///< of friction, N
+  double layer;      ///< h0 of the pair, m
+  double gap;        ///< h at the end of the step, m
+  double force = 0;  ///< mean of the step along the normal, N
+};
+struct Drag {
+  double force[3];  ///< of friction, mean of the step, N
+};
+
+/// In the order of their keys.
+struct PairRecords {
+  LargeArray<PairRecord> pairs;
+  LargeArray<Drag> drags;  ///< one a pair; empty where nothing rubs
+
+  bool empty() const { return pairs.empty(); }
+  void resize(long count, bool rub) {
+    pairs.resize(count);
+    drags.resize(rub ? count : 0);
+  }
+  /// What is known of a pair at the end of a step of dt, at place i.
+  void put(long i, const ContactPair& pair, const std::vector<Rub>& rubs, double dt);
+  /// So many from one place to another, which is not behind it.
+  void move(long from, long to, long count);
 };
 
 /// What the pairs of a step are given from the step before: `layer`, and of known ones impulse and slip, from which
@@ -30,7 +48,7 @@ struct PairRecord {
 class Layers {
  public:
   /// dt: of the step; last_dt: of the step before; work.v: predicted velocities. full: h0.
-  Layers(const std::vector<PairRecord>& before, const std::vector<PairRecord>& tried, const Workspace& work, double dt, double last_dt, double full, double ceiling)
+  Layers(const PairRecords& before, const PairRecords& tried, const Workspace& work, double dt, double last_dt, double full, double ceiling)
       : before_(before), last_try_(tried.empty() ? before : tried), tried_(!tried.empty()), work_(work), dt_(dt), lasts_(tried.empty() ? std::min(dt, last_dt) : dt), full_(full), ceiling_(ceiling) {}
 
   /// How far the lists have been gone through.
@@ -40,25 +58,22 @@ class Layers {
   /// Gives to one pair. Keys rise from call to call with the same `place`. Returns whether the pair is born inside its layer.
   bool give(ContactPair& pair, std::vector<Rub>& rubs, Place& place) const;
   /// Then, once all have been given: from the pairs that are gone to those born inside their layer (`born`: which, rising).
-  void hand_over(const std::vector<long>& born, std::vector<ContactPair>& pairs) const;
+  void hand_over(const std::vector<long>& born, LargeArray<ContactPair>& pairs) const;
 
  private:
-  const std::vector<PairRecord>&before_, &last_try_;
+  const PairRecords &before_, &last_try_;
   bool tried_;
   const Workspace& work_;
   double dt_, lasts_, full_, ceiling_;  // lasts: of a force from which the sweeps start, s
 };
-
-/// What is known of a pair at the end of a step of dt.
-PairRecord record_of(const ContactPair& pair, const std::vector<Rub>& rubs, double dt);
 
 /// Potential of pairs at their end gaps, J, before and after relax_layer;
 /// the difference is the work of the layers' growth.
 struct RelaxedPotential {
   double before = 0, after = 0;
 };
-/// Lets the layer of a pair grow (or shrink) to its base by at most `growth`, and adds its
+/// Lets the layer of a pair grow (or shrink) to its base (of a contact whose layer is `full`) by at most `growth`, and adds its
 /// potential. Returns whether the pair ended the step inside its layer, and must be remembered.
-bool relax_layer(double growth, ContactPair& pair, RelaxedPotential& potential);
+bool relax_layer(double full, double growth, ContactPair& pair, RelaxedPotential& potential);
 
 }  // namespace forming_sim

@@ -41,12 +41,12 @@ struct NearList {
     int tie;
     int node[4];               ///< as the tie's; of one to a tool the second is the foot: the place on the tool
   };
-  std::vector<FacetEntry> facets;
-  std::vector<int> neighbours; ///< of the groups' vertices, in the workspace
-  std::vector<VertexGroup> groups;
-  std::vector<EdgePair> edges;
-  std::vector<double> edge_wake;   ///< of each of them that is not watched, as of facets
-  std::vector<EdgePair> watched;   ///< those of them that can come near while travel + reach <= watched_until, in the same order
+  LargeArray<FacetEntry> facets;
+  LargeArray<int> neighbours; ///< of the groups' vertices, in the workspace
+  LargeArray<VertexGroup> groups;
+  LargeArray<EdgePair> edges;
+  LargeArray<double> edge_wake;   ///< of each of them that is not watched, as of facets
+  LargeArray<EdgePair> watched;   ///< those of them that can come near while travel + reach <= watched_until, in the same order
   double watched_until = -std::numeric_limits<double>::infinity();
   std::vector<PlanePair> planes;
   std::vector<TieEntry> ties;

@@ -33,7 +33,7 @@ struct ClosePair {
 };
 
 struct Narrow {
-  std::vector<ContactPair> pairs;  ///< in the order of their keys, each once
+  LargeArray<ContactPair> pairs;   ///< in the order of their keys, each once
   std::vector<long> born;          ///< which of them are new and inside their layer
   std::vector<long> unmovable;     ///< which of them nothing can move
   std::vector<Rub> rubs;           ///< of those that rub
@@ -57,10 +57,10 @@ void narrow_phase(const PairConstants& constants, const Layers* layers, const st
 
 /// Adds the pairs of vertices with the planes that they are nearer to than `reach`, or behind;
 /// geometry and key only.
-void add_plane_pairs(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double layer, double reach,
-                     const NearList& list, std::vector<ContactPair>& pairs);
+void add_plane_pairs(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double reach,
+                     const NearList& list, LargeArray<ContactPair>& pairs);
 
 /// In the order of their keys, each once.
-void put_in_order(std::vector<ContactPair>& pairs);
+void put_in_order(LargeArray<ContactPair>& pairs);
 
 }  // namespace forming_sim

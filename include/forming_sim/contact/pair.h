@@ -2,6 +2,7 @@
 // A pair of features that may carry force, in the form in which the sweeps see
 // it: up to four nodes with weights. Whose the nodes are does not matter: a node
 // of a rigid tool has inverse mass 0 and a prescribed velocity.
+#include <algorithm>
 #include <cstdint>
 #include <tuple>
 #include <vector>
@@ -30,7 +31,7 @@ struct PairKey {
 struct Link {
   double weight[4] = {0, 0, 0, 0};  ///< b: positive on the first feature, negative on the second, sum 0
   int node[4] = {-1, -1, -1, -1};   ///< in the workspace
-  int nodes = 0;
+  std::int16_t nodes = 0;
 
   template <int N> void link(const int (&of)[N], const double (&b)[N]) {
     nodes = N;
@@ -48,25 +49,30 @@ struct Rub {
   double w = 0;                ///< inverse mass of the pair, 1/kg
 };
 
+/// There are hundreds of thousands of them, written and read once a step: a byte here is time.
 struct ContactPair : Link {
+  std::uint16_t movers : 4;    ///< bit k: node k can move
+  std::uint16_t held : 1;      ///< some directions of some of them cannot
+  std::uint16_t askew : 1;     ///< one of its features is not the nearest of its surface
   int rub = -1;                ///< index of its friction, -1: none
   int own = -1, surface = -1;  ///< surfaces of the first and of the second feature
   Node normal = Node::Zero();  ///< from the second feature to the first, length 1
-  int tool = -1;
-  std::uint8_t movers = 0;     ///< bit k: node k can move
-  bool held = false;           ///< some directions of some of them cannot
   double gap = 0;              ///< h at the start of the step, m
   double layer = 0;            ///< h0 of this pair, m
-  double base = 0;             ///< h0 it tends to
   double stiffness = 0;        ///< c, N m
   double w = 0;                ///< inverse mass along the normal, held directions removed, 1/kg
   double impulse = 0;          ///< along the normal, N s; before the sweeps: to start from
   double end_gap = 0;          ///< h at the end of the step, m
   PairKey key;
 
-  ContactPair() = default;
-  ContactPair(const PairKey& name, int own_surface, int other_surface, double h, double h0, const Node& along)
-      : own(own_surface), surface(other_surface), normal(along), gap(h), base(h0), key(name) {}
+  ContactPair() : movers(0), held(0), askew(0) {}
+  ContactPair(const PairKey& name, int own_surface, int other_surface, double h, bool pushes_askew, const Node& along)
+      : movers(0), held(0), askew(pushes_askew), own(own_surface), surface(other_surface), normal(along), gap(h), key(name) {}
+
+  /// The layer that its own tends to, where that of the contact is `full`: pairs that push askew have half of it.
+  double base(double full) const { return askew ? full / 2 : full; }
+  /// -1: none; surfaces of tools come after those of so many bodies.
+  int tool(int bodies) const { return std::max(-1, std::max(own, surface) - bodies); }
 };
 
 constexpr long kPairsOfAThread = 256;  ///< fewer are not worth another thread

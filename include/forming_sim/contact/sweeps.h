@@ -35,10 +35,10 @@ class Sweeps {
   /// From the impulses and slips that the pairs come with, sweeps until every pair ends with a gap > 0 and nothing changes
   /// by more than `tolerance`, at most `most` times; in each sweep ties come before pairs. Changes
   /// work.v and the ties' impulses; what was found of the pairs is for take_back to fetch.
-  SweepResult solve(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, const std::vector<ContactPair>& pairs,
+  SweepResult solve(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, const LargeArray<ContactPair>& pairs,
                     const std::vector<Rub>& rubs);
   /// Sets impulse and end_gap of the pairs first ... last - 1, and their slips in `rubs`.
-  void take_back(long first, long last, std::vector<ContactPair>& pairs, std::vector<Rub>& rubs) const;
+  void take_back(long first, long last, LargeArray<ContactPair>& pairs, std::vector<Rub>& rubs) const;
 
  private:
   struct Tile {
@@ -49,8 +49,8 @@ class Sweeps {
     const RubPack* rub() const { return rubs.empty() ? nullptr : rubs.data(); }
     RubPack* rub() { return rubs.empty() ? nullptr : rubs.data(); }
   };
-  void cut(std::size_t nodes, const std::vector<ContactPair>& pairs);
-  void pack(Tile& tile, const std::vector<ContactPair>& pairs, const std::vector<Rub>& rubs);
+  void cut(std::size_t nodes, const LargeArray<ContactPair>& pairs);
+  void pack(Tile& tile, const LargeArray<ContactPair>& pairs, const std::vector<Rub>& rubs);
   /// Calls work(tile) for all tiles, colour by colour; tiles of a colour by all threads.
   template <class Work> void each_tile(Work&& work);
 

@@ -143,7 +143,7 @@ class Elements {
   std::vector<int> slot_start_, slot_index_;         ///< slots of a node, those of cells with nodal pressure first
   std::vector<int> nodal_slots_;                     ///< of a node: behind the last of the latter
   int points_ = 0;                                   ///< lanes of the points at edges
-  std::vector<Lane> slot_storage_;
+  LargeArray<Lane> slot_storage_;
   double* slots_ = nullptr;                          ///< [slot][kRecord]
   int record_size_ = 0;
   mutable std::vector<double> pressure_, nodal_volume0_, nodal_bulk_;  ///< nodal pressure only
