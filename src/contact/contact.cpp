@@ -38,8 +38,9 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
   m.tools.place_all(m.features, at_start, false, place);
   m.ties = find_ties(setup, x, place, m.tools.is_plane, m.tools.planes(at_start), m.features);
   m.body_shifts = part_bodies(m.layer, setup, m.features, x, m.warnings);
-  m.sides = find_sides(m.layer, m.features, x, at_start);
-  set_back(m.layer, m.sides, setup, m.features, m.tools, m.warnings);
+  const Sides sides = find_sides(m.layer, m.features, x, at_start);
+  m.sides = sides.of_facet;
+  set_back(m.layer, sides, setup, m.features, m.tools, m.warnings);
   check_start(m.layer, m.sides, setup, x, at_start, m.features, m.tools, m.warnings);
   m.tools.place_all(m.features, at_start, false, place);  // set back
   keep_ties(m.features, x, place, at_start, m.ties);
