@@ -59,12 +59,12 @@ void Contact::set_masses(const std::vector<double>& inverse_mass, const std::vec
   impl_->listed = false;
 }
 
-ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at) {
+ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at, double full_dt) {
   Impl& m = *impl_;
   m.v_star.resize(x.size());
   ContactStep step;
   switch (m.method) {
-    case Impl::Method::implicit: step = m.advance_implicit(time, dt, x, v, predict, tools_at); break;
+    case Impl::Method::implicit: step = m.advance_implicit(time, dt, std::max(dt, full_dt), x, v, predict, tools_at); break;
     case Impl::Method::explicit_mild: step = m.advance_explicit(time, dt, x, v, predict, tools_at); break;
     case Impl::Method::geometric: step = m.advance_geometric(dt, x, v, predict, tools_at); break;
   }

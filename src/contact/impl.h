@@ -95,7 +95,7 @@ struct Contact::Impl {
   void add_slip(double dt);
 
   // one file each
-  ContactStep advance_implicit(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at);
+  ContactStep advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at);
   ContactStep advance_explicit(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at);
   ContactStep advance_geometric(double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at);
 

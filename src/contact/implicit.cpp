@@ -2,6 +2,7 @@
 // pairs; a continuous check, and halving of the step where that finds a touch.
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <deque>
 #include <limits>
 #include <sstream>
@@ -113,7 +114,7 @@ void Contact::Impl::check_unmovable(double time) {
 
 [[noreturn]] void Contact::Impl::give_up(double time, double dt, int touch) const {
   std::ostringstream text;
-  text << "at time " << time << " s contact found no step without a crossing, down to " << dt << " s (" << config.max_halvings << " halvings)";
+  text << "at time " << time << " s contact found no step without a crossing, down to " << dt << " s (" << config.max_halvings << " halvings, of this step and of those before it)";
   if (touch >= 0) {
     const ClosePair& close = near.close[touch];
     const int a = close.group >= 0 ? list.groups[close.group].node : list.watched[close.entry].node[0];
@@ -187,7 +188,7 @@ void Contact::Impl::close_books(ContactStep& step) {
   potential = step.potential;
 }
 
-ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at) {
+ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at) {
   ContactStep step;
   Laps laps(times);
   bool all = false;  // let pairs that push askew act before they are in their layer
@@ -241,7 +242,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
       all = true;
       continue;
     }
-    if (step.halvings >= config.max_halvings) give_up(time, dt, touch);
+    if (std::ldexp(dt, config.max_halvings) < full_dt * (1 + 1e-9)) give_up(time, dt, touch);
     dt /= 2;
     ++step.halvings;
   }
