@@ -117,6 +117,7 @@ struct Contact::Impl {
   std::string name_of_entry(int entry) const;
   std::string name_of_other(const ContactPair& pair) const;
   void check_unmovable(double time);
+  void check_resolution(double time, double dt, double gap) const;
   [[noreturn]] void give_up(double time, double dt, int touch) const;
 
  private:

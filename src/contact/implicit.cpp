@@ -97,6 +97,9 @@ std::string Contact::Impl::name_of_entry(int entry) const {
 }
 
 std::string Contact::Impl::name_of_other(const ContactPair& pair) const {
+  if (work.vertex[pair.node[0]] >= features.body_nodes)  // a tool's own: the other is a body
+    for (int k = 1; k < pair.nodes; ++k)
+      if (const int v = work.vertex[pair.node[k]]; v >= 0 && v < features.body_nodes) return "body " + body_names[features.vertex_surface[v]];
   return pair.tool >= 0 ? "tool " + tools.names[pair.tool] : "body " + body_names[pair.surface];
 }
 
@@ -114,7 +117,7 @@ void Contact::Impl::check_unmovable(double time) {
 
 [[noreturn]] void Contact::Impl::give_up(double time, double dt, int touch) const {
   std::ostringstream text;
-  text << "at time " << time << " s contact found no step without a crossing, down to " << dt << " s (" << config.max_halvings << " halvings, of this step and of those before it)";
+  text << "at time " << time << " s contact found no step without a crossing, down to " << dt << " s (after at most " << config.max_halvings << " halvings, of this step and of those before it)";
   if (touch >= 0) {
     const ClosePair& close = near.close[touch];
     const int a = close.group >= 0 ? list.groups[close.group].node : list.watched[close.entry].node[0];
@@ -133,6 +136,14 @@ void Contact::Impl::check_unmovable(double time) {
   text << ". The bodies may be squeezed harder than they can yield, or move too fast for the layer of " << layer
        << " m: check the tools' stroke, refine the mesh there, or set contact.layer larger";
   throw Error(Code::contact_error, text.str());
+}
+
+// A gap that positions cannot tell from none holds nothing.
+void Contact::Impl::check_resolution(double time, double dt, double gap) const {
+  if (gap > 1e-6 * layer) return;
+  double farthest = 0;
+  for (const Node& x : work.x) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
+  if (gap < 4 * std::numeric_limits<double>::epsilon() * farthest) give_up(time, dt, -1);
 }
 
 // Chunk by chunk, shared by the threads, then joined in the order of the pairs: the sums do not depend on the threads.
@@ -253,6 +264,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
   laps.start();
   close_books(step);
   laps.done(&ContactTimes::books);
+  check_resolution(time, dt, step.min_gap_over_layer * layer);
   return step;
 }
 
