@@ -38,8 +38,9 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
   m.tools.place_all(m.features, at_start, false, place);
   m.ties = find_ties(setup, x, place, m.tools.is_plane, m.tools.planes(at_start), m.features);
   m.body_shifts = part_bodies(m.layer, setup, m.features, x, m.warnings);
-  m.sides = find_sides(m.layer, m.features, x, at_start);
-  set_back(m.layer, m.sides, setup, m.features, m.tools, m.warnings);
+  const Sides sides = find_sides(m.layer, m.features, x, at_start);
+  m.sides = sides.of_facet;
+  set_back(m.layer, sides, setup, m.features, m.tools, m.warnings);
   check_start(m.layer, m.sides, setup, x, at_start, m.features, m.tools, m.warnings);
   m.tools.place_all(m.features, at_start, false, place);  // set back
   keep_ties(m.features, x, place, at_start, m.ties);
@@ -58,12 +59,12 @@ void Contact::set_masses(const std::vector<double>& inverse_mass, const std::vec
   impl_->listed = false;
 }
 
-ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at) {
+ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at, double full_dt) {
   Impl& m = *impl_;
   m.v_star.resize(x.size());
   ContactStep step;
   switch (m.method) {
-    case Impl::Method::implicit: step = m.advance_implicit(time, dt, x, v, predict, tools_at); break;
+    case Impl::Method::implicit: step = m.advance_implicit(time, dt, std::max(dt, full_dt), x, v, predict, tools_at); break;
     case Impl::Method::explicit_mild: step = m.advance_explicit(time, dt, x, v, predict, tools_at); break;
     case Impl::Method::geometric: step = m.advance_geometric(dt, x, v, predict, tools_at); break;
   }

@@ -132,6 +132,26 @@ bool pierces(const Node& p, const Node& q, const Node& a, const Node& b, const N
   return border ? (low >= 0 && high > 0) || (high <= 0 && low < 0) : low > 0 || high < 0;
 }
 
+std::vector<bool> facets_through_others(const Features& f, int surface) {
+  const auto& s = f.surfaces[surface];
+  std::vector<bool> through(s.last_facet - s.first_facet, false);
+  const NodeField none;
+  Finder finder(f, none, f.place);
+  finder.pierce(surface, surface);
+  std::vector<std::array<int, 2>> edges;
+  for (const Crossing& c : finder.found) {
+    through[c.facet - s.first_facet] = true;
+    edges.push_back({c.edge[0], c.edge[1]});
+  }
+  std::sort(edges.begin(), edges.end());
+  for (size_t i = 0; i < through.size(); ++i)
+    for (int k = 0; k < f.corners(); ++k) {
+      const int a = f.facets[s.first_facet + i][k], b = f.facets[s.first_facet + i][(k + 1) % f.corners()];
+      if (std::binary_search(edges.begin(), edges.end(), std::array<int, 2>{std::min(a, b), std::max(a, b)})) through[i] = true;
+    }
+  return through;
+}
+
 Parts find_parts(const Features& f, int surface) {
   const auto& s = f.surfaces[surface];
   const int facets = s.last_facet - s.first_facet;

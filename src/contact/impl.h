@@ -95,7 +95,7 @@ struct Contact::Impl {
   void add_slip(double dt);
 
   // one file each
-  ContactStep advance_implicit(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at);
+  ContactStep advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at);
   ContactStep advance_explicit(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at);
   ContactStep advance_geometric(double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at);
 
@@ -117,6 +117,7 @@ struct Contact::Impl {
   std::string name_of_entry(int entry) const;
   std::string name_of_other(const ContactPair& pair) const;
   void check_unmovable(double time);
+  void check_resolution(double time, double dt, double gap) const;
   [[noreturn]] void give_up(double time, double dt, int touch) const;
 
  private:

@@ -2,6 +2,7 @@
 // pairs; a continuous check, and halving of the step where that finds a touch.
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <deque>
 #include <limits>
 #include <sstream>
@@ -96,7 +97,7 @@ std::string Contact::Impl::name_of_entry(int entry) const {
 }
 
 std::string Contact::Impl::name_of_other(const ContactPair& pair) const {
-  const int tool = pair.tool(features.bodies);
+  const int tool = pair.surface - features.bodies;
   return tool >= 0 ? "tool " + tools.names[tool] : "body " + body_names[pair.surface];
 }
 
@@ -114,7 +115,7 @@ void Contact::Impl::check_unmovable(double time) {
 
 [[noreturn]] void Contact::Impl::give_up(double time, double dt, int touch) const {
   std::ostringstream text;
-  text << "at time " << time << " s contact found no step without a crossing, down to " << dt << " s (" << config.max_halvings << " halvings)";
+  text << "at time " << time << " s contact found no step without a crossing, down to " << dt << " s (after at most " << config.max_halvings << " halvings, of this step and of those before it)";
   if (touch >= 0) {
     const ClosePair& close = near.close[touch];
     const int a = close.group >= 0 ? list.groups[close.group].node : list.watched[close.entry].node[0];
@@ -133,6 +134,14 @@ void Contact::Impl::check_unmovable(double time) {
   text << ". The bodies may be squeezed harder than they can yield, or move too fast for the layer of " << layer
        << " m: check the tools' stroke, refine the mesh there, or set contact.layer larger";
   throw Error(Code::contact_error, text.str());
+}
+
+// A gap that positions cannot tell from none holds nothing.
+void Contact::Impl::check_resolution(double time, double dt, double gap) const {
+  if (gap > 1e-6 * layer) return;
+  double farthest = 0;
+  for (const Node& x : work.x) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
+  if (gap < 4 * std::numeric_limits<double>::epsilon() * farthest) give_up(time, dt, -1);
 }
 
 // Chunk by chunk, shared by the threads, then joined in the order of the pairs: the sums do not depend on the threads.
@@ -189,7 +198,7 @@ void Contact::Impl::close_books(ContactStep& step) {
   potential = step.potential;
 }
 
-ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at) {
+ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at) {
   ContactStep step;
   Laps laps(times);
   bool all = false;  // let pairs that push askew act before they are in their layer
@@ -246,7 +255,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
       all = true;
       continue;
     }
-    if (step.halvings >= config.max_halvings) give_up(time, dt, touch);
+    if (std::ldexp(dt, config.max_halvings) < full_dt * (1 + 1e-9)) give_up(time, dt, touch);
     dt /= 2;
     ++step.halvings;
   }
@@ -257,6 +266,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, NodeField& x
   laps.start();
   close_books(step);
   laps.done(&ContactTimes::books);
+  check_resolution(time, dt, step.min_gap_over_layer * layer);
   return step;
 }
 

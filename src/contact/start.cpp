@@ -21,6 +21,7 @@ struct StartGap {
   int end = -1;                ///< of an edge from `vertex` on; -1: a vertex alone
 };
 
+constexpr double kShallow = 3;   // layers up to which a vertex that lies inside has a choice of facets to come out of
 constexpr double kWedge = 1e-3;  // slope up to which a direction counts as along a facet
 
 class Start {
@@ -44,20 +45,29 @@ class Start {
       if (with_tool != (tool >= 0) || f_.vertex_surface[g.vertex] == g.surface) continue;
       const Node& p = at(g.vertex);
       double best = 1e300, slope = -1e300;
-      StartGap gap;
-      gap.vertex = g.vertex;
-      gap.surface = g.surface;
+      StartGap gap, out;
+      gap.vertex = out.vertex = g.vertex;
+      gap.surface = out.surface = g.surface;
+      double most_room = -1e300;
       for (int i = g.first; i < g.last; ++i) {
         const int facet = list.facets[i].facet;
         const auto& c = f_.facets[facet];
         if (f_.about_ties(f_.relation(f_.vertex_surface[g.vertex], g.surface), std::array<int, 1>{g.vertex}, c)) continue;
         const Node& third = at(c[f_.corners() - 1]);
         const Closest q = f_.dimension == 2 ? closest_on_segment_facet(p, at(c[0]), at(c[1])) : closest_on_triangle(p, at(c[0]), at(c[1]), third);
-        if (q.squared > best * (1 + 1e-9) + 1e-12 * layer_ * layer_) continue;
         const Node& d = q.apart;
         const int side = f_.rigid(c[0]) ? sides_[facet] : f_.facet_outward[facet];
         const Node n = side * facet_normal(f_.dimension, at(c[0]), at(c[1]), third);
         const double distance = std::sqrt(q.squared), along = dot3(d, n);
+        if (distance < kShallow * layer_ && along <= 0 && along < -0.999 * distance) {
+          const double free = room(g.vertex, n, at);
+          if (free > most_room + 1e-6 || (free > most_room - 1e-6 && along > out.gap)) {
+            most_room = std::max(free, most_room);
+            out.gap = along;
+            out.away = f_.rigid(g.vertex) ? Node(-n) : n;
+          }
+        }
+        if (q.squared > best * (1 + 1e-9) + 1e-12 * layer_ * layer_) continue;
         // Of facets that are equally near, the one that is met most squarely; where the vertex
         // lies on them, the one with the most of the vertex' own surface before it.
         const double square = distance > 1e-6 * layer_ ? std::abs(along) : room(g.vertex, n, at);
@@ -69,7 +79,8 @@ class Start {
         gap.away = distance > 1e-6 * layer_ ? Node(d / gap.gap) : n;
         if (f_.rigid(g.vertex)) gap.away = -gap.away;
       }
-      if (best < 1e300) found.push_back(gap);
+      // Inside a corner the nearest facet need not be the way out: that is where the vertex' own surface has room.
+      if (best < 1e300) found.push_back(gap.gap < 1e-6 * layer_ && most_room > -1e300 ? out : gap);
     }
     for (const auto& e : list.edges) {
       if (f_.about_ties(f_.relation(e.own, e.surface), f_.edges[e.first].node, f_.edges[e.second].node)) continue;

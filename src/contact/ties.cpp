@@ -14,6 +14,8 @@
 namespace forming_sim {
 namespace {
 
+constexpr double kOwn = 0.1;  ///< least weight with which a tie holds a vertex of its own
+
 struct EdgeLengths {
   double smallest = std::numeric_limits<double>::infinity(), mean = 0;
 };
@@ -87,6 +89,30 @@ Tie tie_to_tool(int vertex, int tool) {
   tie.nodes = 1;
   tie.tool = tool;
   return tie;
+}
+
+// Of the ties at a rim as many as can each have a vertex to move that no other tie has: what is told more than its
+// vertices can follow is never at rest, and each step's correction would be a kick. Ties that have most of such a vertex come first.
+std::vector<Tie> those_with_a_vertex(const Features& f, const std::vector<Tie>& ties, std::vector<Tie> rim) {
+  std::vector<bool> taken(f.vertex_count, false);
+  for (const Tie& tie : ties)
+    for (int k = 0; k < tie.nodes; ++k) taken[tie.node[k]] = true;
+  const auto own = [&](const Tie& tie) {  // which of its nodes, -1: none
+    int best = -1;
+    for (int k = 0; k < tie.nodes; ++k)
+      if (!f.rigid(tie.node[k]) && !taken[tie.node[k]] && std::abs(tie.weight[k]) > (best < 0 ? kOwn : std::abs(tie.weight[best]))) best = k;
+    return best;
+  };
+  const auto share = [&](const Tie& tie) { return own(tie) < 0 ? 0 : std::abs(tie.weight[own(tie)]); };
+  std::stable_sort(rim.begin(), rim.end(), [&](const Tie& a, const Tie& b) { return share(a) > share(b); });
+  std::vector<Tie> chosen;
+  for (const Tie& tie : rim) {
+    const int k = own(tie);
+    if (k < 0) continue;
+    taken[tie.node[k]] = true;
+    chosen.push_back(tie);
+  }
+  return chosen;
 }
 
 [[noreturn]] void refuse(const ContactSetup& setup, const Features& f, const TiedPair& pair) {
@@ -187,7 +213,7 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
       if ((tied[p[0]] && tied[p[1]]) || !c.crossing || c.squared > pair.distance * pair.distance) continue;
       rim.push_back(tie_edges(p, q, c));
     }
-    for (Tie& tie : rim) {
+    for (Tie& tie : those_with_a_vertex(f, ties, rim)) {
       if (pair.second >= f.bodies) tie.tool = pair.second - f.bodies;
       ties.push_back(tie);
     }

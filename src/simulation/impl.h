@@ -79,6 +79,7 @@ struct Simulation::Impl {
   // step_limit.cpp
   /// dt of the coming step: what the mesh bears, the user's limit, the stage's end.
   void choose_dt();
+  double full_dt() const;           ///< what the coming step could be at most, whatever the steps before it were
   void find_stable_step();
   /// The step is the fastest cell's own: neither nodes nor the whole mesh bound it.
   bool by_cells() const { return plan.time_step.limit == "element" && plan.time_step.raise_to == 0; }

@@ -35,7 +35,7 @@ void Simulation::Impl::take_step() {
   if (contact) {
     const ContactStep done = contact->advance(
         time, dt, x, v, [&](double step_dt, NodeField& v_star) { predict(step_dt, v, v_star); },
-        [&](double step_dt) { return tool_motions(time, time + step_dt); });
+        [&](double step_dt) { return tool_motions(time, time + step_dt); }, full_dt());
     dt = done.dt;
     contact->take_before(v_before);
     book(done);

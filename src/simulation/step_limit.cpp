@@ -36,6 +36,11 @@ void Simulation::Impl::choose_dt() {
   if (left < 2 * dt) dt = left > dt * (1 + 1e-9) ? 0.5 * left : left;
 }
 
+double Simulation::Impl::full_dt() const {
+  const double stable = plan.time_step.safety * control.stable_dt;
+  return plan.time_step.maximum > 0 ? std::min(stable, plan.time_step.maximum) : stable;
+}
+
 void Simulation::Impl::find_stable_step() {
   elements.find_rates(x, v, rates);
   const CellLimit cell = elements.slowest_cell(rates);

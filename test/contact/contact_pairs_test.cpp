@@ -353,4 +353,32 @@ TEST(ContactPairs, NoneIsNoContact) {
   }
 }
 
+// A soft plate tied on a larger one whose mesh does not match: what is tied at its rim is no more than can be held, and
+// takes energy only.
+TEST(ContactPairs, TiesAtARimGiveNoEnergy) {
+  World world;
+  world.dimension = 3;
+  world.config.layer = 1e-4;
+  world.add_box(Vec3(0, 0, 0), 10, 6, 1, .12, 2700, 2e9);
+  world.add_box(Vec3(.1, .12, .12), 7, 5, 1, .14, 2700, 2e7);
+  world.config.pairs = {pair("body0", "body1", "tied")};
+  Contact contact = world.make();
+  const auto kinetic = [&] {
+    double sum = 0;
+    for (size_t i = 0; i < world.x.size(); ++i) sum += .5 * world.mass[i] * world.v[i].squaredNorm();
+    return sum;
+  };
+  for (size_t i = 0; i < world.x.size(); ++i) {
+    const double x = world.x[i][0] - .6, y = world.x[i][1] - .36;
+    world.v[i] = Node(0, 0, 40 * (3 * x * x - 2 * y * y + x * y), 0);
+  }
+  const double given = kinetic();
+  double most = 0;
+  for (int i = 0; i < 1500; ++i) {
+    world.step(contact, 1e-5, i % 100 == 0);
+    most = std::max(most, kinetic());
+    ASSERT_LT(most, 1.01 * given) << "at step " << i;
+  }
+}
+
 }  // namespace contact_test

@@ -204,3 +204,28 @@ TEST(ContactStart, ParametersAreChosenFromMeshAndMaterial) {
   EXPECT_EQ(world.make().stiffness(), 5);
   EXPECT_EQ(world.make().push_speed(), 7);
 }
+
+// Two blocks of one width, one a little in the other: their corners lie inside near two sides, and come out of the one
+// that faces the other block.
+TEST(ContactStart, BlocksWithSidesInLineThatOverlapALittleAreParted) {
+  for (int dimension : {2, 3})
+    for (double overlap : {.3, 1.2, 1.9}) {
+      World world;
+      world.dimension = dimension;
+      world.config.layer = h0;
+      for (double low : {0., .2 - overlap * h0}) {
+        if (dimension == 2)
+          world.add_strip(Vec3(0, low, 0), 4, 2, .1, .1, 2700, 0);
+        else
+          world.add_box(Vec3(0, 0, low), 4, 4, 2, .1, 2700, 0);
+      }
+      Contact contact = world.make();
+      world.take_shifts(contact);
+      EXPECT_LT(force_at_rest(world, contact), 1e-6) << dimension << ", " << overlap;
+      EXPECT_EQ(world.crossings, 0);
+      EXPECT_NEAR(world.last.min_gap_over_layer, 1, 1e-6);
+      const Vec3 apart = contact.body_shifts()[1] - contact.body_shifts()[0];
+      EXPECT_NEAR(apart[dimension - 1], (1 + overlap) * h0, 1e-6 * h0);
+      EXPECT_NEAR(apart.norm(), apart[dimension - 1], 1e-6 * h0);
+    }
+}

@@ -130,6 +130,46 @@ TEST(ContactScenes, ATipIntoACoarseBlock) {
   }
 }
 
+// A wedge goes through a block of one-point cells to the ground below: what is left between has nowhere to go. Gaps
+// end at what positions can tell, however many halvings are allowed.
+class ContactScenesNoFurther : public testing::TestWithParam<int> {};
+TEST_P(ContactScenesNoFurther, ARunThatGetsNoFurtherEnds) {
+  BlankConfig blank = strip_of(1, .5, 4, 2);
+  blank.origin = Vec3(-.5, 0, 0);
+  blank.pattern = "one_point";
+  OneBody run(body_of(generate_blank(blank), aluminium()), .01);
+  ToolModel wedge, ground;
+  wedge.name = "wedge";
+  wedge.mesh.dimension = ground.mesh.dimension = 2;
+  wedge.mesh.nodes = {Vec3(-.2, 1, 0), Vec3(0, .5, 0), Vec3(.2, 1, 0)};
+  for (int k = 0; k < 2; ++k) {
+    Facet f;
+    f.nodes = {k, k + 1, -1};
+    wedge.mesh.surface.push_back(f);
+  }
+  MotionConfig motion;
+  motion.kind = "velocity";
+  motion.times = {0};
+  motion.velocities = {Vec3(0, -100, 0)};
+  wedge.motion = motion;
+  ground.name = "ground";
+  ground.normal = Vec3::UnitY();
+  run.model.tools = {wedge, ground};
+  run.plan.contact.max_halvings = GetParam();
+  auto sim = run.start();
+  try {
+    long steps = 0;
+    while (sim->step()) ASSERT_LT(++steps, 100000) << "at " << sim->time() << " s";
+    ADD_FAILURE() << "the wedge has passed the ground";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), Code::contact_error) << e.what();
+    EXPECT_NE(std::string(e.what()).find("body block"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("tool "), std::string::npos) << e.what();
+  }
+  EXPECT_EQ(sim->contact_status().crossings, 0);
+}
+INSTANTIATE_TEST_SUITE_P(Halvings, ContactScenesNoFurther, testing::Values(30, 60));
+
 // The force on a tool is what the body stands on it with, however strongly it is damped and however short the last step is. Its
 // impulses by themselves are less, by half the damping of a step, and belong to the mean of two steps.
 TEST(ContactScenes, AStandingBodyWeighsItsWeight) {

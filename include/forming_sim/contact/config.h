@@ -47,7 +47,7 @@ struct ContactConfig {
     visit(FORMING_SIM_FIELD(friction), Field().at_least(0).at_most(10).doc("Coulomb friction of bodies against each other and against themselves; that of tools is theirs"));
     visit(FORMING_SIM_FIELD(pairs), Field().doc("pairs of surfaces that meet in another way than the rest"));
     visit(FORMING_SIM_FIELD(max_sweeps), Field().at_least(1).at_most(1000).when("method", {"implicit"}).doc("most Gauss-Seidel sweeps in a step; most steps need fewer"));
-    visit(FORMING_SIM_FIELD(max_halvings), Field().at_least(1).at_most(60).when("method", {"implicit"}).doc("most halvings of one step before the run ends with a named error"));
+    visit(FORMING_SIM_FIELD(max_halvings), Field().at_least(1).at_most(60).when("method", {"implicit"}).doc("most halvings of a step, with those of the steps before it that it has not risen from again, before the run ends with a named error"));
   }
 };
 

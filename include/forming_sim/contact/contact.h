@@ -136,7 +136,8 @@ class Contact {
   /// The step is halved, and `predict` and `tools` asked again, while a pair
   /// would cross. Throws Error(contact_error) naming the pair when that does
   /// not help, or when a node that nothing can move is run over.
-  ContactStep advance(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools);
+  /// full_dt: the step that could be taken had none been halved lately, 0: dt. All halvings since count.
+  ContactStep advance(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools, double full_dt = 0);
   /// Once after each step, for who wants it without a copy: the velocities that the step was given.
   void take_before(NodeField& v_before);
 

@@ -26,6 +26,9 @@ std::vector<Crossing> find_crossings(const Features& features, const NodeField& 
 bool pierces(const Node& p, const Node& q, const Node& a, const Node& b, const Node& c, bool border);
 bool segments_cross(const Node& p, const Node& q, const Node& a, const Node& b, bool border);
 
+/// Of every facet of a tool (index: facet - first_facet): does it go through another one of the same tool?
+std::vector<bool> facets_through_others(const Features& features, int surface);
+
 /// The connected part of each facet of a surface, numbered from 0, and whether
 /// the part is closed (no border).
 struct Parts {

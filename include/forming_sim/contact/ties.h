@@ -4,8 +4,8 @@
 // A tie keeps r = x_vertex - sum w_k x_k (w_k: weights of the nearest point of a
 // facet at the start) at the place it had in the frame of that facet; of a rigid
 // tool in the frame of the tool. At the rim, where a facet reaches out of what is tied, vertices of the other surface
-// are tied to it, and edges that cross are tied where they cross: else it would turn into the other body about
-// its tied vertices. Features that touch at the start do not meet (Features::touching_facets, touching_edges): they are at no
+// are tied to it, and edges that cross are tied where they cross, as many as each have a vertex of their own to move: else it
+// would turn into the other body about its tied vertices. Features that touch at the start do not meet (Features::touching_facets, touching_edges): they are at no
 // distance from each other, so that their pair has no direction. All others of the two surfaces meet as any do.
 // The impulse of a tie makes the end of the step exact,
 //   r + dt (v_vertex - sum w_k v_k) = r_kept,

@@ -20,19 +20,21 @@ struct ToolSet {
   static std::vector<bool> present(const std::vector<ToolMotion>& motion);
 };
 
-/// The side of every tool facet on which the bodies are: +1 the side of the
-/// normal (corners in rising order; 2D: to the right of rising), -1 the other,
-/// 0 where bodies are on both. Found from the bodies' places, per connected part.
-/// Nodes nearer to a tool than 3 layers are not asked.
-std::vector<int> find_sides(double layer, const Features& features, const NodeField& x, const std::vector<ToolMotion>& at_start);
+/// Where the bodies are, found from their places for patches of facets that hang together without
+/// forks and folds. Nodes nearer to a tool than 3 layers are not asked.
+struct Sides {
+  std::vector<int> of_facet;  ///< +1 the side of the normal (corners in rising order; 2D: to the right of rising), -1 the other, 0 both or unknown
+  std::vector<bool> unknown;  ///< per tool: bodies see a patch of it that has no side
+};
+Sides find_sides(double layer, const Features& features, const NodeField& x, const std::vector<ToolMotion>& at_start);
 
 /// Unit normal of the triangle abc (2D: of the segment ab, to its right); zero for one without area.
 Node facet_normal(int dimension, const Node& a, const Node& b, const Node& c);
 
 /// Moves the tools' vertices (features.place) and planes by `layer` away from
 /// the bodies, so that every facet moves by `layer` along its normal.
-/// Warns of parts with bodies on both sides, which stay where they are.
-void set_back(double layer, const std::vector<int>& sides, const ContactSetup& setup, Features& features, ToolSet& tools,
+/// Warns of patches with bodies on both sides, which stay where they are but for their rim.
+void set_back(double layer, const Sides& sides, const ContactSetup& setup, Features& features, ToolSet& tools,
               std::vector<std::string>& warnings);
 
 /// Moves bodies apart (x, by so much a body, reported in warnings) that touch each
