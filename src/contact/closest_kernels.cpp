@@ -50,6 +50,22 @@ inline void face(const double* places, const double* shares, FacePack& p) {
   store(sum, p.shares);
 }
 
+inline void segment(const double* places, const double* shares, FacePack& p) {
+  const auto corner = [&](int k) { return places_of(places, [&](int l) { return p.corner[l][k]; }); };
+  const Place a = corner(0), r = places_of(places, [&](int l) { return p.point[l]; }) - a, u = corner(1) - a;
+  const OverSegment<Pack> f = over_segment<Pack>({{r[0], r[1]}}, {{u[0], u[1]}});
+  f.s.store(p.beta);
+  for (int k = 0; k < 2; ++k) f.apart[k].store(p.apart[k]);
+  Pack(0.0).store(p.apart[2]);
+  dot(f.apart, f.apart).store(p.squared);
+  select(f.inside, Pack(1.0), Pack(0.0)).store(p.inside);
+  PairShares<Pack> sum;
+  add_share(shares, 0, Pack(1.0), [&](int l) { return p.point[l]; }, sum);
+  add_share(shares, 1, f.s - Pack(1.0), [&](int l) { return p.corner[l][0]; }, sum);
+  add_share(shares, 2, -f.s, [&](int l) { return p.corner[l][1]; }, sum);
+  store(sum, p.shares);
+}
+
 /// 0 where `away` from an edge (a point on it: a; its direction: u), across it, points into the slab of the facet with
 /// the third corner c: along `inward` = c - a without its part along u, |inward| = |(c - a) x u| / |u|.
 inline Pack outside(const Place& a, const Place& u, const Place& c, const Place& away, Pack wedge) {
@@ -82,6 +98,9 @@ inline void edge(const double* places, const double* shares, double wedge, EdgeP
 void faces(const double* places, const double* shares, FacePack* packs, long count) {
   for (long i = 0; i < count; ++i) face(places, shares, packs[i]);
 }
+void segments(const double* places, const double* shares, FacePack* packs, long count) {
+  for (long i = 0; i < count; ++i) segment(places, shares, packs[i]);
+}
 void edges(const double* places, const double* shares, double wedge, EdgePack* packs, long count) {
   for (long i = 0; i < count; ++i) edge(places, shares, wedge, packs[i]);
 }
@@ -89,7 +108,7 @@ void edges(const double* places, const double* shares, double wedge, EdgePack* p
 }  // namespace
 
 const ClosestKernels& closest_kernels() {
-  static const ClosestKernels k{faces, edges};
+  static const ClosestKernels k{faces, segments, edges};
   return k;
 }
 

@@ -89,16 +89,17 @@ class Phase {
   };
   struct Hit {
     Closest closest;
+    double distance = 0;
     int entry = -1;
     long candidate = -1;
     std::uint64_t feature = 0;
     bool taken = false;
   };
 
-  // The closest points of the candidates, in lanes where there are triangles; then group by group what they are.
+  // The closest points of the candidates, in lanes; then group by group what they are.
   void meet_facets(NearList& list) {
     const long count = static_cast<long>(candidates_.size());
-    faces_.resize(f_.dimension == 3 ? (count + kLanes - 1) / kLanes : 0);
+    faces_.resize((count + kLanes - 1) / kLanes);
     for (size_t p = 0; p < faces_.size(); ++p) {
       for (int l = 0; l < kLanes; ++l) {
         const Candidate& c = candidates_[std::min<long>(p * kLanes + l, count - 1)];
@@ -106,24 +107,22 @@ class Phase {
         faces_[p].corner[l] = list.facets[c.entry].node;
       }
     }
-    kernels_.faces(work_.x.front().data(), &work_.share.front().inverse_mass, faces_.data(), static_cast<long>(faces_.size()));
+    (f_.dimension == 2 ? kernels_.segments : kernels_.faces)(work_.x.front().data(), &work_.share.front().inverse_mass, faces_.data(), static_cast<long>(faces_.size()));
     for (long i = 0; i < count;) {
       const int group = candidates_[i].group;
       NearList::VertexGroup& g = list.groups[group];
       hits_.clear();
       for (; i < count && candidates_[i].group == group; ++i) {
         NearList::FacetEntry& e = list.facets[candidates_[i].entry];
-        Closest in_plane;
-        if (f_.dimension == 2) in_plane = closest_on_segment_facet(work_.x[g.node], work_.x[e.node[0]], work_.x[e.node[1]]);
-        const double distance = std::sqrt(f_.dimension == 2 ? in_plane.squared : faces_[i / kLanes].squared[i % kLanes]);
+        const double distance = std::sqrt(faces_[i / kLanes].squared[i % kLanes]);
         if (distance > range_.reach) {
           e.wake = range_.travel + distance;
           continue;
         }
         hits_.emplace_back();
         Hit& hit = hits_.back();
-        if (f_.dimension == 2) hit.closest = in_plane;
-        else take(faces_[i / kLanes], static_cast<int>(i % kLanes), hit.closest);
+        take(faces_[i / kLanes], static_cast<int>(i % kLanes), hit.closest);
+        hit.distance = distance;
         hit.entry = candidates_[i].entry;
         hit.candidate = i;
         hit.feature = feature_of(hit.closest, e.facet);
@@ -141,9 +140,10 @@ class Phase {
     candidates_.clear();
   }
 
-  static void take(const FacePack& found, int lane, Closest& c) {
+  void take(const FacePack& found, int lane, Closest& c) const {
     const Node apart(found.apart[0][lane], found.apart[1][lane], found.apart[2][lane], 0);
-    if (found.inside[lane] != 0) lie_in_face(found.beta[lane], found.gamma[lane], apart, c);
+    if (f_.dimension == 2) lie_on_segment(found.beta[lane], apart, c);
+    else if (found.inside[lane] != 0) lie_in_face(found.beta[lane], found.gamma[lane], apart, c);
     else lie_on_border(static_cast<int>(found.side[lane]), found.s[lane], apart, c);
   }
 
@@ -231,7 +231,7 @@ class Phase {
     const int other = e.node[corners ? c.which : 0];
     Node d = c.apart;
     if (corners) d = turned ? work_.x[other] - work_.x[g.node] : work_.x[g.node] - work_.x[other];  // the same bits from both sides
-    const double gap = std::sqrt(dot3(d, d));
+    const double gap = corners ? std::sqrt(dot3(d, d)) : hit.distance;
     if (!(gap > 0)) return;  // no direction; the start check and the continuous check exclude it
     const Node normal = d / gap;
     bool askew = false;
@@ -252,17 +252,17 @@ class Phase {
     pairs.emplace_back(corners ? PairKey::make(PairKey::vertex_vertex, first, 0, second) : PairKey::make(PairKey::vertex_facet, first, c.feature, second), own,
                        surface, gap, askew, normal);
     ContactPair& pair = pairs.back();
-    if (corners) {
-      pair.link({turned ? other : g.node, turned ? g.node : other}, {1, -1});
-    } else if (c.feature == Closest::edge) {
-      const int i = c.which == 2 ? 0 : c.which, j = c.which == 2 ? 2 : c.which + 1;
-      pair.link({g.node, e.node[i], e.node[j]}, {1, -c.weight[i], -c.weight[j]});
-    } else if (f_.dimension == 2) {
-      pair.link({g.node, e.node[0], e.node[1]}, {1, -c.weight[0], -c.weight[1]});
-    } else {
-      pair.link({g.node, e.node[0], e.node[1], e.node[2]}, {1, -c.weight[0], -c.weight[1], -c.weight[2]});
+    if (c.feature == Closest::face) {
+      if (f_.dimension == 2) pair.link({g.node, e.node[0], e.node[1]}, {1, -c.weight[0], -c.weight[1]});
+      else pair.link({g.node, e.node[0], e.node[1], e.node[2]}, {1, -c.weight[0], -c.weight[1], -c.weight[2]});
       take(faces_[hit.candidate / kLanes].shares, static_cast<int>(hit.candidate % kLanes), pair);
       return;
+    }
+    if (corners) {
+      pair.link({turned ? other : g.node, turned ? g.node : other}, {1, -1});
+    } else {
+      const int i = c.which == 2 ? 0 : c.which, j = c.which == 2 ? 2 : c.which + 1;
+      pair.link({g.node, e.node[i], e.node[j]}, {1, -c.weight[i], -c.weight[j]});
     }
     take(pair);
   }

@@ -54,8 +54,16 @@ void Sweeps::cut(std::size_t nodes, const LargeArray<ContactPair>& pairs) {
   tile_count_ = (count + size - 1) / size;
   tiles_of_a_thread_ = std::max(1L, kPairsOfAThread / size);
   if (static_cast<long>(tiles_.size()) < tile_count_) tiles_.resize(tile_count_);
-  taken_.assign(nodes, 0);
   place_.resize(pairs.size());
+  if (tile_count_ == 1) {
+    tiles_[0].first = 0;
+    tiles_[0].last = count;
+    taken_.resize(nodes);
+    order_ = {0};
+    colour_ends_ = {1};
+    return;
+  }
+  taken_.assign(nodes, 0);
   std::vector<std::vector<long>> of_colour(kBits), left_over;
   for (long t = 0; t < tile_count_; ++t) {
     Tile& tile = tiles_[t];

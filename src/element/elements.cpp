@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <atomic>
 #include <sstream>
 
 #include "forming_sim/config/fault.h"
@@ -272,15 +273,19 @@ void Elements::forces_of_tile(const CellGroup& cells, const Group& g, const Noda
   forces(cells, view, g.first_block(t), g.last_block(t));
 }
 
-void Elements::forces_of_moved(Group& g, const NodalView& view) {
+bool Elements::forces_of_moved(Group& g, const NodalView& view) {
+  std::atomic<bool> any_rests{false};
   g.rest.resize(g.tiles, Group::changed);
   const long nodes = static_cast<long>(g.node_storage.size()) / g.blocks;
   team_->share(g.tiles, tiles_of_a_thread(g), [&](long begin, long end) {
     for (long t = begin; t < end; ++t) {
       const int *first = &g.node_storage[g.first_block(t) * nodes], *last = first + (g.last_block(t) - g.first_block(t)) * nodes;
-      if (g.rest[t] != Group::changed && std::none_of(first, last, [&](int n) { return stillness_.moved(n); })) {
-        g.rest[t] = Group::passed_over;
-        continue;
+      if (std::none_of(first, last, [&](int n) { return stillness_.moved(n); })) {
+        any_rests = true;
+        if (g.rest[t] != Group::changed) {
+          g.rest[t] = Group::passed_over;
+          continue;
+        }
       }
       const auto work = g.plastic.begin();
       const std::vector<double> before(work + g.first_block(t), work + g.last_block(t));
@@ -288,6 +293,7 @@ void Elements::forces_of_moved(Group& g, const NodalView& view) {
       g.rest[t] = std::equal(before.begin(), before.end(), work + g.first_block(t)) ? Group::kept : Group::changed;
     }
   });
+  return any_rests;
 }
 
 void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, double dt, NodeField& f) {
@@ -298,7 +304,9 @@ void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, do
   clock.ends(&StepTimes::pressure);
   if (may_sleep_) stillness_.look(x, *team_);
   if (stillness_.any()) {
-    for (Group& g : groups_) forces_of_moved(g, view);
+    bool any_rests = false;
+    for (Group& g : groups_) any_rests = forces_of_moved(g, view) || any_rests;
+    if (!any_rests) stillness_.no_cell_rests();
   } else {
     for (Group& g : groups_) g.rest.clear();
     const auto find = [&](const Group& g, long t) { forces_of_tile(g, g, view, t); };

@@ -2,6 +2,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "simulation/impl.h"
 
@@ -74,10 +75,11 @@ const Energies& Simulation::energies() const {
   return e;
 }
 
+// Where nothing happens there is no energy to refer to but what positions cannot tell: that of a strain of 1e-12.
 double Simulation::balance_error() const {
-  const double scale = impl_->most;
-  const double residual = std::fabs(energies().residual());
-  return scale > 0 ? residual / scale : residual;
+  const Impl& s = *impl_;
+  const double mass = std::accumulate(s.physical_mass.begin(), s.physical_mass.end(), 0.0), c = s.elements.slowest_wave();
+  return std::fabs(energies().residual()) / std::max(s.most, 1e-24 * mass * c * c);
 }
 
 ContactStatus Simulation::contact_status() const {

@@ -23,6 +23,7 @@ struct Simulation::Impl {
   Model model;
   NodeField X;                      ///< initial positions
   NodeField x, v, v_before, f;      ///< v at the half step
+  NodeField v_kicked;               ///< by the forces of the elements alone; while there is damping
   Elements elements;
   std::vector<Facet> surface;       ///< joined
   std::vector<double> physical_mass;

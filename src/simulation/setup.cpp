@@ -167,6 +167,7 @@ void Simulation::Impl::set_up_contact() {
 
 std::vector<ToolMotion> Simulation::Impl::tool_motions(double from, double to) const {
   std::vector<ToolMotion> motions;
+  motions.reserve(model.tools.size());
   for (int k = 0; k < static_cast<int>(model.tools.size()); ++k) {
     const ToolPose a = stages.pose(k, from), b = stages.pose(k, to);
     motions.push_back({a.position, b.position, a.rotation, b.rotation, stages.present(k)});

@@ -12,6 +12,7 @@ StageRunner::StageRunner(const std::vector<StageConfig>& stages, const Model& mo
   for (const ToolModel& tool : model.tools)
     motions_.push_back(tool.motion ? RigidMotion(*tool.motion, model.dimension) : RigidMotion());
   present_.assign(model.tools.size(), 1);
+  known_.resize(motions_.size());
   starts_.push_back(0);
   if (!finished()) begin(0);
 }
@@ -23,6 +24,7 @@ bool StageRunner::leaves(const StageConfig& stage, int tool) const {
 }
 
 void StageRunner::begin(double t) {
+  known_.assign(motions_.size(), {});
   for (std::size_t k = 0; k < motions_.size(); ++k) {
     if (!leaves(stages_[index_], static_cast<int>(k))) continue;
     if (stages_[index_].displacement.isZero()) present_[k] = 0;
@@ -53,7 +55,14 @@ double StageRunner::progress(double t) const {
   return total > 0 ? done / total : 1;
 }
 
-ToolPose StageRunner::pose(int tool, double t) const { return tool_pose(model_->tools[tool], motions_[tool], t); }
+ToolPose StageRunner::pose(int tool, double t) const {
+  std::array<KnownPose, 2>& known = known_[tool];
+  for (const KnownPose& k : known)
+    if (k.time == t) return k.pose;
+  known[1] = known[0];
+  known[0] = {t, tool_pose(model_->tools[tool], motions_[tool], t)};
+  return known[0].pose;
+}
 
 void StageRunner::replay(const std::vector<double>& starts) {
   for (std::size_t k = 1; k < starts.size(); ++k) advance(starts[k]);

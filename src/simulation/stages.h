@@ -1,6 +1,8 @@
 #pragma once
 // The plan of stages as it runs: which stage, since when, and where the tools
 // are told to be.
+#include <array>
+#include <limits>
 #include <vector>
 
 #include "forming_sim/loads/motion.h"
@@ -25,6 +27,7 @@ class StageRunner {
   /// 0..1 by simulated time; a settle stage counts by its limit.
   double progress(double t) const;
 
+  /// The same time is asked for by several: the last two answers are kept.
   ToolPose pose(int tool, double t) const;
   bool present(int tool) const { return present_[tool]; }
 
@@ -42,6 +45,11 @@ class StageRunner {
   std::vector<char> present_;
   std::vector<double> starts_;
   int index_ = 0;
+  struct KnownPose {
+    double time = std::numeric_limits<double>::quiet_NaN();
+    ToolPose pose;
+  };
+  mutable std::vector<std::array<KnownPose, 2>> known_;  ///< per tool, the later asked first
 };
 
 }  // namespace forming_sim

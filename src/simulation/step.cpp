@@ -111,14 +111,16 @@ void Simulation::Impl::book_loads(const NodeField& external) {
   const std::vector<double>& mass = elements.nodal_mass();
   for (std::size_t i = 0; i < external.size(); ++i) work += 0.5 * kick * external[i].dot(v_before[i] + v[i]);
   if (alpha > 0) {
-    NodeField v_star(v.size());
-    predict(dt, v_before, v_star);
+    v_kicked.resize(v.size());
+    predict(dt, v_before, v_kicked);
+    const auto drag = [&](int i) -> Node { return alpha * kick * 0.5 * mass[i] * (v_before[i] + v_kicked[i]); };
+    const auto mean = [&](int i) -> Node { return 0.5 * (v_before[i] + v[i]); };
     double lost = 0;
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      const Node drag = alpha * kick * 0.5 * mass[i] * (v_before[i] + v_star[i]);
-      const int k = boundaries.find(static_cast<int>(i));
-      const Vec3 free = k < 0 ? vec3(drag) : Vec3(boundaries.projector(k) * vec3(drag));
-      lost += 0.5 * free.dot(vec3(v_before[i] + v[i]));
+    for (int i = 0; i < static_cast<int>(v.size()); ++i) lost += drag(i).dot(mean(i));
+    for (std::size_t k = 0; k < boundaries.nodes().size(); ++k) {  // held directions are not damped
+      const int i = boundaries.nodes()[k];
+      const Vec3 whole = vec3(drag(i));
+      lost -= (whole - boundaries.projector(static_cast<int>(k)) * whole).dot(vec3(mean(i)));
     }
     damping += lost;
     if (stages.settling()) settled_away += lost * settle.damping() / alpha;

@@ -143,6 +143,46 @@ TEST(ContactClosest, FacesInLanesAreThoseOneByOne) {
   }
 }
 
+TEST(ContactClosest, SegmentsInLanesAreThoseOneByOne) {
+  for (const Isa isa : vector_widths()) {
+    long inside = 0;
+    for (int turn = 0; turn < 300; ++turn) {
+      NodeField x;
+      FacePack pack;
+      int corner[kLanes][3];
+      for (int l = 0; l < kLanes; ++l) {
+        for (int k = 0; k < 3; ++k) x.push_back(random_node(2));
+        pack.point[l] = 3 * l;
+        for (int k = 0; k < 2; ++k) corner[l][k] = 3 * l + 1 + k;
+        corner[l][2] = -1;
+        pack.corner[l] = corner[l];
+        if (l == 5) x[3 * l] = x[3 * l + 2] + Node(x[3 * l + 1][1] - x[3 * l + 2][1], x[3 * l + 2][0] - x[3 * l + 1][0], 0, 0);  // over an end
+        if (l == 6) x[3 * l + 2] = x[3 * l + 1];                                                                                 // no length
+      }
+      const std::vector<Share> shares = random_shares(static_cast<long>(x.size()));
+      closest_kernels_of(isa).segments(x.front().data(), &shares.front().inverse_mass, &pack, 1);
+      for (int l = 0; l < kLanes; ++l) {
+        const Closest c = closest_on_segment_facet(x[3 * l], x[3 * l + 1], x[3 * l + 2]);
+        ASSERT_EQ(pack.inside[l] == 1, c.feature == Closest::face) << "lane " << l << " of turn " << turn;
+        Closest found;
+        lie_on_segment(pack.beta[l], Node(pack.apart[0][l], pack.apart[1][l], pack.apart[2][l], 0), found);
+        EXPECT_NEAR(pack.squared[l], c.squared, 1e-12);
+        EXPECT_NEAR(found.squared, c.squared, 1e-12);
+        EXPECT_EQ(found.feature, c.feature);
+        EXPECT_EQ(found.which, c.which);
+        for (int k = 0; k < 2; ++k) EXPECT_NEAR(found.weight[k], c.weight[k], 1e-12);
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(found.apart[k], c.apart[k], 1e-12);
+        if (pack.inside[l] == 0) continue;
+        ++inside;
+        Link link;
+        link.link({3 * l, corner[l][0], corner[l][1]}, {1, -found.weight[0], -found.weight[1]});
+        expect_shares(shares, link, pack.shares, l);
+      }
+    }
+    EXPECT_GT(inside, 200);
+  }
+}
+
 TEST(ContactClosest, EdgesInLanesAreThoseOneByOne) {
   const double wedge = 1e-3;
   for (const Isa isa : vector_widths()) {

@@ -1,6 +1,7 @@
 // Cells that stand still are passed over, and nothing that anybody can see changes.
 #include <gtest/gtest.h>
 
+#include "forming_sim/element/stillness.h"
 #include "support/bodies.h"
 
 namespace forming_sim {
@@ -45,6 +46,25 @@ void same_bits(CellKind kind, int cells, int threads) {
   }
   EXPECT_GT(lazy.plastic_work(), 0);
   EXPECT_EQ(most, lazy.blocks());  // at the end nothing moves
+}
+
+// Every second node is held, and yet no cell rests: looks that gain nothing are as rare as where all move.
+TEST(Stillness, LooksThatGainNothingAreRare) {
+  Team team(1);
+  Stillness stillness;
+  NodeField x(100, Node::Zero());
+  int looks = 0;
+  for (int call = 0; call < 160; ++call) {
+    for (std::size_t n = 0; n < x.size(); n += 2) x[n][0] += 1;
+    stillness.look(x, team);
+    if (!stillness.any()) continue;
+    ++looks;
+    EXPECT_TRUE(stillness.moved(0));
+    EXPECT_FALSE(stillness.moved(1));
+    stillness.no_cell_rests();
+  }
+  EXPECT_GE(looks, 8);
+  EXPECT_LE(looks, 11);
 }
 
 TEST(Stillness, CrossedTriangles) { same_bits(CellKind::crossed, 16, 1); }

@@ -27,28 +27,21 @@ inline Node cross3(const Node& a, const Node& b) {
 inline Vector<double, 3> between(const Node& from, const Node& to) { return {{to[0] - from[0], to[1] - from[1], to[2] - from[2]}}; }
 
 /// Parameter in [0, 1] of the point of segment ab closest to p; 0 where a = b.
-inline double closest_on_segment(const Node& p, const Node& a, const Node& b) {
-  const Node d = b - a;
-  const double length2 = dot3(d, d);
-  if (!(length2 > 0)) return 0;
-  const double s = dot3(p - a, d) / length2;
-  return s <= kBorder ? 0 : s >= 1 - kBorder ? 1 : s;
-}
+inline double closest_on_segment(const Node& p, const Node& a, const Node& b) { return along_segment(between(a, p), between(a, b)); }
 
-/// In the plane.
-inline Closest closest_on_segment_facet(const Node& p, const Node& a, const Node& b) {
-  const double s = closest_on_segment(p, a, b);
-  Closest c;
+/// On a segment of the plane, as OverSegment has it.
+inline void lie_on_segment(double s, const Node& apart, Closest& c) {
   c.weight[0] = 1 - s;
   c.weight[1] = s;
   c.feature = s == 0 || s == 1 ? Closest::corner : Closest::face;
   c.which = s == 1 ? 1 : 0;
-  c.apart = p - a - s * (b - a);
-  if (c.feature == Closest::face) {
-    const Node u = b - a, n(-u[1], u[0], 0, 0);
-    c.apart = dot3(c.apart, n) / dot3(n, n) * n;
-  }
-  c.squared = dot3(c.apart, c.apart);
+  c.apart = apart;
+  c.squared = dot3(apart, apart);
+}
+inline Closest closest_on_segment_facet(const Node& p, const Node& a, const Node& b) {
+  const OverSegment<double> over = over_segment<double>({{p[0] - a[0], p[1] - a[1]}}, {{b[0] - a[0], b[1] - a[1]}});
+  Closest c;
+  lie_on_segment(over.s, Node(over.apart[0], over.apart[1], 0, 0), c);
   return c;
 }
 

@@ -10,11 +10,11 @@ struct alignas(64) SharesPack {
   double w[kLanes], area[kLanes], movers[kLanes], held[kLanes];  ///< area: the mean
 };
 
-/// Points and triangles.
+/// Points and triangles; in the plane, points and segments.
 struct alignas(64) FacePack {
   const int* corner[kLanes];                    ///< three nodes of each triangle, where the list has them
-  double beta[kLanes], gamma[kLanes];           ///< found: weights of the second and third corner
-  double side[kLanes], s[kLanes];               ///< found: where on the border, if it is there
+  double beta[kLanes], gamma[kLanes];           ///< found: weights of the second and third corner; of a segment the first alone
+  double side[kLanes], s[kLanes];               ///< found: where on the border, if it is there; of triangles
   double apart[3][kLanes], squared[kLanes];     ///< found: from the closest point to the point, m; its square
   double inside[kLanes];                        ///< found: 1 where the closest point is inside the triangle, 0 where it is on its border
   int point[kLanes];                            ///< node
@@ -34,6 +34,7 @@ struct alignas(64) EdgePack {
 struct ClosestKernels {
   /// places, shares: records of four doubles, one a node: x, and Share (pair.h).
   void (*faces)(const double* places, const double* shares, FacePack* packs, long count);
+  void (*segments)(const double* places, const double* shares, FacePack* packs, long count);
   /// wedge: slope up to which facets count as level.
   void (*edges)(const double* places, const double* shares, double wedge, EdgePack* packs, long count);
 };

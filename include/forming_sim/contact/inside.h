@@ -30,21 +30,43 @@ template <class T> OverFace<T> over_face(const Vector<T, 3>& r, const Vector<T, 
   return f;
 }
 
+/// Of a point and a segment: where on it, 0 ... 1, the closest point lies; 0 and 1 also where it is less than kBorder away,
+/// 0 where the segment has no length. r, u: from its start to the point and to its end.
+template <class T, int D> T along_segment(const Vector<T, D>& r, const Vector<T, D>& u) {
+  const T zero(0.0), one(1.0), length2 = dot(u, u), s = select(length2 > zero, dot(r, u) / length2, zero);
+  return select(s > T(kBorder), select(T(1 - kBorder) > s, s, one), zero);
+}
+
+/// Of a point and a segment in the plane.
+template <class T> struct OverSegment {
+  T s;                  ///< where on it
+  Vector<T, 2> apart;   ///< from there to the point, m
+  Truth<T> inside;      ///< not at an end
+};
+/// r, u: as above. Inside, `apart` is across the segment to the last bit.
+template <class T> OverSegment<T> over_segment(const Vector<T, 2>& r, const Vector<T, 2>& u) {
+  OverSegment<T> o;
+  o.s = along_segment(r, u);
+  o.inside = (o.s > T(0.0)) & (T(1.0) > o.s);
+  const Vector<T, 2> n = {{-u[1], u[0]}};
+  const T across = dot(r, n) / dot(n, n);
+  for (int i = 0; i < 2; ++i) o.apart[i] = select(o.inside, across * n[i], r[i] - o.s * u[i]);
+  return o;
+}
+
 /// Of a point and the border of a triangle: on the side between the corners i and j, i < j, the point x_i + s (x_j - x_i).
 template <class T> struct OnBorder {
   T side;              ///< k of the side between the corners k and (k+1) mod 3
-  T s;                 ///< 0 and 1 also where it is less than kBorder away; 0 where the side has no length
+  T s;                 ///< as along_segment() has it
   Vector<T, 3> apart;  ///< from there to the point, m
   T squared;           ///< distance squared, m^2
 };
 /// r, u, v: as above.
 template <class T> OnBorder<T> on_border(const Vector<T, 3>& r, const Vector<T, 3>& u, const Vector<T, 3>& v) {
-  const T zero(0.0), one(1.0);
   const auto on_side = [&](int k, const Vector<T, 3>& from, const Vector<T, 3>& d) {
-    const T length2 = dot(d, d), s = select(length2 > zero, dot(from, d) / length2, zero);
     OnBorder<T> o;
     o.side = T(k);
-    o.s = select(s > T(kBorder), select(T(1 - kBorder) > s, s, one), zero);
+    o.s = along_segment(from, d);
     o.apart = from - o.s * d;
     o.squared = dot(o.apart, o.apart);
     return o;

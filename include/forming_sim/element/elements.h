@@ -125,7 +125,8 @@ class Elements {
   /// f = sum of the slots of each node.
   void sum_slots(NodeField& f) const;
   /// Those of the tiles whose nodes moved, or whose memory the last evaluation changed.
-  void forces_of_moved(Group& g, const NodalView& view);
+  /// Returns whether some tile has no node that moves.
+  bool forces_of_moved(Group& g, const NodalView& view);
   long packs_of_a_block(const Group& group) const;
   long blocks_of_a_thread(const Group& group) const;
   long tiles_of_a_thread(const Group& group) const;

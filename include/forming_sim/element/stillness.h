@@ -15,12 +15,14 @@ namespace forming_sim {
 class Stillness {
  public:
   /// To be called before every evaluation of the forces at x. While nearly all
-  /// nodes move it compares in one of sixteen calls only.
+  /// nodes move, or those that do not let no cell rest, it compares in one of sixteen calls only.
   void look(const NodeField& x, Team& team);
   /// Enough nodes stand still for a look at the cells to pay.
   bool any() const { return any_; }
   /// Node n has moved since the last evaluation; only where any().
   bool moved(int n) const { return moved_[n] != 0; }
+  /// Every cell has a node that moves.
+  void no_cell_rests() { seen_last_ = false; }
   /// Nothing is known of the last evaluation (the memory was read from a file).
   void forget();
 

@@ -68,7 +68,7 @@ class Simulation {
   /// The ledger at the half step before time(), where every term of it is known to
   /// second order; evaluated when asked, at the cost of about one pass over the elements.
   const Energies& energies() const;
-  double balance_error() const;      ///< |residual| now over the largest work + initial so far
+  double balance_error() const;      ///< |residual| now over the largest work + initial so far, and no less than the energy of a strain of 1e-12
   ContactStatus contact_status() const;
   const std::vector<ToolStatus>& tools() const;
   const std::vector<std::string>& warnings() const;  ///< "tool die was backed off by 1.2e-6 m"
