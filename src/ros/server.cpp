@@ -68,6 +68,8 @@ FormingServer::FormingServer(const ros::NodeHandle& node)
   publisher_.publish(idle);
   worker_ = std::thread([this] { work(); });
   server_.start();
+  results_ = node_.advertise<SimulateFormingActionResult>("simulate_forming/result", 1);
+  goals_ = node_.subscribe<SimulateFormingActionGoal>("simulate_forming/goal", 1, boost::function<void(const SimulateFormingActionGoalConstPtr&)>([](const SimulateFormingActionGoalConstPtr&) {}));
 }
 
 FormingServer::~FormingServer() { stop(); }
@@ -80,6 +82,13 @@ void FormingServer::stop() {
   }
   changed_.notify_all();
   if (worker_.joinable()) worker_.join();
+}
+
+// A client of actionlib takes itself for connected as soon as it has opened its way to the results, which may be before this
+// node knows of it: an answer that comes at once would be lost, and the client wait for ever.
+void FormingServer::wait_for_listeners() const {
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(2);
+  while (results_.getNumSubscribers() < goals_.getNumPublishers() && ros::WallTime::now() < end && ros::ok()) ros::WallDuration(0.002).sleep();
 }
 
 void FormingServer::reject(Goal& goal, const SimulateFormingResult& result) {
@@ -103,6 +112,7 @@ void FormingServer::on_goal(Goal goal) {
     }
   }
   const auto result = result_of(Code::busy, "another run is under way; send the goal again when it has ended, or cancel it");
+  wait_for_listeners();
   reject(goal, result);
 }
 
@@ -196,6 +206,7 @@ SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
 }
 
 void FormingServer::finish(Goal& goal, const SimulateFormingResult& result, bool accepted) {
+  wait_for_listeners();
   ROS_INFO("%s: %s", goal.getGoal()->scene.name.c_str(), result.message.c_str());
   if (result.code == ResultCode::CANCELLED) {
     goal.setCanceled(result, result.message);

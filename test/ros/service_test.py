@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 
 import actionlib
@@ -44,6 +45,11 @@ class Followed:
 
     def wait_running(self):
         assert self.first.wait(30), 'no feedback: ' + str(self.client.get_goal_status_text())
+        # Feedback may overtake the status; rospy's client gives a goal up as lost when it cancels it before that.
+        end = time.monotonic() + 30
+        while self.client.get_state() == GoalStatus.PENDING and time.monotonic() < end:
+            time.sleep(0.005)
+        assert self.client.get_state() == GoalStatus.ACTIVE, self.client.get_goal_status_text()
 
     def result(self):
         assert self.client.wait_for_result(LIMIT), 'no result'

@@ -47,6 +47,8 @@ class FormingServer {
   SimulateFormingResult run(Goal& goal, bool& accepted);
   static void reject(Goal& goal, const SimulateFormingResult& result);
   void finish(Goal& goal, const SimulateFormingResult& result, bool accepted);
+  /// Until as many listen to results as send goals, at most 2 s.
+  void wait_for_listeners() const;
 
   ros::NodeHandle node_;
   int threads_ = 0;
@@ -61,6 +63,8 @@ class FormingServer {
 
   std::atomic<bool> cancel_{false};
   Server server_;
+  ros::Publisher results_;           ///< the topics of server_, to see who is connected
+  ros::Subscriber goals_;
   ros::ServiceServer validate_, estimate_;
   std::thread worker_;
 };
