@@ -9,6 +9,7 @@
 #include "forming_sim/config/fault.h"
 #include "forming_sim/element/hourglass_strain.h"
 #include "support/dense_limit.h"
+#include "support/kernels.h"
 #include "support/moved.h"
 
 namespace forming_sim {
@@ -255,6 +256,31 @@ TEST(CornerGuard, APressedCornerOfAYieldingCellIsHeld) {
     EXPECT_GT(held, 10 * yielding) << shape_of(kind).name;
     EXPECT_GT(resistance(0.99), 10 * held) << shape_of(kind).name;
   }
+}
+
+// A cell of a body pressed, by the kernels of every vector width; of a ring too.
+TEST(CornerGuard, WidthsAgree) {
+  for (CellKind kind : {CellKind::quad1, CellKind::hex1})
+    for (bool ring : {false, true}) {
+      if (ring && kind == CellKind::hex1) continue;
+      Mesh mesh = block_of(kind, 3);
+      for (Vec3& X : mesh.nodes) X.x() += 0.5;
+      const BodyModel body = body_of(mesh, rubber(1e9));
+      const NodeField X = positions_of(mesh), v(X.size(), Node::Zero());
+      NodeField x = X;
+      const std::vector<int>& cell = mesh.cells[0].nodes;  // the first cell: its corner next to the middle of the body pressed in
+      const int a = kind == CellKind::quad1 ? 2 : 6;
+      x[cell[a]] += (a == 2 ? 0.45 : 0.29) * (X[cell[0]] - X[cell[a]]);
+      ElementOptions options;
+      options.axisymmetric = ring;
+      expect_widths_agree([&](const char* name) {
+        Elements elements({body}, mesh.dimension, X, options, 1, name);
+        NodeField f(X.size(), Node::Zero());
+        elements.forces(x, v, 0, 0, f);
+        EXPECT_TRUE(elements.corners_pressed());
+        return f;
+      });
+    }
 }
 
 TEST(CornerGuard, ACornerInsideOutIsNamed) {
