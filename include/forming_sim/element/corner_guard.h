@@ -7,18 +7,21 @@
 //   q_a = j_a / (c_a J),   j_a = det(e_i), e_i the cell's edges that meet there,  J = det(x_m),
 // its share in the cell's area or volume over what that was at the start (c_a = j_a/J then), resists by
 //   U = theta K V0 1/N sum_a q_0/4 u_a^4/(1 - u_a),   u_a = 1 - q_a/q_0, nothing where q_a >= q_0,
-// N the number of corners: without bound where q_a comes to 0. Where a cell is stretched, sheared or compressed as a whole all q are 1. With
+// N the number of corners: without bound where q_a comes to 0. Where a cell is stretched, sheared or compressed as a
+// whole all q are 1. With
 //   dq_a = 1/(c_a J) sum_i dj_a/de_i . de_i - q_a sum_m x^m . dx_m
 // the forces are its gradient. J of a ring is that of its section.
 //
-// In its time step a cell takes the q that will be after a step (src/element/corner_block.h). With r = u^3 (4 - 3u)/(4 (1 - u)^2) the resistance
-// of a corner is theta K r; at half of q_0 it is .03 K, what some eight times the yield stress of a metal is.
+// The resistance of a corner is theta K r, r = u^3 (4 - 3u)/(4 (1 - u)^2): at half of q_0 it is .03 K, what some eight
+// times the yield stress of a metal is. q_0 leaves free what cells do in the tables of docs/speed_and_error.md.
 //
 // Of the stiffness, in the metric of the cell's own masses rho V0 share_b,
 //   omega^2 <= theta K/(N rho) sum_a [ r'/q_0 |dq|^2 + r B ],  B >= the largest eigenvalue of -d2q,
-// r' = dr/du = u^2 (6 - 8u + 3u^2)/(2 (1 - u)^3), |dq|^2 = sum_b |dq/dx_b|^2/share_b. With L = sum_b g_b (x) dx_b, g_b = sum_m w_mb x^m, d2J/J is (tr L)^2 - tr L^2, not
-// larger than 2 |L|^2 <= 2 t, t = sum_b |g_b|^2/share_b, and with the smallest share
+//   r' = dr/du = u^2 (6 - 8u + 3u^2)/(2 (1 - u)^3),  |dq|^2 = sum_b |dq/dx_b|^2/share_b.
+// With L = sum_b g_b (x) dx_b, g_b = sum_m w_mb x^m, d2J/J is (tr L)^2 - tr L^2, not larger than 2 |L|^2 <= 2 t,
+// t = sum_b |g_b|^2/share_b, and with the smallest share
 //   B = |d2j|/(c_a J share) + 2 |q| t + 2 |dq| sqrt(t),   |d2j| = sqrt 3 in a section, 4 sum_i |e_i| in space.
+// The bound of a step takes the u that will be at its end (src/element/corner_block.h).
 //
 // `near` of one_point.h: up to that square of the strains that vary across the cell no q can be below q_0, and nobody
 // asks for it (src/element/corner_reach.h).
