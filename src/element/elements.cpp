@@ -220,6 +220,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
     g.plastic_work = g.plastic.data();
     g.viscous_work = g.viscous.data();
     g.upright = g.upright_storage.get();
+    g.pressed = g.pressed_storage.get();
   }
   if (options.shares) keep_shares(x);
 }
@@ -382,6 +383,7 @@ void Elements::report_inversion(const NodeField& x) const {
          << "; a finer mesh there, larger tool radii or slower tools avoid it";
     throw Error(Code::mesh_error, what.str());
   }
+  report_corner_inversion(x);
   report_edge_inversion(x);
   throw Error(Code::mesh_error, "a nodal position is not a number");
 }

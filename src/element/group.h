@@ -18,7 +18,7 @@ struct Elements::Group : CellGroup {
   std::vector<int> constant_sets;
   std::vector<long> tile_start;  ///< first slot of each tile, and behind the last
   std::vector<double> plastic, viscous;
-  std::unique_ptr<bool[]> upright_storage;
+  std::unique_ptr<bool[]> upright_storage, pressed_storage;
   enum Rest : char { changed, kept, passed_over };  ///< a tile's memory by the last evaluation, or none was needed
   std::vector<Rest> rest;  ///< per tile; empty where all are evaluated
   CurveTables curves;
@@ -42,6 +42,7 @@ struct Elements::Group : CellGroup {
     viscous.assign(blocks, 0.0);
     upright_storage = std::make_unique<bool[]>(blocks);
     std::fill_n(upright_storage.get(), blocks, true);
+    pressed_storage = std::make_unique<bool[]>(blocks);
   }
   /// The memory of a point (block * cell_simplices + simplex, and lane) free of stress. edges: its edge vectors as columns.
   void start(std::size_t point, int lane, const Eigen::Matrix3d& edges, double V0) {

@@ -185,6 +185,7 @@ template <class Cell>
       const Variation<Cell> variation(g, constants, e, x);
       if constexpr (Cell::ring) bound.set(e, x, memory, initial_volume(g, memory), constants, variation.hourglass);
       else bound.set(e, memory, initial_volume(g, memory), constants, variation.hourglass);
+      if (variation.hourglass.far()) bound.omega2 += corner_rate<Cell>(g, view, block, bound.omega2);
     } else {
       Pack at_edges;
       if (g.edge_omega2) at_edges = Pack::load(g.edge_omega2 + (block * Cell::simplices + s) * kLanes);
@@ -232,7 +233,10 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
     double* memory = memory_of<Cell>(g, block, s);
     const Pack V0 = initial_volume(g, memory), law_J = Cell::drawn ? e.volume / V0 : J[s];
     stored += V0 * point_energy(g.solid, e, law_J, memory);
-    if constexpr (Cell::one_point) stored += V0 * Variation<Cell>(g, constants, e, x).hourglass.energy(g.solid, hourglass_of<Cell>(g, block));
+    if constexpr (Cell::one_point) {
+      stored += V0 * Variation<Cell>(g, constants, e, x).hourglass.energy(g.solid, hourglass_of<Cell>(g, block));
+      stored += Pack(kCornerGuard * g.solid.K) * V0 * CornerGuard<Pack, D, Cell::ring>(constants, x, e.x, e.up).energy();
+    }
     if (classical) stored += V[s] * p[s] * p[s] * Pack(0.5 / g.solid.K);
     else stored += Pack(0.5 * g.solid.K * own) * V0 * (J[s] - Pack(1.0)) * (J[s] - Pack(1.0));
     if (g.guard > 0) stored += Pack(g.guard * g.solid.K) * V0 * guard_energy(J[s], free_of_guard<Cell>(constants, s));

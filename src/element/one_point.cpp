@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "element/corner_reach.h"
+#include "forming_sim/element/corner_guard.h"
 #include "forming_sim/element/hourglass_strain.h"
 
 namespace forming_sim {
@@ -48,6 +50,7 @@ template <int D, bool Ring = false> class Start {
     const Square inertia = w_ * share.cwiseInverse().asDiagonal() * w_.transpose();
     put_pairs(Cell::inertia, inertia);
     bound_step(h_ - start * w_, share, inertia, solid);
+    put_corners();
   }
 
  private:
@@ -153,7 +156,6 @@ template <int D, bool Ring = false> class Start {
       radius += share * X_(0, a);
       for (int i = 0; i < 2; ++i) slope[i] += 0.25 * kCornerSides[a][i] * X_(0, a);
       result.constants[Cell::hoop + a] = share;
-      result.constants[Cell::mass + a] = result.share[a];
     }
     for (int i = 0; i < 2; ++i) result.constants[Cell::hoop_start + i] = slope[i] / radius;
     result.edges(2, 2) = radius;
@@ -190,6 +192,23 @@ template <int D, bool Ring = false> class Start {
     const Eigen::Matrix<double, D, M> cosines =
         root.inverse() * (w_ * inverse * gamma.transpose()) * L.inverse().transpose();
     constants[Cell::slant] = cosines.norm();
+  }
+
+  /// Of the guard of corners. N j_a over the sum of all is what a corner has of its even share.
+  void put_corners() {
+    double j[N], sum = 0;
+    for (int a = 0; a < N; ++a) {
+      Square e;
+      for (int i = 0; i < D; ++i) e.col(i) = -kCornerSides[a][i] * (X_.col(kNextCorner[a][i]) - X_.col(a));
+      sum += j[a] = e.determinant();
+    }
+    double* constants = result.constants.data();
+    const Square X_m = c_ * E_;
+    for (int a = 0; a < N; ++a) {
+      constants[Cell::share + a] = result.share[a];
+      constants[Cell::corner + a] = N * j[a] < kLeastCorner * sum ? 0 : X_m.determinant() / j[a];
+    }
+    constants[Cell::near] = corner_reach<D, N, M>(X_, w_, h_, X_m, fibres(), constants, constants + Cell::corner);
   }
 
   template <class Vector> void put(int at, const Vector& values) {

@@ -8,6 +8,7 @@
 // and that on corner a sum_m w_ma M . x^m - sum_alpha h_alpha,a r_alpha.
 #include "element/bulk_viscosity.h"
 #include "element/classical_block.h"
+#include "element/corner_block.h"
 #include "forming_sim/element/hourglass.h"
 
 namespace forming_sim {
@@ -101,6 +102,8 @@ template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_block
     if constexpr (Cell::ring) f[0] -= weight(constants, OnePoint<D, true>::hoop + a) * hoop + hourglass.hoop_force(V0, a);
     add_vectors(f, slots + a * kLanes, g.sums);
   });
+  g.pressed[block] = false;
+  if (hourglass.far()) guard_corners<Cell>(g, view, block);
 }
 
 }  // namespace FORMING_SIM_ISA

@@ -20,7 +20,7 @@ constexpr double kRise = 1.01;
 }  // namespace
 
 void Simulation::Impl::choose_dt() {
-  if (departure.sudden()) control.hurry();
+  if (departure.sudden() || elements.corners_pressed()) control.hurry();
   if (control.due()) find_stable_step();
   const TimeStepConfig& config = plan.time_step;
   dt = config.safety * control.stable_dt;

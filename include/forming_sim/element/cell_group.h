@@ -53,6 +53,7 @@ struct CellGroup {
   double* plastic_work = nullptr;  ///< [block] dissipated so far, J
   double* viscous_work = nullptr;  ///< [block] dissipated so far by bulk viscosity, J
   bool* upright = nullptr;         ///< [block] V/V0 > 0 everywhere in the last force pass
+  bool* pressed = nullptr;         ///< one-point cells: [block] a corner is so far in the range of its guard, likewise, that its stiffness grows fast (element/corner_guard.h)
   bool at_edges = false;           ///< the cells are points of element/edge_points.h
   const double* node_share = nullptr;  ///< edge points: [block][cell node][lane] V_e's share of each node, for the time step
   const double* edge_omega2 = nullptr; ///< simplices whose law is at their edges: [block][simplex][lane] mean of the edges' bounds, likewise

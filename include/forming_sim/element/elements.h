@@ -71,6 +71,8 @@ class Elements {
   void forces(const NodeField& x, const NodeField& v, double last_dt, double dt, NodeField& f);
   /// Stable time step at x, without a safety factor: dt and the simplex' cell.
   void stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const;
+  /// In the last force pass a corner of a one-point cell was so far in the range of its guard that every step asks for its limit.
+  bool corners_pressed() const;
 
   // element/step_bounds.h
   void find_rates(const NodeField& x, const NodeField& v, CellRates& rates) const;
@@ -105,6 +107,8 @@ class Elements {
   Location locate(int element) const;
   double volume_ratio(const NodeField& x, int element) const;
   [[noreturn]] void report_inversion(const NodeField& x) const;
+  /// Throws where a corner of a one-point cell is inside out.
+  void report_corner_inversion(const NodeField& x) const;
   /// Throws where a point at an edge is inside out although the simplices around it are not.
   void report_edge_inversion(const NodeField& x) const;
   void check_axis(const NodeField& x) const;

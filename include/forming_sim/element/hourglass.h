@@ -71,7 +71,10 @@ template <class T, int D, bool Ring = false> class Hourglass {
       }
     });
     if constexpr (Ring) hoop_ = HoopStrain<T>(constants_, edges_, x_, strain_);
+    far_ = any(strain_.square() > loaded(Cell::near));
   }
+  /// The strains are so large that a corner may be in the range of its guard (element/corner_guard.h).
+  bool far() const { return far_; }
 
   /// Stresses of a body without plasticity.
   void set_elastic() {
@@ -143,6 +146,12 @@ template <class T, int D, bool Ring = false> class Hourglass {
 
  private:
   using Strain = HourglassStrain<T, D>;
+
+  T loaded(int item) const {
+    T value;
+    load(constants_, item, value);
+    return value;
+  }
 
   static Plane<T> load_plane(const double* memory, int d) {
     Plane<T> ep;
@@ -376,6 +385,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
   std::conditional_t<Ring, HoopStrain<T>, int> hoop_;
   Fibres<T, D> fibres_;
   Strain strain_, stress_;
+  bool far_;
 };
 
 /// One step of a law of material/von_mises.h at the centre and of the variation about it. memory, hourglass_memory: of the cell, the latter

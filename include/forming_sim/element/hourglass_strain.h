@@ -81,6 +81,21 @@ template <class T, int D> struct HourglassStrain {
       });
     }
   }
+  /// The sum of their squares, of a ring without the hoops.
+  T square() const {
+    if constexpr (D == 2) {
+      return plane[0].a * plane[0].a + plane[1].a * plane[1].a;
+    } else {
+      T sum(0), second(0);
+      repeat<3>([&](auto d) {
+        sum += plane[d].a * plane[d].a;
+        second += warp[d] * warp[d];
+        sum += plane[d].b * plane[d].b;
+        second += plane[d].shear * plane[d].shear;
+      });
+      return sum + second;
+    }
+  }
   /// With stresses in place of strains, those of the last mode over 3: 3 dU/dz per volume.
   void gradient(const Fibres<T, D>& f, const double* constants, Vector<T, D>* g) const {
     if constexpr (D == 2) {

@@ -39,10 +39,12 @@ template <int D, bool Ring = false> struct OnePoint {
   static constexpr int stiffness = inertia + pairs;     ///< [m] Pa, bounds the modes' stiffness: element/one_point_step.h
   static constexpr int looseness = stiffness + D;       ///< 1 / smallest eigenvalue of the modes' inverse inertia
   static constexpr int slant = looseness + 1;           ///< cosine between the modes and the uniform shapes, 0 for a parallelepiped
-  static constexpr int hoop = slant + 1;                ///< ring: [node] o_a
+  static constexpr int share = slant + 1;               ///< [node] in the mass
+  static constexpr int near = share + nodes;            ///< the square of the strains that vary up to which no corner is near to its guard: element/corner_guard.h
+  static constexpr int corner = near + 1;               ///< [node] 1/c_a of the guard, 0 where a corner has none
+  static constexpr int hoop = corner + nodes;           ///< ring: [node] o_a
   static constexpr int hoop_start = hoop + 4;           ///< ring: [i] R_i/X_3
-  static constexpr int mass = hoop_start + 2;           ///< ring: [node] share in the mass
-  static constexpr int items = Ring ? mass + 4 : slant + 1;
+  static constexpr int items = Ring ? hoop_start + 2 : hoop;
 };
 
 /// Place of (i, j) among the pairs.

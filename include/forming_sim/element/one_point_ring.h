@@ -46,11 +46,13 @@ template <class T> struct HoopStrain {
 ///   2 mu dev : dev of the mean strains (four of them: see ring_step.h, with the corners' own masses),
 ///   K J^2 (grad V/V)(grad V/V),
 ///   1/3 C of the two plane strain tensors that vary, C the moduli of plane stress, of norm E/(1-nu^2) (1+nu),
-/// and the largest eigenvalue of a sum is not larger than the sum of theirs.
+/// and the largest eigenvalue of a sum is not larger than the sum of theirs. The guard of the corners adds what element/corner_guard.h says.
 template <class T> class OnePointRingBound {
   using Cell = OnePoint<2, true>;
 
  public:
+  T omega2;
+
   OnePointRingBound(const CellGroup& g, const Vector<T, 2>*) : g_(g) {}
 
   template <class Hourglass>
@@ -63,7 +65,7 @@ template <class T> class OnePointRingBound {
     sum_ = T(0);
     for (int a = 0; a < 4; ++a) {
       T mass, w[2];
-      load(constants, Cell::mass + a, mass);
+      load(constants, Cell::share + a, mass);
       const T axial = T(1) / mass, radial = select(x[a][0] > T(0), axial, T(0));
       for (int m = 0; m < 2; ++m) load(constants, Cell::weights + 2 * a + m, w[m]);
       const T gr = w[0] * e.up[0][0] + w[1] * e.up[1][0], gz = w[0] * e.up[0][1] + w[1] * e.up[1][1];
@@ -94,16 +96,16 @@ template <class T> class OnePointRingBound {
     const T half = T(0.5) * (own[0] - own[1]), varied = T(0.5) * (own[0] + own[1]) + sqrt(half * half + cross2);
     const T tangent = point_tangent(g_.solid, e, J, memory);
     const T volumetric = T(g_.solid.K) * (g_.solid.law == Law::classical ? T(1) : J * J) * sum_;
-    omega2_ = (T(2 * g_.solid.mu) * tangent * largest_eigenvalue(M) + volumetric + T(moduli.plane / 3) * varied) / rho;
+    omega2 = (T(2 * g_.solid.mu) * tangent * largest_eigenvalue(M) + volumetric + T(moduli.plane / 3) * varied) / rho;
     sum_ = sum_ * e.volume * e.volume / (rho * V0);
     V_ = e.volume;
     extent_ = extent(e);
   }
-  StepRates<T> rates(const T& rate) const { return {omega2_, viscous_damping<T, 2>(g_, sum_, V_, extent_, rate)}; }
+  StepRates<T> rates(const T& rate) const { return {omega2, viscous_damping<T, 2>(g_, sum_, V_, extent_, rate)}; }
 
  private:
   const CellGroup& g_;
-  T omega2_, sum_, V_, extent_;
+  T sum_, V_, extent_;
 };
 
 }  // namespace forming_sim

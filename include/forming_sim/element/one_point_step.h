@@ -12,6 +12,7 @@
 // Both parts are sums of squares of linear forms. Those of one have at most the cosine
 // c <= slant + t with those of the other in that metric, and so
 //   omega^2 <= (omega_1^2 + omega_2^2)/2 + sqrt((omega_1^2 - omega_2^2)^2/4 + c^2 omega_1^2 omega_2^2).
+// The guard of the corners adds what element/corner_guard.h says.
 #include "forming_sim/element/hourglass.h"
 #include "forming_sim/element/time_step.h"
 
@@ -21,6 +22,8 @@ template <class T, int D> class OnePointBound {
   using Cell = OnePoint<D>;
 
  public:
+  T omega2;
+
   OnePointBound(const CellGroup& g, const Vector<T, D>*) : g_(g) {}
 
   void set(const Edges<T, D>& e, const double* memory, const T& V0, const double* constants, const Hourglass<T, D>& hourglass) {
@@ -54,12 +57,12 @@ template <class T, int D> class OnePointBound {
     const T modes = largest(H) / rho * (T(1) + t) * (T(1) + t);
     load(constants, Cell::slant, item);
     const T c = smaller(item + t, T(1)), half = T(0.5) * (uniform - modes);
-    omega2_ = T(0.5) * (uniform + modes) + sqrt(half * half + c * c * uniform * modes);
+    omega2 = T(0.5) * (uniform + modes) + sqrt(half * half + c * c * uniform * modes);
     V_ = e.volume;
   }
 
   /// rate: |dV/dt|/V, for the quadratic viscosity.
-  StepRates<T> rates(const T& rate) const { return {omega2_, viscous_damping<T, D>(g_, sum_, V_, V_, rate)}; }
+  StepRates<T> rates(const T& rate) const { return {omega2, viscous_damping<T, D>(g_, sum_, V_, V_, rate)}; }
 
  private:
   static T largest(const Symmetric<T, D>& H) {
@@ -72,7 +75,7 @@ template <class T, int D> class OnePointBound {
   }
 
   const CellGroup& g_;
-  T omega2_, sum_, V_;
+  T sum_, V_;
 };
 
 }  // namespace forming_sim
