@@ -1,6 +1,8 @@
 #pragma once
 // A block of kLanes cells of a kind as the kernels see it: its nodes gathered, its simplices' edges and
 // volumes, its memory. For files that are compiled once per vector width only.
+#include <cstdint>
+
 #include "forming_sim/element/cell_group.h"
 #include "forming_sim/element/cell_types.h"
 #include "forming_sim/element/crossed.h"
@@ -142,6 +144,12 @@ template <class Cell> void balance_apex(const Pack& hoops, Vector<Pack, kD<Cell>
 
 template <class Cell> double* memory_of(const CellGroup& g, long block, int s) {
   return g.memory + (block * Cell::simplices + s) * g.items * kLanes;
+}
+/// Fetches the memory of the simplex four behind this one: what the processor fetches ahead by itself ends with a page, which
+/// a few simplices fill. Behind the last there is nothing to fetch, which does no harm.
+inline void fetch_ahead(const CellGroup& g, const double* memory) {
+  const std::uintptr_t ahead = reinterpret_cast<std::uintptr_t>(memory) + 4 * g.items * sizeof(Lane);
+  for (int i = 0; i < g.items; ++i) __builtin_prefetch(reinterpret_cast<const void*>(ahead + i * sizeof(Lane)), 1);
 }
 /// Lanes of a block that are not copies.
 inline int lanes_in_use(const CellGroup& g, long block) { return block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes; }

@@ -98,6 +98,7 @@ template <class Cell, Made made>
       if (classical) find_reciprocal(edges[i]);
       else find_areas(edges[i]);
       memory[i] = memory_of<Cell>(g, block, first + i);
+      fetch_ahead(g, memory[i]);
       part_of(ratio, i) = Cell::drawn ? edges[i].volume / initial_volume(g, memory[i]) : J[first + i];
       upright = upright & (J[first + i] > Pack(0.0)) & (part_of(ratio, i) > Pack(0.0));
     });
