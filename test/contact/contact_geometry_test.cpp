@@ -97,20 +97,33 @@ double slope_into_slab(const Node& a, const Node& b, const Node& c, const Node& 
   return away.normalized().dot(inward.normalized());
 }
 
+/// A point and a facet at random in every lane, with nodes of their own: the point first.
+struct Candidates {
+  explicit Candidates(int dimension) {
+    const int nodes = dimension + 1;
+    for (int l = 0; l < kLanes; ++l) {
+      for (int k = 0; k < nodes; ++k) x.push_back(random_node(dimension));
+      pack.point[l] = nodes * l;
+      for (int k = 0; k < dimension; ++k) corner[l][k] = nodes * l + 1 + k;
+      pack.corner[l] = corner[l];
+    }
+  }
+  Candidates(const Candidates&) = delete;
+  NodeField x;
+  FacePack pack;
+  int corner[kLanes][3] = {};
+};
+
 }  // namespace
 
 TEST(ContactClosest, FacesInLanesAreThoseOneByOne) {
   for (const Isa isa : vector_widths()) {
     long inside = 0;
     for (int turn = 0; turn < 300; ++turn) {
-      NodeField x;
-      FacePack pack;
-      int corner[kLanes][3];
+      Candidates candidates(3);
+      NodeField& x = candidates.x;
+      FacePack& pack = candidates.pack;
       for (int l = 0; l < kLanes; ++l) {
-        for (int k = 0; k < 4; ++k) x.push_back(random_node(3));
-        pack.point[l] = 4 * l;
-        for (int k = 0; k < 3; ++k) corner[l][k] = 4 * l + 1 + k;
-        pack.corner[l] = corner[l];
         if (l == 5) x[4 * l] = .5 * (x[4 * l + 1] + x[4 * l + 2]) + Node((x[4 * l + 2] - x[4 * l + 1]).cross3(x[4 * l + 3] - x[4 * l + 1]));  // over an edge
         if (l == 6) x[4 * l + 3] = 2 * x[4 * l + 2] - x[4 * l + 1];                                                                          // no area
       }
@@ -135,7 +148,7 @@ TEST(ContactClosest, FacesInLanesAreThoseOneByOne) {
         if (pack.inside[l] == 0) continue;
         ++inside;
         Link link;
-        link.link({4 * l, corner[l][0], corner[l][1], corner[l][2]}, {1, -found.weight[0], -found.weight[1], -found.weight[2]});
+        link.link({4 * l, 4 * l + 1, 4 * l + 2, 4 * l + 3}, {1, -found.weight[0], -found.weight[1], -found.weight[2]});
         expect_shares(shares, link, pack.shares, l);
       }
     }
@@ -147,15 +160,10 @@ TEST(ContactClosest, SegmentsInLanesAreThoseOneByOne) {
   for (const Isa isa : vector_widths()) {
     long inside = 0;
     for (int turn = 0; turn < 300; ++turn) {
-      NodeField x;
-      FacePack pack;
-      int corner[kLanes][3];
+      Candidates candidates(2);
+      NodeField& x = candidates.x;
+      FacePack& pack = candidates.pack;
       for (int l = 0; l < kLanes; ++l) {
-        for (int k = 0; k < 3; ++k) x.push_back(random_node(2));
-        pack.point[l] = 3 * l;
-        for (int k = 0; k < 2; ++k) corner[l][k] = 3 * l + 1 + k;
-        corner[l][2] = -1;
-        pack.corner[l] = corner[l];
         if (l == 5) x[3 * l] = x[3 * l + 2] + Node(x[3 * l + 1][1] - x[3 * l + 2][1], x[3 * l + 2][0] - x[3 * l + 1][0], 0, 0);  // over an end
         if (l == 6) x[3 * l + 2] = x[3 * l + 1];                                                                                 // no length
       }
@@ -175,7 +183,7 @@ TEST(ContactClosest, SegmentsInLanesAreThoseOneByOne) {
         if (pack.inside[l] == 0) continue;
         ++inside;
         Link link;
-        link.link({3 * l, corner[l][0], corner[l][1]}, {1, -found.weight[0], -found.weight[1]});
+        link.link({3 * l, 3 * l + 1, 3 * l + 2}, {1, -found.weight[0], -found.weight[1]});
         expect_shares(shares, link, pack.shares, l);
       }
     }
