@@ -256,3 +256,30 @@ TEST(Contact2D, APlaneThatTurnsFastLetsNothingThrough) {
   EXPECT_GT(world.last.active, 5);
   EXPECT_NEAR(world.closure(), 0, 1e-9 * world.exchanged);
 }
+
+// A lid that is at once below the ground, however short the step: none is found, and those that the steps before were
+// halved by count too.
+TEST(Contact2d, HalvingsOfStepsInARowCountTogether) {
+  for (const auto& [halved_before, tries] : {std::pair{0, 32}, std::pair{25, 7}}) {  // 30 or 5 halvings; the first step is tried twice
+    World world;
+    world.config.max_halvings = 30;
+    world.add_strip(Vec3(0, .05, 0), 2, 1, .1, .1, 2700, 0);
+    world.add_plane("ground", Vec3::Zero(), Vec3::UnitY(), 0, [](double) { return Vec3(Vec3::Zero()); });
+    world.add_plane("lid", Vec3(0, .3, 0), -Vec3::UnitY(), 0, [](double t) { return Vec3(0, t > 0 ? -.4 : 0, 0); });
+    Contact contact = world.make();
+    const double dt = 1e-6;
+    int tried = 0;
+    const auto predict = [&](double, NodeField& v_star) { v_star = world.v; };
+    const auto tools = [&](double h) {
+      ++tried;
+      return world.motion(0, h);
+    };
+    try {
+      contact.advance(0, dt, world.x, world.v, predict, tools, std::ldexp(dt, halved_before));
+      ADD_FAILURE() << "a step was found";
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), Code::contact_error) << e.what();
+    }
+    EXPECT_EQ(tried, tries);
+  }
+}
