@@ -14,6 +14,13 @@
 
 namespace forming_sim {
 
+/// The edges of a cell that meet at corner a, as columns. x: its corners.
+template <int D, int N> Eigen::Matrix<double, D, D> corner_edges(const Eigen::Matrix<double, D, N>& x, int a) {
+  Eigen::Matrix<double, D, D> edges;
+  for (int i = 0; i < D; ++i) edges.col(i) = -kCornerSides[a][i] * (x.col(kNextCorner[a][i]) - x.col(a));
+  return edges;
+}
+
 /// X, w, h: positions, weights and modes of the corners as columns; X_m: the edges of the start; fibres: those that take z.
 template <int D, int N, int M>
 double corner_reach(const Eigen::Matrix<double, D, N>& X, const Eigen::Matrix<double, D, N>& w, const Eigen::Matrix<double, M, N>& h,
@@ -45,13 +52,9 @@ double corner_reach(const Eigen::Matrix<double, D, N>& X, const Eigen::Matrix<do
   double reach = 1e300;
   for (int a = 0; a < N; ++a) {
     if (!(corner[a] > 0)) continue;
-    Square edges;
+    const Square edges = corner_edges<D, N>(X, a);
     Eigen::Matrix<double, D, M> moved;  // of each edge by the modes
-    for (int i = 0; i < D; ++i) {
-      const int next = kNextCorner[a][i];
-      edges.col(i) = -kCornerSides[a][i] * (X.col(next) - X.col(a));
-      moved.row(i) = -kCornerSides[a][i] * (shapes.row(next) - shapes.row(a));
-    }
+    for (int i = 0; i < D; ++i) moved.row(i) = -kCornerSides[a][i] * (shapes.row(kNextCorner[a][i]) - shapes.row(a));
     const Eigen::Matrix<double, D, 1> length = edges.colwise().norm().transpose();
     const Square along = length.asDiagonal() * edges.inverse() * X_m;  // X_m in terms of the edges' unit vectors
     Eigen::Matrix<double, D * D, size> H;

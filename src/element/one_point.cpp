@@ -197,11 +197,7 @@ template <int D, bool Ring = false> class Start {
   /// Of the guard of corners. N j_a over the sum of all is what a corner has of its even share.
   void put_corners() {
     double j[N], sum = 0;
-    for (int a = 0; a < N; ++a) {
-      Square e;
-      for (int i = 0; i < D; ++i) e.col(i) = -kCornerSides[a][i] * (X_.col(kNextCorner[a][i]) - X_.col(a));
-      sum += j[a] = e.determinant();
-    }
+    for (int a = 0; a < N; ++a) sum += j[a] = corner_edges<D, N>(X_, a).determinant();
     double* constants = result.constants.data();
     const Square X_m = c_ * E_;
     for (int a = 0; a < N; ++a) {

@@ -259,7 +259,7 @@ TEST(Contact2D, APlaneThatTurnsFastLetsNothingThrough) {
 
 // A lid that is at once below the ground, however short the step: none is found, and those that the steps before were
 // halved by count too.
-TEST(Contact2d, HalvingsOfStepsInARowCountTogether) {
+TEST(Contact2D, HalvingsOfStepsInARowCountTogether) {
   for (const auto& [halved_before, tries] : {std::pair{0, 32}, std::pair{25, 7}}) {  // 30 or 5 halvings; the first step is tried twice
     World world;
     world.config.max_halvings = 30;

@@ -8,7 +8,6 @@ import subprocess
 import sys
 import tempfile
 import threading
-import time
 import unittest
 
 import actionlib
@@ -37,7 +36,8 @@ class Followed:
         assert self.client.wait_for_server(LIMIT), 'no server'
         self.feedback = []
         self.first = threading.Event()
-        self.client.send_goal(goal, feedback_cb=self._on_feedback)
+        self.active = threading.Event()
+        self.client.send_goal(goal, active_cb=self.active.set, feedback_cb=self._on_feedback)
 
     def _on_feedback(self, feedback):
         self.feedback.append(feedback.status)
@@ -46,9 +46,7 @@ class Followed:
     def wait_running(self):
         assert self.first.wait(30), 'no feedback: ' + str(self.client.get_goal_status_text())
         # Feedback may overtake the status; rospy's client gives a goal up as lost when it cancels it before that.
-        end = time.monotonic() + 30
-        while self.client.get_state() == GoalStatus.PENDING and time.monotonic() < end:
-            time.sleep(0.005)
+        assert self.active.wait(30), 'not active: ' + str(self.client.get_goal_status_text())
         assert self.client.get_state() == GoalStatus.ACTIVE, self.client.get_goal_status_text()
 
     def result(self):
