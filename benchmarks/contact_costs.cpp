@@ -60,7 +60,7 @@ class PlateOverTool {
   ContactStep step(double gap) {
     NodeField x = x_, v(x_.size(), Node(1, 0, 0, 0));
     for (Node& node : x) node[2] += gap * kLayer;
-    return contact_->advance(0, 1e-7, x, v, [&](double, NodeField& v_star) { v_star = v; }, [](double) { return std::vector<ToolMotion>(1); });
+    return contact_->advance(0, 1e-7, x, v, v_before_, [&](double, NodeField& v_star) { v_star = v; }, [](double) { return std::vector<ToolMotion>(1); });
   }
   const Contact& contact() const { return *contact_; }
 
@@ -76,7 +76,7 @@ class PlateOverTool {
     blank.cells_through = 1;
     return generate_blank(blank);
   }
-  NodeField x_;
+  NodeField x_, v_before_;
   Team team_;
   std::unique_ptr<Contact> contact_;
 };

@@ -59,23 +59,21 @@ void Contact::set_masses(const std::vector<double>& inverse_mass, const std::vec
   impl_->listed = false;
 }
 
-ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at, double full_dt) {
+ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v, NodeField& v_before, const Predict& predict, const ToolsAt& tools_at, double full_dt) {
   Impl& m = *impl_;
-  m.v_star.resize(x.size());
+  v_before.resize(x.size());
   ContactStep step;
   switch (m.method) {
-    case Impl::Method::implicit: step = m.advance_implicit(time, dt, std::max(dt, full_dt), x, v, predict, tools_at); break;
-    case Impl::Method::explicit_mild: step = m.advance_explicit(time, dt, x, v, predict, tools_at); break;
-    case Impl::Method::geometric: step = m.advance_geometric(dt, x, v, predict, tools_at); break;
+    case Impl::Method::implicit: step = m.advance_implicit(time, dt, std::max(dt, full_dt), x, v, v_before, predict, tools_at); break;
+    case Impl::Method::explicit_mild: step = m.advance_explicit(time, dt, x, v, v_before, predict, tools_at); break;
+    case Impl::Method::geometric: step = m.advance_geometric(dt, x, v, v_before, predict, tools_at); break;
   }
   m.previous_dt = step.dt;
   m.previous_motion = tools_at(step.dt);
   return step;
 }
 
-void Contact::take_before(NodeField& v_before) { v_before.swap(impl_->v_star); }
-
-void Contact::Impl::move(double dt, NodeField& x, NodeField& v) {
+void Contact::Impl::move(double dt, NodeField& x, NodeField& v, NodeField& v_star) {
   if (!near.pairs.empty() || !tie_pairs.empty())
     for (int i = 0; i < work.body_entries; ++i) v_star[work.vertex[i]] = work.v[i];
   for (size_t i = 0; i < work.mean.size(); ++i) work.mean[i] = 0.5 * (work.before[i] + work.v[i]);

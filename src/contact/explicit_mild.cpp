@@ -72,7 +72,7 @@ double stable_step(const PowerLaw& law, const Workspace& work, const LargeArray<
 
 }  // namespace
 
-ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at) {
+ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const ToolsAt& tools_at) {
   const std::vector<ToolMotion> motion = tools_at(dt);
   predict(dt, v_star);
   const double tool_way = step_way(motion, x), predicted = both * fastest(v_star) * dt + tool_way;
@@ -92,7 +92,7 @@ ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x
   double way = predicted;
   if (list.size() > 0) {
     const std::vector<PlanePose> planes = tools.planes(motion);
-    gather(x, v, dt, motion, planes);
+    gather(x, v, v_star, dt, motion, planes);
     // ---- pairs; a plane repels from both its sides, as a surface does
     if (config.pairing == "node_node") {
       add_plane_pairs(features, work, planes, reach, list, near.pairs);
@@ -129,7 +129,7 @@ ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x
     check(way);
   }
   moved_by(way);
-  move(dt, x, v);
+  move(dt, x, v, v_star);
 
   ContactStep step;
   step.dt = dt;

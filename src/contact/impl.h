@@ -62,7 +62,6 @@ struct Contact::Impl {
   NodeField x_at_build;     ///< of the bodies' surface vertices, in their order
   std::vector<ToolMotion> motion_at_build;
   // ---- scratch
-  NodeField v_star;
   Narrow near;
   Sweeps sweeps;
   PairRecords tried;  ///< pairs of the last attempt at this step that failed
@@ -76,14 +75,14 @@ struct Contact::Impl {
   /// A list that holds every pair of features nearer than `reach`.
   void ensure_list(const NodeField& x, const std::vector<ToolMotion>& motion, double reach, double step_bound);
   /// Into the workspace: x at the start, v_star, v before the kick (of tools: over the step before).
-  void gather(const NodeField& x, const NodeField& v, double dt, const std::vector<ToolMotion>& motion, const std::vector<PlanePose>& planes);
+  void gather(const NodeField& x, const NodeField& v, const NodeField& v_star, double dt, const std::vector<ToolMotion>& motion, const std::vector<PlanePose>& planes);
   PairConstants constants() const { return {features, work, modulus, layer}; }
   /// Counts `way` of relative motion towards the list's margin.
   void moved_by(double way);
 
   // contact.cpp
-  /// Velocities back from the workspace, their means for the books, and x + dt v.
-  void move(double dt, NodeField& x, NodeField& v);
+  /// Velocities back from the workspace, their means for the books, and x + dt v; v and v_star change places.
+  void move(double dt, NodeField& x, NodeField& v, NodeField& v_star);
   /// Adds the slip of the step (step.dt: the step taken) to the nodes', and books the ties; the
   /// caller adds the pairs.
   Books open_books(ContactStep& step);
@@ -94,10 +93,10 @@ struct Contact::Impl {
   /// the mean by their normal impulses.
   void add_slip(double dt);
 
-  // one file each
-  ContactStep advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at);
-  ContactStep advance_explicit(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at);
-  ContactStep advance_geometric(double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at);
+  // One file each; v_star: memory for the velocities after the kick, afterwards those before it.
+  ContactStep advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const ToolsAt& tools_at);
+  ContactStep advance_explicit(double time, double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const ToolsAt& tools_at);
+  ContactStep advance_geometric(double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const ToolsAt& tools_at);
 
   // geometric.cpp
   /// Sides of the bodies' facets, borders of open surfaces.

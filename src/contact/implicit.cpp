@@ -198,7 +198,7 @@ void Contact::Impl::close_books(ContactStep& step) {
   potential = step.potential;
 }
 
-ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools_at) {
+ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const ToolsAt& tools_at) {
   ContactStep step;
   Laps laps(times);
   bool all = false;  // let pairs that push askew act before they are in their layer
@@ -220,7 +220,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
       way = bound / 2;
       laps.done(&ContactTimes::list);
       if (list.size() == 0) break;
-      gather(x, v, dt, motion, planes);
+      gather(x, v, v_star, dt, motion, planes);
       const Layers layers(records, tried, work, dt, previous_dt, layer, ceiling);
       narrow_phase(constants(), &layers, planes, all, {reach, bound, travel}, team, list, near);
       layers.hand_over(near.born, near.pairs);
@@ -261,7 +261,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
   }
   step.dt = dt;
 
-  move(dt, x, v);
+  move(dt, x, v, v_star);
 
   laps.start();
   close_books(step);

@@ -92,7 +92,7 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
   }
 }
 
-void Contact::Impl::gather(const NodeField& x, const NodeField& v, double dt, const std::vector<ToolMotion>& motion, const std::vector<PlanePose>& planes) {
+void Contact::Impl::gather(const NodeField& x, const NodeField& v, const NodeField& v_star, double dt, const std::vector<ToolMotion>& motion, const std::vector<PlanePose>& planes) {
   team.share(work.body_entries, kNodesOfAThread, [&](long first, long last) {
     for (long i = first; i < last; ++i) {
       const int n = work.vertex[i];

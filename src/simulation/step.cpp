@@ -34,10 +34,9 @@ void Simulation::Impl::take_step() {
   if (stages.settling()) watch_settling();
   if (contact) {
     const ContactStep done = contact->advance(
-        time, dt, x, v, [&](double step_dt, NodeField& v_star) { predict(step_dt, v, v_star); },
+        time, dt, x, v, v_before, [&](double step_dt, NodeField& v_star) { predict(step_dt, v, v_star); },
         [&](double step_dt) { return tool_motions(time, time + step_dt); }, full_dt());
     dt = done.dt;
-    contact->take_before(v_before);
     book(done);
   } else {
     v.swap(v_before);

@@ -269,13 +269,14 @@ TEST(Contact2D, HalvingsOfStepsInARowCountTogether) {
     Contact contact = world.make();
     const double dt = 1e-6;
     int tried = 0;
+    NodeField v_before;
     const auto predict = [&](double, NodeField& v_star) { v_star = world.v; };
     const auto tools = [&](double h) {
       ++tried;
       return world.motion(0, h);
     };
     try {
-      contact.advance(0, dt, world.x, world.v, predict, tools, std::ldexp(dt, halved_before));
+      contact.advance(0, dt, world.x, world.v, v_before, predict, tools, std::ldexp(dt, halved_before));
       ADD_FAILURE() << "a step was found";
     } catch (const Error& e) {
       EXPECT_EQ(e.code(), Code::contact_error) << e.what();

@@ -104,10 +104,9 @@ struct World {
   }
   void step(Contact& contact, double dt, bool check = true) {
     spring_forces();
-    const NodeField v_before = v;
-    NodeField kicked;
+    NodeField v_before, kicked;
     last = contact.advance(
-        time, dt, x, v,
+        time, dt, x, v, v_before,
         [&](double h, NodeField& v_star) {
           for (size_t i = 0; i < x.size(); ++i) v_star[i] = v[i] + (0.5 * (before > 0 ? before + h : h) / mass[i]) * force[i];
           for (size_t i = 0; i < held.size(); ++i)

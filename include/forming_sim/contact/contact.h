@@ -132,14 +132,13 @@ class Contact {
   using ToolsAt = std::function<std::vector<ToolMotion>(double dt)>;
 
   /// Finishes the step that starts at `time` (named in messages only).
-  /// In: x at n, v before the kick. Out: v after kick and contact, x + dt v.
+  /// In: x at n, v before the kick. Out: v after kick and contact, x + dt v, and in
+  /// v_before what v was. On an error x and v stay as they were, v_before does not.
   /// The step is halved, and `predict` and `tools` asked again, while a pair
   /// would cross. Throws Error(contact_error) naming the pair when that does
   /// not help, or when a node that nothing can move is run over.
   /// full_dt: the step that could be taken had none been halved lately, 0: dt. All halvings since count.
-  ContactStep advance(double time, double dt, NodeField& x, NodeField& v, const Predict& predict, const ToolsAt& tools, double full_dt = 0);
-  /// Once after each step, for who wants it without a copy: the velocities that the step was given.
-  void take_before(NodeField& v_before);
+  ContactStep advance(double time, double dt, NodeField& x, NodeField& v, NodeField& v_before, const Predict& predict, const ToolsAt& tools, double full_dt = 0);
 
   /// Independent check: edges of one surface that pierce facets of another
   /// (2D: crossing segments), nodes behind a plane, and parts wholly inside.
