@@ -82,13 +82,26 @@ Tie tie_edges(const int* p, const int* q, const ClosestEdges& closest) {
   return tie;
 }
 
-Tie tie_to_tool(int vertex, int tool) {
+Tie tie_to_tool(int vertex, int tool, const Node& normal) {
   Tie tie;
   tie.node[0] = vertex;
   tie.weight[0] = 1;
   tie.nodes = 1;
   tie.tool = tool;
+  tie.press = vec3(normal);
   return tie;
+}
+
+// Outwards at the vertices of the bodies, of no certain length; zero at those of tools.
+NodeField outwards(const Features& f, const NodeField& x) {
+  NodeField sum(f.vertex_count, Node::Zero());
+  for (std::size_t i = 0; i < f.facets.size(); ++i) {
+    if (f.facet_surface[i] >= f.bodies) continue;
+    const auto& c = f.facets[i];
+    const Node normal = f.facet_outward[i] * facet_normal(f.dimension, x[c[0]], x[c[1]], x[c[f.corners() - 1]]);
+    for (int k = 0; k < f.corners(); ++k) sum[c[k]] += normal;
+  }
+  return sum;
 }
 
 // Of the ties at a rim as many as can each have a vertex to move that no other tie has: what is told more than its
@@ -187,13 +200,16 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
         continue;
       }
       tied[g.vertex] = true;
-      ties.push_back(pair.second >= f.bodies ? tie_to_tool(g.vertex, pair.second - f.bodies) : tie_to_facet(f, g.vertex, facet, nearest));
+      const auto& c = f.facets[facet];
+      ties.push_back(pair.second >= f.bodies
+                         ? tie_to_tool(g.vertex, pair.second - f.bodies, facet_normal(f.dimension, at(c[0]), at(c[1]), at(c[f.corners() - 1])))
+                         : tie_to_facet(f, g.vertex, facet, nearest));
     }
     for (const auto& p : list.planes) {
       if (f.vertex_surface[p.vertex] != pair.first || f.bodies + p.tool != pair.second) continue;
       if (std::abs(dot3(at(p.vertex) - planes[p.tool].point, planes[p.tool].normal)) > pair.distance) continue;
       zone[p.vertex] = true;
-      ties.push_back(tie_to_tool(p.vertex, p.tool));
+      ties.push_back(tie_to_tool(p.vertex, p.tool, planes[p.tool].normal));
     }
     if (ties.size() == before) refuse(setup, f, pair);
     // The rim: a facet of the first that reaches out of what is tied would turn into the second about its tied vertices.
@@ -228,15 +244,29 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
 }
 
 void keep_ties(const Features& f, const NodeField& x, const NodeField& place, const std::vector<ToolMotion>& motion, std::vector<Tie>& ties) {
+  if (ties.empty()) return;
+  const NodeField out = outwards(f, x);
   for (Tie& tie : ties) {
+    // What is tied is pressed against its outward direction; what it is tied to has weights below 0.
+    Vec3 inwards = Vec3::Zero();
+    for (int k = 0; k < tie.nodes; ++k) inwards -= tie.weight[k] * vec3(out[tie.node[k]]);
+    const auto face = [&](const Vec3& in_the_world) {
+      if (tie.press.dot(in_the_world) < 0) tie.press = -tie.press;
+    };
     const auto at = [&](int k) -> const Node& { return tie.node[k] < f.body_nodes ? x[tie.node[k]] : place[tie.node[k] - f.body_nodes]; };
     if (tie.to_tool()) {
-      tie.kept = motion[tie.tool].rotation0.transpose() * (vec3(at(0)) - motion[tie.tool].position0);
+      const Mat3 to_the_tool = motion[tie.tool].rotation0.transpose();
+      tie.kept = to_the_tool * (vec3(at(0)) - motion[tie.tool].position0);
+      face(inwards);
+      tie.press = to_the_tool * tie.press;
       continue;
     }
     Node r = tie.weight[0] * at(0);
     for (int k = 1; k < tie.nodes; ++k) r += tie.weight[k] * at(k);
-    tie.kept = frame_of(tie, at).transpose() * vec3(r);
+    const Mat3 frame = frame_of(tie, at);
+    tie.kept = frame.transpose() * vec3(r);
+    tie.press = Vec3::Unit(f.dimension - 1);  // across the features
+    face(frame.transpose() * inwards);
   }
 }
 
@@ -276,6 +306,11 @@ void aim_tie(const Tie& tie, const Workspace& work, TiePair& pair) {
   pair.missing = -relative(pair, work.x);
   if (pair.to_tool) return;
   pair.missing += node(frame_of(tie, [&](int k) -> const Node& { return work.x[pair.node[k]]; }) * tie.kept);
+}
+
+Vec3 pressing(const Tie& tie, const Workspace& work, const TiePair& pair, const Mat3& rotation) {
+  if (pair.to_tool) return rotation * tie.press;
+  return frame_of(tie, [&](int k) -> const Node& { return work.x[pair.node[k]]; }) * tie.press;
 }
 
 double sweep_tie(double dt, Workspace& work, TiePair& pair) {

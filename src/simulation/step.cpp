@@ -72,7 +72,7 @@ void Simulation::Impl::book(const ContactStep& done) {
   // The impulse j of contact comes after the kick: m v = m (v_before (1 - a/2) + dt f/m)/(1 + a/2) + j, a = alpha dt, dt the kick's. A force F
   // in the place of f is (1 + a/2) j/dt, in equilibrium the one that f is balanced by, whatever the damping and the steps.
   const double kick = 0.5 * (previous_dt + done.dt), over_kick = (1 + 0.5 * damping_rate() * kick) / kick;
-  if (done.active > 0 || pressed) mean_contact_pressure(over_kick);
+  if (done.active > 0 || contact->ties() || pressed) mean_contact_pressure(over_kick);
   for (std::size_t k = 0; k < tools.size(); ++k) {
     ToolStatus& tool = tools[k];
     if (!tool.present) {
@@ -98,7 +98,7 @@ void Simulation::Impl::mean_contact_pressure(double over_kick) {
   double most_now = 0;
   for (int n : touchable) {
     contact_pressure[n] += (over_kick * node_impulse[n] / area[n] - contact_pressure[n]) / kForceMeanSteps;
-    most_now = std::max(most_now, contact_pressure[n]);
+    most_now = std::max(most_now, std::abs(contact_pressure[n]));
   }
   pressed = most_now > 1e-12 * contact->stiffness();
   if (!pressed)

@@ -313,6 +313,44 @@ TEST(ContactPairs, ATiedToolCarriesTheBody) {
   EXPECT_NEAR(world.closure(), 0, 1e-9 * world.exchanged);
 }
 
+// A strip hangs on another one of other cells, that on a plane: what the ties of each pull is the weight below, whichever way the
+// plane turned its strips.
+TEST(ContactPairs, TiesPullAsMuchAsHangsOnThem) {
+  for (const double turn : {0., 2.}) {
+    World world;
+    world.config.layer = 1e-4;
+    world.config.pairs = {pair("body0", "body1", "tied"), pair("body0", "ceiling", "tied")};
+    const Mat3 rotation = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
+    world.gravity = rotation * Vec3(0, -9.81, 0);
+    world.add_strip(Vec3(0, 0, 0), 5, 4, .1, .1, 2800, 2e9);
+    world.add_strip(Vec3(.05, -.21, 0), 4, 3, .07, .07, 2800, 2e9);
+    for (Node& x : world.x) x = node(rotation * vec3(x));
+    world.add_plane("ceiling", rotation * Vec3(0, .4, 0), rotation * -Vec3::UnitY(), 0, [](double) { return Vec3(Vec3::Zero()); });
+    Contact contact = world.make();
+    const size_t upper = 6 * 5;
+    double weight = 0, lower_weight = 0, from = 0;
+    for (size_t i = 0; i < world.x.size(); ++i) (i < upper ? weight : lower_weight) += world.mass[i] * 9.81;
+    std::vector<double> pressed(world.x.size(), 0.0);
+    while (world.time < .2) {
+      world.step(contact, 5e-6, false);
+      if (world.time < .1) continue;
+      if (from == 0) from = world.time;
+      contact.add_normal_impulses(pressed);
+    }
+    double top = 0, below = 0;
+    for (size_t i = 0; i < pressed.size(); ++i) {
+      const double height = (rotation.transpose() * vec3(world.x[i])).y();
+      if (height > .3) top += pressed[i];
+      if (i >= upper) below += pressed[i];
+      if (i < upper && height > .05 && height < .3) {
+        EXPECT_EQ(pressed[i], 0) << i;
+      }
+    }
+    EXPECT_NEAR(-top / (world.time - from) / (weight + lower_weight), 1, .02);
+    EXPECT_NEAR(-below / (world.time - from) / lower_weight, 1, .02);
+  }
+}
+
 TEST(ContactPairs, ATieThatFindsNothingIsRefused) {
   World world = two_strips(.05);
   world.config.pairs = {pair("body0", "body1", "tied")};

@@ -224,21 +224,26 @@ class Features(unittest.TestCase):
         self.assertLess(abs(0.002 - float(last['probe_near_position_y_m'])), 0.15 * sunk)
 
     def test_contact_pressure_adds_up_to_the_tool_force(self):
-        data = scene(body('plate', boundaries=[{'set': 'bottom', 'kind': 'fixed', 'axes': ['z']}]), dimension=3, tools=[{
-            'name': 'press', 'point': [0.0, 0.0, 0.002], 'normal': [0.0, 0.0, -1.0],
-            'motion': {'kind': 'velocity', 'times': [0.0, 5e-6], 'velocities': [[0.0, 0.0, 0.0], [0.0, 0.0, -1.0]]}}])
-        self.run_scene(data)
-        with h5py.File(self.path('out/result.h5')) as result:
-            last = result['frames'][sorted(result['frames'])[-1]]
-            pressure, facets = last['contact_pressure'][:], result['topology/surface'][:]
-            start = result['topology/initial_positions'][:]
-            area = numpy.zeros(len(start))
-            for a, b, c in facets:
-                area[[a, b, c]] += numpy.linalg.norm(numpy.cross(start[b] - start[a], start[c] - start[a])) / 6
-            force = last['tools/0/force'][2]
-        self.assertGreater(force, 1000)
-        self.assertAlmostEqual((pressure * area).sum(), force, delta=1e-3 * force)
-        self.assertEqual(pressure[start[:, 2] < 0.0019].max(), 0)
+        for kind, speed in (('sliding', -1.0), ('tied', -1.0), ('tied', 1.0)):
+            with self.subTest(kind=kind, speed=speed):
+                plate = body('plate', boundaries=[{'set': 'bottom', 'kind': 'fixed', 'axes': ['z']}])
+                data = scene(plate, dimension=3, tools=[{
+                    'name': 'press', 'point': [0.0, 0.0, 0.002], 'normal': [0.0, 0.0, -1.0],
+                    'motion': {'kind': 'velocity', 'times': [0.0, 5e-6], 'velocities': [[0.0, 0.0, 0.0], [0.0, 0.0, speed]]}}])
+                data['contact'] = {'pairs': [{'first': plate['name'], 'second': 'press', 'kind': kind}]}
+                out = '%s%+g' % (kind, speed)
+                self.run_scene(data, out)
+                with h5py.File(self.path(out + '/result.h5')) as result:
+                    last = result['frames'][sorted(result['frames'])[-1]]
+                    pressure, facets = last['contact_pressure'][:], result['topology/surface'][:]
+                    start = result['topology/initial_positions'][:]
+                    area = numpy.zeros(len(start))
+                    for a, b, c in facets:
+                        area[[a, b, c]] += numpy.linalg.norm(numpy.cross(start[b] - start[a], start[c] - start[a])) / 6
+                    force = last['tools/0/force'][2]
+                self.assertGreater(-speed * force, 1000)  # below 0: a tie that pulls
+                self.assertAlmostEqual((pressure * area).sum(), force, delta=1e-3 * abs(force))
+                self.assertEqual(abs(pressure[start[:, 2] < 0.0019]).max(), 0)
 
     def test_pairs_of_the_contact(self):
         """Two strips, one on the other: tied they move as one; sliding the upper stays behind, and its slip says by how much."""

@@ -145,7 +145,9 @@ class Contact {
   /// Tools stand at position0, rotation0, where contact sees them (set back).
   long count_crossings(const NodeField& x, const std::vector<ToolMotion>& tools) const;
 
-  /// Adds the normal impulses that the last step put on the bodies' nodes, N s; sum: one per node.
+  /// Is anything tied?
+  bool ties() const;
+  /// Adds the normal impulses that the last step put on the bodies' nodes, N s, below 0 where ties pull; sum: one per node.
   void add_normal_impulses(std::vector<double>& sum) const;
   const std::vector<double>& nodal_area() const;      ///< of the bodies' nodes at the start, m^2 (m in plane strain); 0 inside
 

@@ -81,6 +81,7 @@ constexpr long kPairsOfAThread = 256;  ///< fewer are not worth another thread
 struct Tie : Link {
   int tool = -1;                   ///< the one that takes part
   Vec3 kept = Vec3::Zero();        ///< r in the frame of the features, or the vertex' place in that of the tool, m
+  Vec3 press = Vec3::Zero();       ///< unit direction in the same frame: an impulse along it presses the surfaces on each other
 
   bool to_tool() const { return nodes == 1; }
 };

@@ -37,7 +37,7 @@ struct TiePair : Link {
 std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const NodeField& place, const std::vector<bool>& is_plane,
                            const std::vector<PlanePose>& planes, Features& features);
 
-/// Remembers the places at which the ties are kept: x, the tools' vertices at `place`, and their poses now.
+/// Remembers the places at which the ties are kept, and the direction in which each presses: x, the tools' vertices at `place`, and their poses now.
 void keep_ties(const Features& features, const NodeField& x, const NodeField& place, const std::vector<ToolMotion>& motion, std::vector<Tie>& ties);
 
 /// Fills nodes and weights from the workspace's numbers, and the masses; called
@@ -47,6 +47,9 @@ void prepare_tie(const Workspace& work, TiePair& pair);
 
 /// Sets `missing` for a step that starts at work.x.
 void aim_tie(const Tie& tie, const Workspace& work, TiePair& pair);
+
+/// Direction in which a tie presses at the start of the step, rotation: of its tool.
+Vec3 pressing(const Tie& tie, const Workspace& work, const TiePair& pair, const Mat3& rotation);
 
 /// One visit; changes work.v. Returns the largest change of a place, m.
 double sweep_tie(double dt, Workspace& work, TiePair& pair);

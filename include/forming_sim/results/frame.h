@@ -52,7 +52,7 @@ struct Frame {
   std::vector<std::array<float, 6>> stress;  ///< Cauchy, Pa, per element: xx yy zz xy yz zx
   std::vector<float> volume_ratio;     ///< V/V0, per element
   std::vector<float> surface_strain;   ///< largest in-plane log strain, per surface facet
-  std::vector<float> contact_pressure; ///< normal, Pa, per node; 0 inside
+  std::vector<float> contact_pressure; ///< normal, Pa, per node; 0 inside, below 0 where a tie pulls
   std::vector<float> contact_gap;      ///< to the nearest other surface, m, per node; empty where nothing can meet
   std::vector<float> contact_slip;     ///< slid so far, m, per node; empty where nothing rubs
   std::vector<FrameTool> tools;         ///< in the order of ResultHeader::tools

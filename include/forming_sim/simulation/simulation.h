@@ -83,7 +83,7 @@ class Simulation {
   std::vector<double> surface_strain() const;
 
   /// Normal contact pressure on the surface per node, Pa: force over the area that the
-  /// node stood for at the start, a running mean as the tool forces are. 0 inside.
+  /// node stood for at the start, a running mean as the tool forces are. 0 inside, below 0 where a tie pulls.
   const std::vector<double>& contact_pressure() const;
   /// Per node, m, as Contact::gaps and Contact::slip have them; empty where nothing can meet, or rub.
   /// The gaps are searched at every call.
