@@ -18,6 +18,6 @@ Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known);
 
 /// Refuses bodies and tools of sizes that betray a wrong unit scale. Only those
 /// of the scene's bodies and tools that are meshed are looked at.
-void check_sizes(const Scene& scene, const std::vector<Mesh>& bodies, const std::vector<Mesh>& tools, std::vector<Fault>& faults);
+void check_sizes(const Scene& scene, const std::vector<Mesh>& bodies, const std::vector<Mesh>& tools, std::vector<Fault>& faults, std::vector<std::string>& notes);
 
 }  // namespace forming_sim

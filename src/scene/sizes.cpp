@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kLargest = 100, kSmallest = 1e-6;  // m
 constexpr double kRatio = 200;                      // of a tool to the bodies
+constexpr double kOddRatio = 20;                    // likewise: taken, and told
 
 /// Largest extent along an axis, m; 0 without nodes.
 double extent(const Mesh& mesh) { return mesh.nodes.empty() ? 0 : bounds(mesh).sizes().maxCoeff(); }
@@ -53,7 +54,7 @@ void check_extent(const std::optional<MeshConfig>& mesh, double size, const std:
 
 }  // namespace
 
-void check_sizes(const Scene& scene, const std::vector<Mesh>& bodies, const std::vector<Mesh>& tools, std::vector<Fault>& faults) {
+void check_sizes(const Scene& scene, const std::vector<Mesh>& bodies, const std::vector<Mesh>& tools, std::vector<Fault>& faults, std::vector<std::string>& notes) {
   const std::size_t before = faults.size();
   double largest_body = 0, least_edge = std::numeric_limits<double>::infinity();
   bool all_known = true;
@@ -71,6 +72,9 @@ void check_sizes(const Scene& scene, const std::vector<Mesh>& bodies, const std:
   for (std::size_t i = 0; i < tools.size(); ++i) {
     const double size = extent(tools[i]);
     const bool large = size > kRatio * largest_body;
+    if (!large && size > kOddRatio * largest_body && scene.tools[i].mesh)
+      notes.push_back("tool " + scene.tools[i].name + " measures " + in_metres(size) + ", the bodies " + in_metres(largest_body) + ": " +
+                      right_scale(*scene.tools[i].mesh, size, size / (kOddRatio * largest_body)));
     if (size == 0 || !(large || size < least_edge)) continue;
     const std::string given = "a tool of " + in_metres(size) + " to bodies of " + in_metres(largest_body) + " with elements of " + in_metres(least_edge) + " and more";
     const std::string refused = "a tool is refused that is more than 200 times larger than the bodies or smaller than their elements; ";

@@ -112,6 +112,11 @@ TEST(SceneBuild, WrongUnitScaleNamesTheRightOne) {
   expect_geometry_fault(scene, "tools[0].mesh.unit_scale", "with unit_scale 0.01 it would be 0.2 m");
   scene.tools[0].mesh->unit_scale = 2;  // 40 m to a plate of 0.02 m
   expect_geometry_fault(scene, "tools[0].mesh.unit_scale", "200 times larger");
+  scene.tools[0].mesh->unit_scale = 0.1;  // 2 m
+  EXPECT_TRUE(validate(scene).empty());
+  const std::vector<std::string> notes = build_model(scene).notes;
+  ASSERT_EQ(notes.size(), 2u);  // the other: the tool is open
+  EXPECT_NE(notes[1].find("tool die measures 2 m, the bodies 0.02 m: with unit_scale 0.0001 it would be 0.002 m"), std::string::npos) << notes[1];
   scene.tools[0].mesh->unit_scale = 5e-7;  // 10 micrometres
   expect_geometry_fault(scene, "tools[0].mesh.unit_scale", "with unit_scale 0.0005 it would be 0.01 m");
   scene.tools[0].mesh->unit_scale = 1e-9;
