@@ -33,7 +33,7 @@ leave a field out: there 0, "" and [] mean "not given", and the default holds.
   profiles lie at x >= 0. Forces, masses and energies are those of the whole circle (N, kg, J). What lies on the axis
   stays on it without being told; a set of nodes on the axis carries no pressure. Tools, gravity and initial velocities
   go along y. Of the force on a tool only what goes along the axis is told: the rest holds itself in balance.
-- `dimension: 3` is a solid of tetrahedra.
+- `dimension: 3` is a solid of tetrahedra or one-point hexahedra.
 - Relative file names refer to the directory of the scene file; `package://NAME/PATH` and `file://` URLs are understood.
 
 ## Bodies and their sets
@@ -53,7 +53,8 @@ thickness of the sheet in the results.
 
 A boundary of kind `velocity` moves a set as a rigid body would: with `velocities`, about a `centre` with `spins_deg_s`, or
 both, and only along its `axes`. A bar is twisted by an end with `spins_deg_s: [[0, 0, w], ...]` and `axes: [x, y]`, so
-that it may get longer or shorter; a sheet is bent by turning an end section. What boundaries push with is in
+that it may get longer or shorter; a sheet is bent by turning an end section. `until` names the stage with which a boundary
+lets go: what was clamped in forming springs back when it is cut free. What boundaries push with is in
 `history.csv`, where a probe is on their set.
 
 ## Tools
