@@ -207,26 +207,4 @@ double BoundarySet::apply_velocity(double t, double dt, const NodeField& x, Node
   return fastest;
 }
 
-Vec3 BoundarySet::reaction_impulse(int k, const Vec3& force, double mass, const Vec3& v_before,
-                                   const Vec3& v_after, double dt) const {
-  const Vec3 impulse = mass * (v_after - v_before) - dt * force;
-  return impulse - projector(k) * impulse;
-}
-
-double BoundarySet::work(int k, const Vec3& force, double mass, const Vec3& v_before, const Vec3& v_after,
-                         double dt) const {
-  return 0.5 * reaction_impulse(k, force, mass, v_before, v_after, dt).dot(v_before + v_after);
-}
-
-double BoundarySet::work(const NodeField& force, const std::vector<double>& mass, const NodeField& v_before,
-                         const NodeField& v_after, double dt) const {
-  double sum = 0;
-  for (size_t k = 0; k < nodes_.size(); ++k) {
-    const int i = nodes_[k];
-    if (v_before[i] + v_after[i] == Node::Zero()) continue;  // held at rest
-    sum += work(static_cast<int>(k), vec3(force[i]), mass[i], vec3(v_before[i]), vec3(v_after[i]), dt);
-  }
-  return sum;
-}
-
 }  // namespace forming_sim

@@ -125,11 +125,10 @@ void Simulation::Impl::book_loads(const NodeField& external) {
     damping += lost;
     if (stages.settling()) settled_away += lost * settle.damping() / alpha;
   }
-  work += boundaries.work(f, mass, v_before, v, kick);
   book_reactions(kick);
 }
 
-// What holds or drives a node answers the forces of the elements, the loads and contact along its fixed directions.
+// What holds or drives a node answers the forces of the elements, the loads and contact along its fixed directions, and does work.
 void Simulation::Impl::book_reactions(double kick) {
   const std::vector<double>& mass = elements.nodal_mass();
   const std::vector<int>& nodes = boundaries.nodes();
@@ -140,15 +139,18 @@ void Simulation::Impl::book_reactions(double kick) {
     held_impulse.clear();
   }
   const double over_kick = 1 + 0.5 * damping_rate() * kick;
+  double done = 0;    // against contact it is in ContactStep::held_work
   std::size_t r = 0;  // both lists increase
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const int i = nodes[k];
     while (once_held[r] != i) ++r;
     Vec3 impulse = boundaries.reaction_impulse(static_cast<int>(k), vec3(f[i]), mass[i], vec3(v_before[i]), vec3(v[i]), kick);
+    done += 0.5 * impulse.dot(vec3(v_before[i]) + vec3(v[i]));
     if (!held_impulse.empty()) impulse -= over_kick * held_impulse[k];
     reactions[r].impulse += impulse;
     reactions[r].angular += vec3(x[i]).cross(impulse);
   }
+  work += done;
 }
 
 double Simulation::Impl::kinetic() const {

@@ -154,6 +154,16 @@ TEST(BoundarySet, resolves_sets_in_joined_numbering) {
   }
 }
 
+/// Of all nodes that are held or driven, J.
+double work_of(const BoundarySet& set, const NodeField& f, const std::vector<double>& mass, const NodeField& before, const NodeField& after, double dt) {
+  double sum = 0;
+  for (std::size_t k = 0; k < set.nodes().size(); ++k) {
+    const int i = set.nodes()[k];
+    sum += 0.5 * set.reaction_impulse(static_cast<int>(k), vec3(f[i]), mass[i], vec3(before[i]), vec3(after[i]), dt).dot(vec3(before[i] + after[i]));
+  }
+  return sum;
+}
+
 TEST(BoundarySet, work_closes_the_balance_of_kinetic_energy) {
   // Nodes under arbitrary forces, one driven on a skew plane, one held, one free.
   const BoundarySet set(
@@ -176,7 +186,7 @@ TEST(BoundarySet, work_closes_the_balance_of_kinetic_energy) {
     for (int i = 0; i < 4; ++i) v[i] += dt / mass[i] * f[i];
     set.apply_velocity(step * dt, dt, v, v);
     for (int i = 0; i < 4; ++i) applied += 0.5 * dt * f[i].dot(before[i] + v[i]);
-    prescribed += set.work(f, mass, before, v, dt);
+    prescribed += work_of(set, f, mass, before, v, dt);
   }
   EXPECT_GT(std::abs(prescribed), 1);
   EXPECT_NEAR(kinetic(v) - start, applied + prescribed, 1e-12 * (std::abs(applied) + std::abs(prescribed)));
@@ -189,7 +199,7 @@ TEST(BoundarySet, a_plane_of_symmetry_does_no_work) {
   const NodeField f{Node(5, -3, 8, 0)}, before = v;
   v[0] += 0.1 / mass[0] * f[0];
   set.apply_velocity(0, 0, v, v);
-  EXPECT_NEAR(set.work(f, mass, before, v, 0.1), 0, 1e-14);
+  EXPECT_NEAR(work_of(set, f, mass, before, v, 0.1), 0, 1e-14);
   EXPECT_GT(set.reaction_impulse(0, vec3(f[0]), 2, vec3(before[0]), vec3(v[0]), 0.1).norm(), 0.1);
 }
 

@@ -50,15 +50,13 @@ class BoundarySet {
 
   /// What the prescription pushed on nodes()[k] in a step, N s:
   /// R = (I - P) [m (v_after - v_before) - dt f], f all other forces, before projection.
+  /// Its work is R . (v_before + v_after) / 2: with it and dt f . (v_before + v_after) / 2
+  /// for the other forces, the change of m v^2 / 2 is met exactly.
   Vec3 reaction_impulse(int k, const Vec3& force, double mass, const Vec3& v_before, const Vec3& v_after,
-                        double dt) const;
-  /// Its work, J: R . (v_before + v_after) / 2. With it and dt f . (v_before +
-  /// v_after) / 2 for the other forces, the change of m v^2 / 2 is met exactly.
-  double work(int k, const Vec3& force, double mass, const Vec3& v_before, const Vec3& v_after,
-              double dt) const;
-  /// Sum over all constrained nodes, in their order.
-  double work(const NodeField& force, const std::vector<double>& mass, const NodeField& v_before,
-              const NodeField& v_after, double dt) const;
+                        double dt) const {
+    const Vec3 impulse = mass * (v_after - v_before) - dt * force;
+    return impulse - projector(k) * impulse;
+  }
 
  private:
   /// u along one fixed direction: sum of weight . motion.
