@@ -13,7 +13,7 @@ std::vector<Row> speed_error(const Request& request) {
     void (*run)(Report&);
   };
   constexpr Problem problems[] = {{"bending", bending_problem}, {"cook", cook_problem},     {"taylor", taylor_problem},
-                                  {"cube", cube_problem},       {"sphere", sphere_problem}, {"impact", impact_problem},
+                                  {"cube", cube_problem},       {"sphere", sphere_problem}, {"torsion", torsion_problem}, {"impact", impact_problem},
                                   {"flange", flange_problem},   {"flange-time", flange_time_problem}, {"slivers", slivers_problem}, {"layers", layers_problem}};
   std::string known;
   for (const Problem& problem : problems) known += (known.empty() ? "" : ", ") + std::string(problem.name);

@@ -59,6 +59,7 @@ void cook_problem(Report&);      ///< Cook's membrane, elastic-plastic
 void taylor_problem(Report&);    ///< the Taylor bar of copper, 3D and axisymmetric
 void cube_problem(Report&);      ///< the swinging cube: linear, exact
 void sphere_problem(Report&);    ///< a thick sphere yields from inside
+void torsion_problem(Report&);   ///< a round bar yields in torsion and is let go
 void impact_problem(Report&);    ///< a bar in uniaxial strain hits a plane, and another bar
 void flange_problem(Report&);    ///< scenes/flange.yaml against its own finest mesh
 void flange_time_problem(Report&);  ///< the same: mass scaling, tool speed, time step

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "contact/impl.h"
+#include "forming_sim/contact/impulse.h"
 #include "forming_sim/contact/crossing.h"
 #include "forming_sim/element/nodes.h"
 
@@ -108,6 +109,25 @@ void Contact::add_normal_impulses(std::vector<double>& sum) const {
 }
 
 bool Contact::ties() const { return !impl_->ties.empty(); }
+
+void Contact::add_held_impulses(std::vector<Vec3>& sum) const {
+  const Workspace& work = impl_->work;
+  const auto add = [&](const Link& link, const Node& impulse) {
+    for (int k = 0; k < link.nodes; ++k) {
+      const int n = link.node[k];
+      if (n >= work.body_entries || !work.projector[n]) continue;
+      const Node on_node = link.weight[k] * impulse;
+      sum[impl_->held_of[work.vertex[n]]] += vec3(on_node - project(*work.projector[n], on_node));
+    }
+  };
+  for (const TiePair& tie : impl_->tie_pairs) add(tie, tie.impulse);
+  for (const ContactPair& pair : impl_->near.pairs) {
+    if (pair.impulse == 0) continue;
+    Node impulse = pair.impulse * pair.normal;
+    if (pair.rub >= 0) impulse += impl_->near.rubs[pair.rub].slip;
+    add(pair, impulse);
+  }
+}
 
 const std::vector<double>& Contact::nodal_area() const { return impl_->features.area; }
 double Contact::layer() const { return impl_->layer; }

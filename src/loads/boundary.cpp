@@ -62,30 +62,36 @@ ResolvedBoundary resolve(const BoundaryConfig& config, const std::string& body, 
     throw Error(Code::invalid_scene, name_of(resolved) + ": the set " +
                                          (set == mesh.sets.end() ? "does not exist" : "holds no node") +
                                          "; name a set of the body that holds nodes");
-  for (int node : set->second) resolved.nodes.push_back(first_node + node);
+  for (int node : set->second) {
+    resolved.nodes.push_back(first_node + node);
+    resolved.places.push_back(mesh.nodes[node]);
+  }
   return resolved;
 }
 
 BoundarySet::BoundarySet(const std::vector<ResolvedBoundary>& boundaries, int dimension) {
   std::map<int, std::vector<int>> members;  // boundaries of each node
+  std::map<int, Vec3> places;               // of nodes that turn
   for (size_t b = 0; b < boundaries.size(); ++b) {
     const BoundaryConfig& config = boundaries[b].config;
     try {
-      profiles_.push_back(config.kind == "velocity"
-                              ? VelocityProfile(config.times, config.velocities, config.profile)
-                              : VelocityProfile());
+      motions_.push_back(config.kind == "velocity" ? RigidVelocity(config) : RigidVelocity());
     } catch (const Error& error) {
       throw Error(error.code(), name_of(boundaries[b]) + ": " + error.what());
     }
-    for (int node : boundaries[b].nodes) {
+    for (size_t i = 0; i < boundaries[b].nodes.size(); ++i) {
+      const int node = boundaries[b].nodes[i];
       std::vector<int>& mine = members[node];
       if (mine.empty() || mine.back() != static_cast<int>(b)) mine.push_back(static_cast<int>(b));
+      if (motions_[b].turns()) places[node] = boundaries[b].places.at(i);
     }
   }
   std::map<std::vector<int>, int> group_of;
   for (const auto& [node, mine] : members) {
     const auto [place, is_new] = group_of.try_emplace(mine, static_cast<int>(groups_.size()));
-    if (is_new) groups_.push_back(merge(mine, boundaries, dimension, node));
+    if (is_new) groups_.push_back(merge(mine, boundaries, dimension));
+    const Group& group = groups_[place->second];
+    if (is_new || group.turns) check(group, mine, boundaries, node, group.turns ? places.at(node) : Vec3(Vec3::Zero()));
     nodes_.push_back(node);
     group_.push_back(place->second);
   }
@@ -93,50 +99,39 @@ BoundarySet::BoundarySet(const std::vector<ResolvedBoundary>& boundaries, int di
 
 // Gram-Schmidt. A direction d splits into sum_j c_j e_j plus a rest. The rest, if
 // there is one, becomes a new e with speed (u_d - sum_j c_j u_j) / |rest|; if
-// not, u_d must equal sum_j c_j u_j at all times.
+// not, u_d must equal sum_j c_j u_j at all times. Boundaries that say the same motion count as one.
 BoundarySet::Group BoundarySet::merge(const std::vector<int>& members,
-                                      const std::vector<ResolvedBoundary>& boundaries, int dimension,
-                                      int node) const {
+                                      const std::vector<ResolvedBoundary>& boundaries, int dimension) const {
   Group group;
   for (int b : members) {
+    if (motions_[b].turns()) group.turns = true;
+    int motion = b;
+    for (int other : members)
+      if (other < motion && boundaries[other].config.kind == "velocity" && same_motion(boundaries[other].config, boundaries[b].config)) motion = other;
     for (const Vec3& direction : directions_of(boundaries[b], dimension)) {
       Vec3 rest = direction;
       std::vector<Term> terms;
-      if (!profiles_[b].times().empty()) terms.push_back({b, direction});
+      const auto add = [&](int of, const Vec3& weight) {
+        for (Term& term : terms)
+          if (term.motion == of) {
+            term.weight += weight;
+            return;
+          }
+        terms.push_back({of, weight});
+      };
+      if (!motions_[motion].times().empty()) add(motion, direction);
       for (const Direction& fixed : group.directions) {
         const double share = direction.dot(fixed.axis);
         rest -= share * fixed.axis;
         if (std::abs(share) > kParallel)
-          for (const Term& term : fixed.terms) terms.push_back({term.profile, -share * term.weight});
+          for (const Term& term : fixed.terms) add(term.motion, -share * term.weight);
       }
       const double length = rest.norm();
       if (length > kParallel) {
         for (Term& term : terms) term.weight /= length;
         group.directions.push_back({rest / length, terms});
-        continue;
-      }
-      // The difference is a cubic between neighbouring knots: four points decide.
-      std::set<double> knots;
-      double scale = 0;
-      for (const Term& term : terms)
-        for (double t : profiles_[term.profile].times()) {
-          knots.insert(t);
-          scale = std::max(scale, profiles_[term.profile].at(t).norm());
-        }
-      for (auto k = knots.begin(); k != knots.end(); ++k) {
-        const double next = std::next(k) == knots.end() ? *k : *std::next(k);
-        for (double t : {*k, (2 * *k + next) / 3, (*k + 2 * next) / 3})
-          if (std::abs(speed(terms, t)) > 1e-9 * scale) {
-            std::string others;
-            for (int other : members)
-              if (other < b)
-                others += (others.empty() ? "" : ", ") + ("\"" + boundaries[other].config.set + "\"");
-            throw Error(Code::invalid_scene,
-                        name_of(boundaries[b]) + ": node " + std::to_string(node) + " is also in set " +
-                            (others.empty() ? "\"" + boundaries[b].config.set + "\"" : others) +
-                            ", which prescribes another velocity along the same direction at t = " +
-                            short_number(t) + " s; take the node out of one set, or give equal velocities");
-          }
+      } else {
+        group.beyond.push_back({b, terms});
       }
     }
   }
@@ -146,60 +141,70 @@ BoundarySet::Group BoundarySet::merge(const std::vector<int>& members,
   return group;
 }
 
+void BoundarySet::check(const Group& group, const std::vector<int>& members, const std::vector<ResolvedBoundary>& boundaries,
+                        int node, const Vec3& place) const {
+  const auto refuse = [&](int b, const std::string& when, const char* remedy) {
+    std::string others;
+    for (int other : members)
+      if (other < b) others += (others.empty() ? "" : ", ") + ("\"" + boundaries[other].config.set + "\"");
+    throw Error(Code::invalid_scene,
+                name_of(boundaries[b]) + ": node " + std::to_string(node) + " is also in set " +
+                    (others.empty() ? "\"" + boundaries[b].config.set + "\"" : others) +
+                    ", which prescribes another velocity along the same direction" + when + "; " + remedy);
+  };
+  for (const Beyond& beyond : group.beyond) {
+    std::set<double> knots;
+    double scale = 0;
+    for (const Term& term : beyond.terms) {
+      const RigidVelocity& motion = motions_[term.motion];
+      for (double t : motion.times()) {
+        knots.insert(t);
+        scale = std::max(scale, motion.velocity(t).norm());
+        // A turn asks for nothing along its axis, and for nothing of a node on its axis.
+        const Vec3 w = motion.spin(t), r = place - motion.centre();
+        if (w.cross(term.weight).norm() > kParallel * w.norm() && w.cross(r).norm() > kParallel * w.norm() * (place.norm() + motion.centre().norm()))
+          refuse(beyond.boundary, " where the set turns", "take the node out of one set, or leave to each the axes that are its own");
+      }
+    }
+    // The difference is a cubic between neighbouring knots: four points decide.
+    for (auto k = knots.begin(); k != knots.end(); ++k) {
+      const double next = std::next(k) == knots.end() ? *k : *std::next(k);
+      for (double t : {*k, (2 * *k + next) / 3, (*k + 2 * next) / 3}) {
+        double speed = 0;
+        for (const Term& term : beyond.terms) speed += term.weight.dot(motions_[term.motion].velocity(t));
+        if (std::abs(speed) > 1e-9 * scale)
+          refuse(beyond.boundary, " at t = " + short_number(t) + " s", "take the node out of one set, or give equal velocities");
+      }
+    }
+  }
+}
+
 int BoundarySet::find(int node) const {
   const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), node);
   return place != nodes_.end() && *place == node ? static_cast<int>(place - nodes_.begin()) : -1;
 }
 
-double BoundarySet::speed(const std::vector<Term>& terms, double t) const {
-  double sum = 0;
-  for (const Term& term : terms) sum += term.weight.dot(profiles_[term.profile].at(t));
-  return sum;
-}
-
-Vec3 BoundarySet::prescribed(const Group& group, double t) const {
+Vec3 BoundarySet::prescribed(const Group& group, double t, double dt, const Vec3& x) const {
   Vec3 u = Vec3::Zero();
   for (const Direction& fixed : group.directions)
-    if (!fixed.terms.empty()) u += speed(fixed.terms, t) * fixed.axis;
+    for (const Term& term : fixed.terms) u += term.weight.dot(motions_[term.motion].at(t, dt, x)) * fixed.axis;
   return u;
 }
 
-Vec3 BoundarySet::prescribed(int k, double t) const { return prescribed(groups_[group_[k]], t); }
+Vec3 BoundarySet::prescribed(int k, double t, double dt, const Vec3& x) const { return prescribed(groups_[group_[k]], t, dt, x); }
 
-double BoundarySet::apply_velocity(double t_mid, NodeField& v) const {
-  double fastest = 0;
+double BoundarySet::apply_velocity(double t, double dt, const NodeField& x, NodeField& v) const {
   std::vector<Vec3> velocities;
-  for (const Group& group : groups_) {
-    velocities.push_back(prescribed(group, t_mid));
-    fastest = std::max(fastest, velocities.back().norm());
-  }
+  for (const Group& group : groups_) velocities.push_back(group.turns ? Vec3(Vec3::Zero()) : prescribed(group, t, dt, Vec3::Zero()));
+  double fastest = 0;
   for (size_t k = 0; k < nodes_.size(); ++k) {
+    const Group& group = groups_[group_[k]];
+    const Vec3 u = group.turns ? prescribed(group, t, dt, vec3(x[nodes_[k]])) : velocities[group_[k]];
+    fastest = std::max(fastest, u.norm());
     Node& velocity = v[nodes_[k]];
-    velocity.head<3>() = projector(static_cast<int>(k)) * vec3(velocity) + velocities[group_[k]];
+    velocity.head<3>() = group.projector * vec3(velocity) + u;
   }
   return fastest;
-}
-
-Vec3 BoundarySet::reaction_impulse(int k, const Vec3& force, double mass, const Vec3& v_before,
-                                   const Vec3& v_after, double dt) const {
-  const Vec3 impulse = mass * (v_after - v_before) - dt * force;
-  return impulse - projector(k) * impulse;
-}
-
-double BoundarySet::work(int k, const Vec3& force, double mass, const Vec3& v_before, const Vec3& v_after,
-                         double dt) const {
-  return 0.5 * reaction_impulse(k, force, mass, v_before, v_after, dt).dot(v_before + v_after);
-}
-
-double BoundarySet::work(const NodeField& force, const std::vector<double>& mass, const NodeField& v_before,
-                         const NodeField& v_after, double dt) const {
-  double sum = 0;
-  for (size_t k = 0; k < nodes_.size(); ++k) {
-    const int i = nodes_[k];
-    if (v_before[i] + v_after[i] == Node::Zero()) continue;  // held at rest
-    sum += work(static_cast<int>(k), vec3(force[i]), mass[i], vec3(v_before[i]), vec3(v_after[i]), dt);
-  }
-  return sum;
 }
 
 }  // namespace forming_sim

@@ -17,7 +17,7 @@ ResolvedPressure resolve(const PressureConfig& config, const std::string& body, 
     throw Error(Code::invalid_scene, where + ", which the body does not have; name one of its sets");
   ResolvedPressure resolved;
   try {
-    resolved.profile = ScalarProfile(config.times, config.values);
+    resolved.profile = ScalarProfile(config.times, config.values, config.profile);
   } catch (const Error& error) {
     throw Error(error.code(), where + ": " + error.what());
   }

@@ -3,22 +3,26 @@
 #include "forming_sim/config/fault.h"
 
 namespace forming_sim {
+namespace {
 
-ScalarProfile::ScalarProfile(const std::vector<double>& times, const std::vector<double>& values) {
+Curve curve_of(const std::vector<double>& times, const std::vector<Vec3>& values, const std::string& shape, const char* what) {
+  if (shape == "linear") return Curve::linear(times, values);
+  if (shape == "smooth") return Curve::cubic(times, values);
+  throw Error(Code::invalid_scene, "profile: given \"" + shape + "\" for a " + what + "; give linear or smooth");
+}
+
+}  // namespace
+
+ScalarProfile::ScalarProfile(const std::vector<double>& times, const std::vector<double>& values,
+                             const std::string& shape) {
   std::vector<Vec3> points;
   for (double value : values) points.push_back(Vec3(value, 0, 0));
-  curve_ = Curve::linear(times, points);
+  curve_ = curve_of(times, points, shape, "pressure");
 }
 
 VelocityProfile::VelocityProfile(const std::vector<double>& times, const std::vector<Vec3>& velocities,
-                                 const std::string& shape) {
-  if (shape == "linear")
-    velocity_ = Curve::linear(times, velocities);
-  else if (shape == "smooth")
-    velocity_ = Curve::cubic(times, velocities);
-  else
-    throw Error(Code::invalid_scene,
-                "profile: given \"" + shape + "\" for a velocity; give linear or smooth");
+                                 const std::string& shape)
+    : velocity_(curve_of(times, velocities, shape, "velocity")) {
   path_ = velocity_.integral(0);
 }
 

@@ -1,5 +1,9 @@
 #include "forming_sim/mesh/sets.h"
 
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+
 #include "forming_sim/config/fault.h"
 #include "forming_sim/mesh/measure.h"
 
@@ -16,40 +20,42 @@ std::vector<char> on_surface(const Mesh& mesh) {
   return on;
 }
 
+/// Whether a node counts as in the set.
+std::function<bool(const Vec3&)> place_of(const SetConfig& set, bool flat, double tolerance) {
+  const std::string name = "set " + set.name + ": ", in_plane = flat ? " in x and y" : "";
+  const auto direction = [&](Vec3 given, const char* whose) {
+    if (!(given.norm() > 0) || !given.allFinite() || !set.point.allFinite())
+      throw Error(Code::mesh_error, name + "the " + whose + " has no length" + in_plane + "; give a direction");
+    return Vec3(given.normalized());
+  };
+  const Vec3 point = set.point;
+  const double radius = set.radius;
+  if (set.choose == "plane") {
+    const Vec3 normal = direction(flat ? Vec3(set.normal.x(), set.normal.y(), 0) : set.normal, "normal of its plane");
+    return [=](const Vec3& x) { return std::abs(normal.dot(x - point)) <= tolerance; };
+  }
+  if (set.choose == "cylinder") {
+    const Vec3 axis = flat || set.axis.isZero(0) ? Vec3(Vec3::UnitZ()) : direction(set.axis, "axis of its cylinder");
+    return [=](const Vec3& x) { return std::abs(axis.cross(x - point).norm() - radius) <= tolerance; };
+  }
+  if (set.choose == "sphere") return [=](const Vec3& x) { return std::abs((x - point).norm() - radius) <= tolerance; };
+  if (set.choose != "box") throw Error(Code::mesh_error, name + "given choose \"" + set.choose + "\"; plane, box, cylinder or sphere is needed");
+  Vec3 least = set.min, greatest = set.max;
+  if (flat) least.z() = greatest.z() = 0;
+  if (!(least.array() <= greatest.array()).all())
+    throw Error(Code::mesh_error, name + "the least corner " + place(set.min) + " of its box is beyond the greatest " + place(set.max) + "; exchange the coordinates");
+  return [=](const Vec3& x) { return ((least - x).array() <= tolerance).all() && ((x - greatest).array() <= tolerance).all(); };
+}
+
 }  // namespace
 
 std::vector<int> choose_nodes(const Mesh& mesh, const SetConfig& set) {
-  const std::string name = "set " + set.name + ": ";
   const double tolerance = set.tolerance > 0 ? set.tolerance : kTolerance * size_of(mesh);
-  const bool flat = mesh.dimension == 2;
-  Vec3 normal = set.normal;
-  Eigen::AlignedBox3d box;
-  if (set.choose == "plane") {
-    if (flat) normal.z() = 0;
-    if (!(normal.norm() > 0) || !normal.allFinite() || !set.point.allFinite())
-      throw Error(Code::mesh_error,
-                  name + "the normal of its plane has no length" + (flat ? " in x and y" : "") + "; give a direction");
-    normal.normalize();
-  } else if (set.choose == "box") {
-    Vec3 least = set.min, greatest = set.max;
-    if (flat) least.z() = greatest.z() = 0;
-    if (!(least.array() <= greatest.array()).all())
-      throw Error(Code::mesh_error, name + "the least corner " + place(set.min) +
-                                        " of its box is beyond the greatest " + place(set.max) + "; exchange the coordinates");
-    box = Eigen::AlignedBox3d(least, greatest);
-  } else {
-    throw Error(Code::mesh_error, name + "given choose \"" + set.choose + "\"; plane or box is needed");
-  }
-
+  const auto is_there = place_of(set, mesh.dimension == 2, tolerance);
   const std::vector<char> surface = set.surface_only ? on_surface(mesh) : std::vector<char>(mesh.nodes.size(), 1);
   std::vector<int> chosen;
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    const Vec3& x = mesh.nodes[n];
-    const bool inside = set.choose == "plane"
-                            ? std::abs(normal.dot(x - set.point)) <= tolerance
-                            : ((box.min() - x).array() <= tolerance).all() && ((x - box.max()).array() <= tolerance).all();
-    if (inside && surface[n]) chosen.push_back(static_cast<int>(n));
-  }
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    if (surface[n] && is_there(mesh.nodes[n])) chosen.push_back(static_cast<int>(n));
   return chosen;
 }
 

@@ -41,6 +41,7 @@ Peak greatest_surface_strain(const Simulation& simulation) {
 
 Gauge::Gauge(const Simulation& simulation, const std::vector<ProbeConfig>& probes)
     : probes_(find_probes(probes, simulation.model(), simulation.elements())) {
+  for (Probe& probe : probes_) probe.held = std::any_of(probe.nodes.begin(), probe.nodes.end(), [&](int n) { return simulation.once_held(n); });
   for (const BodyModel& body : simulation.model().bodies)
     if (auto sheet = Thickness::of(body.mesh, body.first_node)) sheets_.push_back(std::move(*sheet));
 }

@@ -1,5 +1,6 @@
 #include "forming_sim/results/history.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace forming_sim {
@@ -30,6 +31,9 @@ std::vector<std::string> history_columns(const Model& model, const std::vector<P
     for (const char* axis : kAxes) columns.push_back("probe_" + probe.name + "_velocity_" + axis + "_m_per_s");
     for (const char* component : {"xx", "yy", "zz", "xy", "yz", "zx"})
       columns.push_back("probe_" + probe.name + "_stress_" + component + "_Pa");
+    if (!probe.held) continue;
+    for (const char* axis : kAxes) columns.push_back("probe_" + probe.name + "_reaction_force_" + axis + "_N" + per_width);
+    for (const char* axis : kAxes) columns.push_back("probe_" + probe.name + "_reaction_moment_" + axis + "_N_m" + per_width);
   }
   return columns;
 }
@@ -38,7 +42,7 @@ std::string stage_name(const Simulation& simulation) {
   const auto& stages = simulation.plan().stages;
   if (stages.empty()) return "";
   const StageConfig& stage = stages[std::min<std::size_t>(simulation.stage(), stages.size() - 1)];
-  return stage.name.empty() ? stage.kind : stage.name;
+  return stage.title();
 }
 
 void History::on_start(const Simulation& simulation) {
@@ -86,10 +90,20 @@ void History::write(const Simulation& simulation) {
   values.push_back(csv_number(measures.surface_strain.value));
   values.push_back(measures.thickness ? csv_number(*measures.thickness) : "");
   values.push_back(csv_number(simulation.contact_status().min_gap_over_layer));
-  for (const ProbeValue& probe : measures.probes) {
+  record_.history_reactions.resize(measures.probes.size());
+  for (std::size_t i = 0; i < measures.probes.size(); ++i) {
+    const ProbeValue& probe = measures.probes[i];
     add(values, probe.position);
     add(values, probe.velocity);
     for (int k = 0; k < 6; ++k) values.push_back(csv_number(probe.stress[k]));
+    if (!gauge_.probes()[i].held) continue;
+    const Reaction now = simulation.reaction(gauge_.probes()[i].nodes);
+    Reaction& before = record_.history_reactions[i];
+    const double rate = elapsed > 0 ? 1 / elapsed : 0;
+    const Vec3 force = rate * (now.impulse - before.impulse), about_origin = rate * (now.angular - before.angular);
+    add(values, force);
+    add(values, simulation.model().axisymmetric ? about_origin : Vec3(about_origin - probe.position.cross(force)));
+    before = now;
   }
   record_.history_time = simulation.time();
   file_->append(values);

@@ -18,7 +18,7 @@ void Recorder::on_stage_end(const Simulation& simulation, int index) {
   look(simulation);
   const StageConfig& stage = simulation.plan().stages[index];
   const Energies& energies = simulation.energies();
-  StageRecord ended{stage.name.empty() ? stage.kind : stage.name, stage.kind, simulation.time(),
+  StageRecord ended{stage.title(), stage.kind, simulation.time(),
                     energies.kinetic, energies.elastic, energies.plastic};
   ended.kinetic_over_internal_peak = record_.kinetic_peak.at_end(energies.elastic + energies.plastic);
   record_.kinetic_peak.levels.clear();

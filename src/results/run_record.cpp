@@ -72,10 +72,12 @@ std::string RunRecord::to_json() const {
             {"stages", json::array()},
             {"notes", notes},
             {"history_time", history_time},
-            {"history_impulses", json::array()}};
+            {"history_impulses", json::array()},
+            {"history_reactions", json::array()}};
   for (const auto& [level, most] : kinetic_peak.levels) j["kinetic_peak"].push_back({level, most});
   for (const StageRecord& s : stages) j["stages"].push_back(of(s));
   for (const Vec3& impulse : history_impulses) j["history_impulses"].push_back(of(impulse));
+  for (const Reaction& reaction : history_reactions) j["history_reactions"].push_back({of(reaction.impulse), of(reaction.angular)});
   return j.dump();
 }
 
@@ -95,6 +97,7 @@ RunRecord RunRecord::from_json(const std::string& text) {
     record.notes = j.at("notes").get<std::vector<std::string>>();
     record.history_time = j.at("history_time");
     for (const json& impulse : j.at("history_impulses")) record.history_impulses.push_back(vector(impulse));
+    for (const json& reaction : j.at("history_reactions")) record.history_reactions.push_back({vector(reaction.at(0)), vector(reaction.at(1))});
     return record;
   } catch (const json::exception& error) {
     throw Error(Code::resume_error, std::string("the checkpoint's record of the run cannot be read: ") + error.what());

@@ -48,7 +48,7 @@ std::string stage_name(const Simulation& simulation) {
   if (stages.empty()) return "";
   const int last = static_cast<int>(stages.size()) - 1;
   const StageConfig& stage = stages[std::clamp(simulation.stage(), 0, last)];
-  return stage.name.empty() ? stage.kind : stage.name;
+  return stage.title();
 }
 
 Box box_of(const NodeField& positions) {

@@ -56,8 +56,11 @@ void add_sets(const BodyConfig& body, const std::string& path, Mesh& mesh, std::
       continue;
     }
     std::vector<int> nodes;
-    const std::string chosen = set.choose == "plane" ? "the plane through " + given_text(set.point) + " with normal " + given_text(set.normal)
-                                                     : "the box from " + given_text(set.min) + " to " + given_text(set.max);
+    const std::string round = " of radius " + number_text(set.radius) + " m about " + given_text(set.point);
+    const std::string chosen = set.choose == "plane"      ? "the plane through " + given_text(set.point) + " with normal " + given_text(set.normal)
+                               : set.choose == "cylinder" ? "the cylinder" + round + (mesh.dimension == 2 || set.axis.isZero(0) ? "" : " along " + given_text(set.axis))
+                               : set.choose == "sphere"   ? "the sphere" + round
+                                                          : "the box from " + given_text(set.min) + " to " + given_text(set.max);
     if (!attempt(here, chosen, faults, [&] { nodes = choose_nodes(mesh, set); })) continue;
     if (nodes.empty()) {
       const auto box = bounds(mesh);

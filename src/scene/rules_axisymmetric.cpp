@@ -41,6 +41,10 @@ void check_axisymmetric(const Scene& scene, FaultList& faults) {
     const BodyConfig& body = scene.bodies[i];
     rules.along_axis(body.initial_velocity, body_path(i) + ".initial_velocity");
     rules.no_turn(body.initial_spin_deg_s, body_path(i) + ".initial_spin_deg_s");
+    for (std::size_t k = 0; k < body.boundaries.size(); ++k)
+      faults.each(body.boundaries[k].spins_deg_s, [&](std::size_t n) {
+        rules.no_turn(body.boundaries[k].spins_deg_s[n], join_path(join_path(body_path(i) + ".boundaries", k) + ".spins_deg_s", n));
+      });
   }
   for (std::size_t i = 0; i < scene.tools.size(); ++i)
     if (scene.tools[i].motion) rules.motion(*scene.tools[i].motion, tool_path(i) + ".motion");

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "forming_sim/material/constants.h"
+#include "forming_sim/simulation/release.h"
 
 namespace forming_sim {
 
@@ -125,9 +126,18 @@ void check_bodies(const Scene& scene, FaultList& faults) {
       const BoundaryConfig& boundary = body.boundaries[k];
       const std::string here = join_path(path + ".boundaries", k);
       check_set(boundary.set, here);
+      if (!boundary.until.empty() && release_stage(boundary.until, scene.stages) == static_cast<int>(scene.stages.size())) {
+        std::vector<std::string> later;
+        for (std::size_t s = 1; s < scene.stages.size(); ++s) later.push_back(scene.stages[s].title());
+        faults.add(here + ".until", given_text(boundary.until),
+                   later.empty() ? "leave it out: there is no stage after the first" : "the stages after the first are " + one_of(later, ", ") + did_you_mean(boundary.until, later));
+      }
       if (boundary.kind != "velocity") continue;
       check_times(boundary.times, here + ".times", faults);
       check_as_many(boundary.velocities, boundary.times, here + ".velocities", faults);
+      check_as_many(boundary.spins_deg_s, boundary.times, here + ".spins_deg_s", faults);
+      if (boundary.velocities.empty() && boundary.spins_deg_s.empty())
+        faults.add(here, "a velocity without velocities and spins_deg_s", "give at least one of them, an entry for each time");
     }
     for (std::size_t k = 0; k < body.pressures.size(); ++k) {
       const PressureConfig& pressure = body.pressures[k];

@@ -33,7 +33,7 @@ leave a field out: there 0, "" and [] mean "not given", and the default holds.
   profiles lie at x >= 0. Forces, masses and energies are those of the whole circle (N, kg, J). What lies on the axis
   stays on it without being told; a set of nodes on the axis carries no pressure. Tools, gravity and initial velocities
   go along y. Of the force on a tool only what goes along the axis is told: the rest holds itself in balance.
-- `dimension: 3` is a solid of tetrahedra.
+- `dimension: 3` is a solid of tetrahedra or one-point hexahedra.
 - Relative file names refer to the directory of the scene file; `package://NAME/PATH` and `file://` URLs are understood.
 
 ## Bodies and their sets
@@ -48,8 +48,14 @@ pressures and probes name sets of its nodes:
 | `bar` | `bottom`, `top` (least and greatest z), `side`; `symmetry_x` (x = 0; half and quarter), `symmetry_y` (y = 0; quarter) |
 | `.msh` file | its physical groups by their names |
 
-More sets are chosen by a plane or a box under `sets`. In a mesh file, name two sets `bottom` and `top` to have the
+More sets are chosen by a plane, a box, a cylinder or a sphere under `sets`. In a mesh file, name two sets `bottom` and `top` to have the
 thickness of the sheet in the results.
+
+A boundary of kind `velocity` moves a set as a rigid body would: with `velocities`, about a `centre` with `spins_deg_s`, or
+both, and only along its `axes`. A bar is twisted by an end with `spins_deg_s: [[0, 0, w], ...]` and `axes: [x, y]`, so
+that it may get longer or shorter; a sheet is bent by turning an end section. `until` names the stage with which a boundary
+lets go: what was clamped in forming springs back when it is cut free. What boundaries push with is in
+`history.csv`, where a probe is on their set.
 
 ## Tools
 
@@ -79,7 +85,7 @@ Into the directory of `--output`:
 |---|---|
 | `result.h5` | the mesh once, and the fields of every frame, with units as attributes and the text of the scene; readable up to the last complete frame, whatever ends the run |
 | `result.xdmf` | opens `result.h5` in ParaView and VTK |
-| `history.csv` | a row per `history_interval`: time, energies, forces of the tools, extremes, and for every probe its position, velocity and mean stress (xx yy zz xy yz zx); the first line names the columns, with units |
+| `history.csv` | a row per `history_interval`: time, energies, forces of the tools, extremes, and for every probe its position, velocity and mean stress (xx yy zz xy yz zx), where boundaries hold or drive it the force and moment that they push with; the first line names the columns, with units |
 | `summary.json` | the result in figures |
 
 A checkpoint is written when a run is cancelled, and every `checkpoint_interval` if that is given;

@@ -9,7 +9,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f6600000003u;
+constexpr std::uint64_t kLayout = 0x6d726f6600000004u;
 }  // namespace
 
 template <class Archive> void Simulation::Impl::exchange(Archive& a) {
@@ -34,6 +34,10 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.number(settled);
   a.number(pressed);
   a.numbers(contact_pressure.data(), contact_pressure.size());
+  for (Reaction& reaction : reactions) {
+    a.numbers(reaction.impulse.data(), 3);
+    a.numbers(reaction.angular.data(), 3);
+  }
   for (ToolStatus& tool : tools)
     for (Vec3* value : {&tool.force, &tool.moment, &tool.impulse, &tool.peak_force}) a.numbers(value->data(), 3);
 }
@@ -75,6 +79,7 @@ void Simulation::restore(const std::vector<char>& data) {
   in.list(starts);
   s.stages = StageRunner(s.plan.stages, s.model);
   s.stages.replay(starts);
+  s.release_boundaries();
   s.exchange(in);
   in.list(memory);
   std::vector<double> expected;

@@ -26,6 +26,22 @@ const NodeField& Simulation::positions() const { return impl_->x; }
 const NodeField& Simulation::velocities() const { return impl_->v; }
 double Simulation::first_dt() const { return impl_->first_dt; }
 const std::vector<ToolStatus>& Simulation::tools() const { return impl_->tools; }
+bool Simulation::once_held(int node) const { return std::binary_search(impl_->once_held.begin(), impl_->once_held.end(), node); }
+Reaction Simulation::reaction(const std::vector<int>& nodes) const {
+  Reaction sum;
+  for (int node : nodes) {
+    const auto place = std::lower_bound(impl_->once_held.begin(), impl_->once_held.end(), node);
+    if (place == impl_->once_held.end() || *place != node) continue;
+    const Reaction& one = impl_->reactions[place - impl_->once_held.begin()];
+    sum.impulse += one.impulse;
+    sum.angular += one.angular;
+  }
+  if (impl_->model.axisymmetric) {  // around the circle what is radial cancels, and so do the moments
+    sum.impulse.x() = 0;
+    sum.angular.setZero();
+  }
+  return sum;
+}
 const std::vector<std::string>& Simulation::warnings() const { return impl_->warnings; }
 
 namespace {

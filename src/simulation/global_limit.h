@@ -28,6 +28,8 @@ class GlobalLimit {
     const Change change = since(rates);
     return change.most > 1.01 || change.least < 0.95;
   }
+  /// The next step asks for a run: something has changed that the cells do not tell.
+  void forget() { latest_ = 0; }
   /// A run of `cost` products has found omega2, at these rates.
   void set(long step, double omega2, int cost, const CellRates& rates) {
     ++estimates;

@@ -27,7 +27,12 @@ struct Simulation::Impl {
   Elements elements;
   std::vector<Facet> surface;       ///< joined
   std::vector<double> physical_mass;
-  BoundarySet boundaries;
+  std::vector<ResolvedBoundary> all_boundaries;
+  BoundarySet boundaries;           ///< that hold in the running stage
+  std::size_t holding = 0;          ///< how many of all do
+  std::vector<int> once_held;       ///< nodes that a boundary holds or has held, increasing
+  std::vector<Reaction> reactions;  ///< of once_held, since the start
+  std::vector<Vec3> held_impulse;   ///< of contact on them along what holds them, in a step, N s
   PressureSet pressures;
   StageRunner stages;
   std::optional<Contact> contact;
@@ -74,6 +79,9 @@ struct Simulation::Impl {
   // setup.cpp
   void set_up_loads();
   void set_up_contact();
+  /// Leaves those boundaries that hold in the running stage.
+  void release_boundaries();
+  void tell_contact_what_is_held();
   std::vector<ToolMotion> tool_motions(double from, double to) const;
   void place_tools();
 
@@ -97,6 +105,7 @@ struct Simulation::Impl {
   void mean_contact_pressure(double over_kick);
   /// Work of prescribed motion, pressure, gravity and damping over the kick.
   void book_loads(const NodeField& external);
+  void book_reactions(double kick);
   double kinetic() const;
   /// Mass-proportional damping now, 1/s.
   double damping_rate() const;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "forming_sim/mesh/axis.h"
+#include "forming_sim/simulation/release.h"
 #include "simulation/impl.h"
 
 namespace forming_sim {
@@ -83,7 +84,7 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
 }
 
 void Simulation::Impl::set_up_loads() {
-  std::vector<ResolvedBoundary> held;
+  std::vector<ResolvedBoundary>& held = all_boundaries;
   std::vector<ResolvedPressure> pressed;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
@@ -102,7 +103,10 @@ void Simulation::Impl::set_up_loads() {
   }
   boundaries = BoundarySet(held, model.dimension);
   pressures = PressureSet(std::move(pressed), model.dimension, model.axisymmetric);
-  boundaries.apply_velocity(0, v);
+  boundaries.apply_velocity(0, 0, x, v);
+  holding = held.size();
+  once_held = boundaries.nodes();
+  reactions.resize(once_held.size());
   physical_mass = elements.nodal_mass();
   for (double& m : physical_mass) m /= plan.time_step.mass_scaling;
 }
@@ -156,13 +160,30 @@ void Simulation::Impl::set_up_contact() {
     const Node shift = node(contact->body_shifts()[b]);
     for (int n = body.first_node; n < body.first_node + body.node_count; ++n) x[n] += shift, X[n] += shift;
   }
+  tell_contact_what_is_held();
+  warnings.insert(warnings.end(), contact->warnings().begin(), contact->warnings().end());
+}
+
+void Simulation::Impl::release_boundaries() {
+  if (stages.finished()) return;
+  std::vector<ResolvedBoundary> held;
+  for (const ResolvedBoundary& boundary : all_boundaries)
+    if (release_stage(boundary.config.until, plan.stages) > stages.index()) held.push_back(boundary);
+  if (held.size() == holding) return;
+  holding = held.size();
+  boundaries = BoundarySet(held, model.dimension);
+  if (contact) tell_contact_what_is_held();
+  global.forget();  // what is let go swings faster than what is held
+  control.hurry();
+}
+
+void Simulation::Impl::tell_contact_what_is_held() {
   std::vector<double> inverse_mass;
   for (double m : elements.nodal_mass()) inverse_mass.push_back(1 / m);
   std::vector<HeldNode> held;
   for (std::size_t k = 0; k < boundaries.nodes().size(); ++k)
     held.push_back({boundaries.nodes()[k], boundaries.projector(static_cast<int>(k))});
   contact->set_masses(inverse_mass, held);
-  warnings.insert(warnings.end(), contact->warnings().begin(), contact->warnings().end());
 }
 
 std::vector<ToolMotion> Simulation::Impl::tool_motions(double from, double to) const {

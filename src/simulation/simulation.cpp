@@ -16,6 +16,7 @@ constexpr int kCrossingChecks = 200;  ///< independent crossing checks over a ru
 
 void Simulation::Impl::begin_stage() {
   rests = false;
+  release_boundaries();
   if (!stages.settling()) return;
   double size = 0, thin = 1e300, speed = 1e300;
   for (const BodyModel& body : model.bodies) {

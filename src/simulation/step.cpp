@@ -15,7 +15,7 @@ constexpr double kForceMeanSteps = 50;  ///< tool forces and contact pressures a
 
 void Simulation::Impl::predict(double step_dt, const NodeField& from, NodeField& v_star) const {
   kick_nodes(elements.team(), from, f, elements.nodal_mass(), 0.5 * (previous_dt + step_dt), damping_rate(), v_star);
-  boundaries.apply_velocity(time + 0.5 * step_dt, v_star);
+  boundaries.apply_velocity(time, step_dt, x, v_star);
 }
 
 void Simulation::Impl::take_step() {
@@ -124,7 +124,32 @@ void Simulation::Impl::book_loads(const NodeField& external) {
     damping += lost;
     if (stages.settling()) settled_away += lost * settle.damping() / alpha;
   }
-  work += boundaries.work(f, mass, v_before, v, kick);
+  book_reactions(kick);
+}
+
+// What holds or drives a node answers the forces of the elements, the loads and contact along its fixed directions, and does work.
+void Simulation::Impl::book_reactions(double kick) {
+  const std::vector<double>& mass = elements.nodal_mass();
+  const std::vector<int>& nodes = boundaries.nodes();
+  if (contact && !nodes.empty()) {
+    held_impulse.assign(nodes.size(), Vec3::Zero());
+    contact->add_held_impulses(held_impulse);
+  } else {
+    held_impulse.clear();
+  }
+  const double over_kick = 1 + 0.5 * damping_rate() * kick;
+  double done = 0;    // against contact it is in ContactStep::held_work
+  std::size_t r = 0;  // both lists increase
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const int i = nodes[k];
+    while (once_held[r] != i) ++r;
+    Vec3 impulse = boundaries.reaction_impulse(static_cast<int>(k), vec3(f[i]), mass[i], vec3(v_before[i]), vec3(v[i]), kick);
+    done += 0.5 * impulse.dot(vec3(v_before[i]) + vec3(v[i]));
+    if (!held_impulse.empty()) impulse -= over_kick * held_impulse[k];
+    reactions[r].impulse += impulse;
+    reactions[r].angular += vec3(x[i]).cross(impulse);
+  }
+  work += done;
 }
 
 double Simulation::Impl::kinetic() const {

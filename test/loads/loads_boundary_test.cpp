@@ -86,10 +86,10 @@ TEST(BoundarySet, merges_skew_planes_of_symmetry) {
 TEST(BoundarySet, prescribes_velocity_along_its_axes_only) {
   const BoundarySet set({driven({2, 7, 0}, {4, 7, 0}, {"x"}, {0, 2})}, 3);
   NodeField v(3, Node(1, 1, 1, 0));
-  EXPECT_DOUBLE_EQ(set.apply_velocity(1, v), 3);
+  EXPECT_DOUBLE_EQ(set.apply_velocity(1, 0, v, v), 3);
   EXPECT_EQ(v[0], Node(3, 1, 1, 0));
   EXPECT_EQ(v[1], Node(1, 1, 1, 0));
-  EXPECT_EQ(set.prescribed(1, 5), Vec3(4, 0, 0));
+  EXPECT_EQ(set.prescribed(1, 5, 0, Vec3::Zero()), Vec3(4, 0, 0));
 }
 
 TEST(BoundarySet, a_drive_and_a_skew_plane_hold_both) {
@@ -102,7 +102,7 @@ TEST(BoundarySet, a_drive_and_a_skew_plane_hold_both) {
     if (plane_first) std::swap(boundaries[0], boundaries[1]);
     const BoundarySet set(boundaries, 3);
     NodeField v{Node(9, 9, 9, 0)};
-    set.apply_velocity(0.5, v);
+    set.apply_velocity(0.5, 0, v, v);
     EXPECT_LT((v[0] - Node(3, -3, 9, 0)).norm(), 1e-13);
   }
 }
@@ -140,16 +140,28 @@ TEST(BoundarySet, refuses_what_means_nothing) {
 
 TEST(BoundarySet, resolves_sets_in_joined_numbering) {
   Mesh mesh;
+  mesh.nodes = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   mesh.sets["left"] = {0, 2};
   mesh.sets["none"] = {};
   BoundaryConfig config;
   config.kind = "fixed";
   config.set = "left";
   EXPECT_EQ(resolve(config, "sheet", mesh, 10).nodes, (std::vector<int>{10, 12}));
+  EXPECT_EQ(resolve(config, "sheet", mesh, 10).places, (std::vector<Vec3>{Vec3(0, 0, 0), Vec3(0, 1, 0)}));
   for (const char* name : {"right", "none"}) {
     config.set = name;
     EXPECT_THROW(resolve(config, "sheet", mesh, 10), Error);
   }
+}
+
+/// Of all nodes that are held or driven, J.
+double work_of(const BoundarySet& set, const NodeField& f, const std::vector<double>& mass, const NodeField& before, const NodeField& after, double dt) {
+  double sum = 0;
+  for (std::size_t k = 0; k < set.nodes().size(); ++k) {
+    const int i = set.nodes()[k];
+    sum += 0.5 * set.reaction_impulse(static_cast<int>(k), vec3(f[i]), mass[i], vec3(before[i]), vec3(after[i]), dt).dot(vec3(before[i] + after[i]));
+  }
+  return sum;
 }
 
 TEST(BoundarySet, work_closes_the_balance_of_kinetic_energy) {
@@ -172,9 +184,9 @@ TEST(BoundarySet, work_closes_the_balance_of_kinetic_energy) {
       f[i] = 20 * Node(std::sin(step + i), std::cos(2 * step - i), std::sin(3. * i), 0);
     const NodeField before = v;
     for (int i = 0; i < 4; ++i) v[i] += dt / mass[i] * f[i];
-    set.apply_velocity((step + 0.5) * dt, v);
+    set.apply_velocity(step * dt, dt, v, v);
     for (int i = 0; i < 4; ++i) applied += 0.5 * dt * f[i].dot(before[i] + v[i]);
-    prescribed += set.work(f, mass, before, v, dt);
+    prescribed += work_of(set, f, mass, before, v, dt);
   }
   EXPECT_GT(std::abs(prescribed), 1);
   EXPECT_NEAR(kinetic(v) - start, applied + prescribed, 1e-12 * (std::abs(applied) + std::abs(prescribed)));
@@ -186,9 +198,75 @@ TEST(BoundarySet, a_plane_of_symmetry_does_no_work) {
   NodeField v{Node(1, 0, 1, 0)};  // on the plane
   const NodeField f{Node(5, -3, 8, 0)}, before = v;
   v[0] += 0.1 / mass[0] * f[0];
-  set.apply_velocity(0, v);
-  EXPECT_NEAR(set.work(f, mass, before, v, 0.1), 0, 1e-14);
+  set.apply_velocity(0, 0, v, v);
+  EXPECT_NEAR(work_of(set, f, mass, before, v, 0.1), 0, 1e-14);
   EXPECT_GT(set.reaction_impulse(0, vec3(f[0]), 2, vec3(before[0]), vec3(v[0]), 0.1).norm(), 0.1);
+}
+
+// ---- sets that turn
+
+ResolvedBoundary turning(const Vec3& spin_deg_s, const Vec3& centre, std::vector<std::string> axes, const std::vector<Vec3>& places) {
+  BoundaryConfig config;
+  config.set = "turned";
+  config.kind = "velocity";
+  config.axes = std::move(axes);
+  config.times = {0};
+  config.spins_deg_s = {spin_deg_s};
+  config.centre = centre;
+  ResolvedBoundary boundary{config, "bar", {}, places};
+  for (std::size_t i = 0; i < places.size(); ++i) boundary.nodes.push_back(static_cast<int>(i));
+  return boundary;
+}
+
+TEST(BoundarySet, a_turning_set_keeps_its_shape_and_goes_with_its_centre) {
+  // A thousand turns about a skew axis while the centre moves on, 50 steps a turn: no node comes nearer or goes away.
+  const Vec3 axis = Vec3(1, 2, 2) / 3, centre(0.3, -1, 2), along(3, 0, -1);
+  const std::vector<Vec3> places{{1, 0, 0}, {0.3, -1, 2.5}, {-2, 0.1, 4}};
+  ResolvedBoundary boundary = turning(360 * axis, centre, {}, places);
+  boundary.config.velocities = {along};
+  const BoundarySet set({boundary}, 3);
+  NodeField x, v(3, Node(9, 9, 9, 0));
+  for (const Vec3& place : places) x.push_back(node(place));
+  const double dt = 0.02;
+  for (int step = 0; step < 50010; ++step) {
+    set.apply_velocity(step * dt, dt, x, v);
+    for (int i = 0; i < 3; ++i) x[i] += dt * v[i];
+  }
+  // 1000.2 turns: a fifth of one is left. Rodrigues' formula.
+  const double a = 2 * M_PI / 5, time = 50010 * dt;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 r = places[i] - centre;
+    const Vec3 turned = std::cos(a) * r + std::sin(a) * axis.cross(r) + (1 - std::cos(a)) * axis.dot(r) * axis;
+    EXPECT_LT((vec3(x[i]) - centre - time * along - turned).norm(), 1e-9);
+  }
+}
+
+TEST(BoundarySet, a_turning_set_leaves_other_axes_free) {
+  const BoundarySet set({turning({0, 0, 180}, {0, 0, 0}, {"x", "y"}, {{2, 0, 1}})}, 3);
+  NodeField v{Node(5, 5, 5, 0)};
+  const NodeField x{Node(2, 0, 1, 0)};
+  EXPECT_NEAR(set.apply_velocity(0, 0, x, v), 2 * M_PI, 1e-12);  // dt = 0: w x r
+  EXPECT_LT((v[0] - Node(0, 2 * M_PI, 5, 0)).norm(), 1e-12);
+}
+
+TEST(BoundarySet, a_turn_agrees_with_what_it_leaves_alone) {
+  const Vec3 z(0, 0, 90), origin = Vec3::Zero();
+  const std::vector<Vec3> on_axis{{0, 0, 3}}, off_axis{{0, 2, 3}};
+  // Along its axis a turn asks for nothing, and of a node on the axis for nothing either.
+  EXPECT_EQ(refusal({turning(z, origin, {}, off_axis), fixed({"z"}, {0})}), "");
+  EXPECT_EQ(refusal({turning(z, origin, {}, on_axis), fixed({}, {0})}), "");
+  EXPECT_EQ(refusal({turning(z, origin, {}, off_axis), turning(z, origin, {"x"}, off_axis)}), "");
+  // At the start this node does not move along y. Later it would.
+  for (bool turn_first : {true, false}) {
+    std::vector<ResolvedBoundary> both{turning(z, origin, {}, off_axis), fixed({"y"}, {0})};
+    if (!turn_first) std::swap(both[0], both[1]);
+    const std::string message = refusal(both);
+    EXPECT_NE(message.find("where the set turns"), std::string::npos) << message;
+    EXPECT_NE(message.find(turn_first ? "\"turned\"" : "\"held\""), std::string::npos) << message;
+  }
+  EXPECT_NE(refusal({turning(z, origin, {}, off_axis), turning(z, {0, 1, 0}, {}, off_axis)}), "");
+  // The first node of a group agrees, the second does not.
+  EXPECT_NE(refusal({turning(z, origin, {}, {{0, 0, 3}, {1, 0, 3}}), fixed({}, {0, 1})}), "");
 }
 
 }  // namespace

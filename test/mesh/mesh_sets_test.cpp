@@ -1,4 +1,4 @@
-// Nodes chosen by plane and box.
+// Nodes chosen by plane, box, cylinder and sphere.
 #include "forming_sim/mesh/generate.h"
 #include "forming_sim/mesh/sets.h"
 #include "mesh/mesh_test_tools.h"
@@ -66,13 +66,54 @@ TEST(MeshSets, InPlaneStrainZIsIgnored) {
   EXPECT_EQ(choose_nodes(mesh, plane({0, 0, 7}, {2, 0, 3})), mesh.sets.at("left"));
 }
 
+SetConfig round(const std::string& choose, const Vec3& point, double radius) {
+  SetConfig s;
+  s.name = "rim", s.choose = choose, s.point = point, s.radius = radius;
+  return s;
+}
+
+TEST(MeshSets, ACylinderOnTheSideOfABarIsItsSide) {
+  BlankConfig b;
+  b.shape = "bar";
+  b.length = 3, b.radius = 2;
+  b.cells_along = 2, b.cells_radius = 4;
+  b.pattern = "coarse";
+  Mesh mesh = generate_blank(b);
+  SetConfig s = round("cylinder", {0, 0, 7}, 2);
+  EXPECT_EQ(choose_nodes(mesh, s), mesh.sets.at("side"));
+  // The same bar, moved and laid along x.
+  for (Vec3& X : mesh.nodes) X = Vec3(X.z() + 1, X.x() + 2, X.y() - 5);
+  s = round("cylinder", {9, 2, -5}, 2);
+  s.axis = Vec3(-0.5, 0, 0);
+  EXPECT_EQ(choose_nodes(mesh, s), mesh.sets.at("side"));
+  s.radius = 1.9;
+  EXPECT_TRUE(choose_nodes(mesh, s).empty());
+}
+
+TEST(MeshSets, ASphereTakesWhatIsAtItsRadius) {
+  for (const char* shape : {"plate", "strip"}) {
+    const Mesh mesh = body(shape);
+    const Vec3 centre(4, 2, mesh.dimension == 3 ? 0.5 : 0);
+    for (const char* choose : {"sphere", "cylinder"}) {
+      std::vector<int> expected;
+      for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+        Vec3 r = mesh.nodes[n] - centre;
+        if (std::string(choose) == "cylinder") r.z() = 0;
+        if (std::abs(r.norm() - 2) < 1e-9) expected.push_back(int(n));
+      }
+      ASSERT_FALSE(expected.empty());
+      EXPECT_EQ(choose_nodes(mesh, round(choose, centre, 2)), expected) << shape << ' ' << choose;
+    }
+  }
+}
+
 TEST(MeshSets, NonsenseIsRefusedByTheSetsName) {
   const Mesh mesh = body("strip");
   EXPECT_TRUE(has(error_of([&] { choose_nodes(mesh, plane({0, 0, 0}, {0, 0, 1})); }), "set clamp: the normal"));
   EXPECT_TRUE(has(error_of([&] { choose_nodes(mesh, box({1, 0, 0}, {0, 1, 0})); }), "set grip: the least corner (1, 0, 0) m"));
   SetConfig s = plane({0, 0, 0}, {1, 0, 0});
-  s.choose = "sphere";
-  EXPECT_TRUE(has(error_of([&] { choose_nodes(mesh, s); }), "\"sphere\"; plane or box"));
+  s.choose = "cone";
+  EXPECT_TRUE(has(error_of([&] { choose_nodes(mesh, s); }), "\"cone\"; plane, box, cylinder or sphere"));
 }
 
 }  // namespace

@@ -337,6 +337,58 @@ class Features(unittest.TestCase):
         self.assertTrue(any('body upper touches another body' in note for note in summary['warnings']), summary['warnings'])
         self.assertGreater(summary['bodies'][1]['momentum'][1], 0, 'it should have bounced')
 
+    def test_a_bar_is_twisted_and_let_go(self):
+        """T = G (pi/2) R^4 theta/L, at both ends alike, and less by the polygon of its section; let go, it is straight again."""
+        radius, length, degrees, turn = 0.01, 0.01, 0.05, 2e-4
+        bar = {'shape': 'bar', 'radius': radius, 'length': length, 'cells_along': 4, 'cells_radius': 4, 'pattern': 'one_point'}
+        held = [{'set': 'bottom', 'kind': 'fixed'},
+                {'set': 'top', 'kind': 'velocity', 'axes': ['x', 'y'], 'times': [0, turn / 2, turn], 'profile': 'smooth',
+                 'spins_deg_s': [[0, 0, 0], [0, 0, 2 * degrees / turn], [0, 0, 0]], 'until': 'settle'}]
+        case = scene({'name': 'bar', 'blank': bar, 'material': ALUMINIUM, 'boundaries': held}, dimension=3, duration=1.2 * turn,
+                     time_step={'damping': 2e4},
+                     output={'frames': 2, 'history_interval': turn / 20, 'probes': [
+                         {'name': 'top', 'set': 'top'}, {'name': 'bottom', 'set': 'bottom'}, {'name': 'rim', 'point': [radius, 0, length]}]})
+        case['stages'].append({'kind': 'settle', 'limit': 5e-3})
+        self.run_scene(case)
+        rows = self.history()
+        twisted = [row for row in rows if row['stage'] == 'form'][-1]
+        shear = ALUMINIUM['youngs_modulus'] / 2 / (1 + ALUMINIUM['poissons_ratio'])
+        exact = shear * math.pi / 2 * radius**4 * math.radians(degrees) / length
+        moment = [float(twisted[f'probe_{end}_reaction_moment_z_N_m']) for end in ('top', 'bottom')]
+        self.assertLess(moment[0] / exact, 1)
+        self.assertGreater(moment[0] / exact, 0.95)
+        self.assertAlmostEqual(moment[1] / moment[0], -1, delta=1e-3)
+        self.assertAlmostEqual(float(twisted['probe_rim_position_y_m']), radius * math.sin(math.radians(degrees)), delta=1e-11)
+        self.assertIn('probe_top_reaction_force_x_N', rows[0])
+        self.assertEqual(float(rows[-1]['probe_top_reaction_moment_z_N_m']), 0)
+        self.assertLess(abs(float(rows[-1]['probe_rim_position_y_m'])), 0.02 * radius * math.radians(degrees))
+
+    def test_the_bore_of_a_tube_from_points(self):
+        """A ring under pressure inside, in plane strain (Lame): u(a) = (1 + nu) p a/E (a^2/(b^2 - a^2)) (1 - 2 nu + b^2/a^2)."""
+        inner, outer, pressure, rise, along, around = 0.01, 0.02, 1e7, 4e-4, 8, 16
+        points, cells = [], []
+        for j in range(around + 1):
+            for i in range(along + 1):
+                r, angle = inner + (outer - inner) * i / along, math.pi / 2 * j / around
+                points.append([r * math.cos(angle) if j < around else 0, r * math.sin(angle), 0])
+        for j in range(around):
+            for i in range(along):
+                first = j * (along + 1) + i
+                cells += [first, first + 1, first + along + 2, first + along + 1]
+        ring = {'name': 'ring', 'mesh': {'points': points, 'cells': cells, 'cell_type': 'quadrilateral', 'unit_scale': 1}, 'material': ALUMINIUM,
+                'sets': [{'name': 'bore', 'choose': 'cylinder', 'radius': inner}, {'name': 'x', 'choose': 'plane', 'normal': [1, 0]},
+                         {'name': 'y', 'choose': 'plane', 'normal': [0, 1]}],
+                'boundaries': [{'set': 'x', 'kind': 'symmetric', 'normal': [1, 0]}, {'set': 'y', 'kind': 'symmetric', 'normal': [0, 1]}],
+                'pressures': [{'set': 'bore', 'times': [0, rise], 'values': [0, pressure], 'profile': 'smooth'}]}
+        self.run_scene(scene(ring, duration=1.1 * rise, output={'frames': 2, 'probes': [
+            {'name': 'a', 'point': [inner, 0]}, {'name': 'cut', 'set': 'y'}]}))
+        rows = self.history()
+        nu, square = ALUMINIUM['poissons_ratio'], inner**2 / (outer**2 - inner**2)
+        exact = (1 + nu) * pressure * inner / ALUMINIUM['youngs_modulus'] * square * (1 - 2 * nu + outer**2 / inner**2)
+        self.assertAlmostEqual((float(rows[-1]['probe_a_position_x_m']) - inner) / exact, 1, delta=0.02)
+        # Half the ring pulls on the cut with p a.
+        self.assertAlmostEqual(float(rows[-1]['probe_cut_reaction_force_y_N_per_m']) / (-pressure * inner), 1, delta=0.02)
+
 
 if __name__ == '__main__':
     unittest.main(argv=sys.argv[:1] + sys.argv[2:])

@@ -75,6 +75,7 @@ TEST(SceneRules, AnAxisymmetricSceneGoesAlongItsAxis) {
   expect_fault(with("axisymmetric: true", "axisymmetric: true\ngravity: [9.81, 0]"), "gravity", "[0, y, 0]");
   expect_fault(with("    blank:", "    initial_velocity: [1, 2]\n    blank:"), "bodies[0].initial_velocity", "along the axis");
   expect_fault(with("    blank:", "    initial_spin_deg_s: [0, 0, 1]\n    blank:"), "bodies[0].initial_spin_deg_s", "leave it out");
+  expect_fault(with("{set: left, kind: fixed}", "{set: left, kind: velocity, times: [0], spins_deg_s: [[0, 0, 1]]}"), "bodies[0].boundaries[0].spins_deg_s[0]", "no ring");
   expect_fault(with("[0, -0.020]", "[0.001, -0.020]"), "tools[2].motion.positions[1]", "along the axis y only");
   expect_fault(with("positions:", "rotations_deg: [[0, 0, 0], [0, 0, 3]]\n      positions:"), "tools[2].motion.rotations_deg[1]", "no ring");
   expect_fault(with("tools:\n", "contact: {method: geometric}\ntools:\n"), "contact.method", "implicit or explicit");
@@ -154,6 +155,10 @@ TEST(SceneRules, Histories) {
   const std::string text = replaced(flange_example(), "kind: trajectory", "kind: velocity");
   expect_fault(replaced(text, "positions:", "profile: spline\n      velocities:"), motion + ".profile", "trajectories");
   expect_fault(replaced(minimal_example(), "velocities: [[0, 0], [2, 0]]", "velocities: [[0, 0]]"), "bodies[0].boundaries[1].velocities", "2 times");
+  expect_fault(replaced(minimal_example(), "velocities: [[0, 0], [2, 0]], ", ""), "bodies[0].boundaries[1]", "without velocities and spins_deg_s");
+  expect_fault(replaced(minimal_example(), "velocities: [[0, 0], [2, 0]]", "spins_deg_s: [[0, 0, 1]]"), "bodies[0].boundaries[1].spins_deg_s", "2 times");
+  expect_fault(replaced(minimal_example(), "velocities: [[0, 0], [2, 0]]", "spins_deg_s: [[0, 0, 0], [0, 1, 0]]"), "bodies[0].boundaries[1].spins_deg_s[1]", "about z only");
+  EXPECT_TRUE(faults_of(replaced(minimal_example(), "velocities: [[0, 0], [2, 0]]", "spins_deg_s: [[0, 0, 0], [0, 0, 1]]")).empty());
   expect_fault(replaced(minimal_example(), "stages:", "    pressures: [{set: top, times: [0, 1], values: [1e6]}]\nstages:"), "bodies[0].pressures[0].values", "2 times");
 }
 
@@ -168,6 +173,9 @@ TEST(SceneRules, Stages) {
   const std::string some = replaced(flange_example(), "kind: withdraw, duration", "kind: withdraw, tools: [punch], duration");
   EXPECT_TRUE(faults_of(replaced(some, "  - {name: springback", "  - {kind: withdraw, duration: 1}\n  - {name: springback")).empty());
   expect_fault(replaced(some, "  - {name: springback", "  - {kind: withdraw, tools: [punch], duration: 1}\n  - {name: springback"), "stages[2].tools[0]", "withdrawn already");
+  expect_flange_fault("{set: left, kind: fixed}", "{set: left, kind: fixed, until: spring}", "bodies[0].boundaries[0].until", "release, springback; did you mean springback?");
+  expect_flange_fault("{set: left, kind: fixed}", "{set: left, kind: fixed, until: flanging}", "bodies[0].boundaries[0].until", "stages after the first");
+  EXPECT_TRUE(faults_of(replaced(flange_example(), "{set: left, kind: fixed}", "{set: left, kind: fixed, until: springback}")).empty());
   expect_fault(replaced(minimal_example(), "kind: form", "kind: withdraw"), "stages[0]", "the scene has no tools");
   expect_fault(replaced(minimal_example(), "  - {kind: form, duration: 5e-4}  # s\n", "  []\n"), "stages", "required");
   expect_fault(replaced(minimal_example(), "kind: form, duration: 5e-4", "kind: form"), "stages[0].duration", "required where kind is form or withdraw");

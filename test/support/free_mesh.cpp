@@ -81,6 +81,13 @@ Mesh free_quarter_bar(double radius, double length, double edge) {
   return mesh;
 }
 
+Mesh free_bar(double radius, double length, double edge) {
+  Mesh mesh = meshed(3, edge, [&] { gmsh::model::occ::addCylinder(0, 0, 0, 0, 0, length, radius); });
+  name_side(mesh, "bottom", 2, 0);
+  name_side(mesh, "top", 2, length);
+  return mesh;
+}
+
 MeshConfig inline_mesh(const Mesh& mesh) {
   MeshConfig config;
   config.unit_scale = 1;

@@ -12,6 +12,8 @@ Mesh free_rectangle(double length, double height, double edge);
 Mesh free_box(const Vec3& size, double edge);
 /// A quarter of a round bar along z from z = 0, x and y positive; sets bottom, top, symmetry_x, symmetry_y.
 Mesh free_quarter_bar(double radius, double length, double edge);
+/// A round bar along z from z = 0; sets bottom, top.
+Mesh free_bar(double radius, double length, double edge);
 
 /// The mesh, all of one kind of cells, given inline.
 MeshConfig inline_mesh(const Mesh& mesh);

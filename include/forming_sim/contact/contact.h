@@ -149,6 +149,9 @@ class Contact {
   bool ties() const;
   /// Adds the normal impulses that the last step put on the bodies' nodes, N s, below 0 where ties pull; sum: one per node.
   void add_normal_impulses(std::vector<double>& sum) const;
+  /// Adds the impulses of the last step on the nodes given to set_masses as held, in their order, along the
+  /// directions that are held: what holds them bears these. N s.
+  void add_held_impulses(std::vector<Vec3>& sum) const;
   const std::vector<double>& nodal_area() const;      ///< of the bodies' nodes at the start, m^2 (m in plane strain); 0 inside
 
   /// Distance of every node of the bodies' surfaces from the nearest other surface

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "forming_sim/loads/config.h"
-#include "forming_sim/loads/profile.h"
+#include "forming_sim/loads/rigid_velocity.h"
 #include "forming_sim/mesh/mesh.h"
 #include "forming_sim/tensor/vec.h"
 
@@ -15,6 +15,7 @@ struct ResolvedBoundary {
   BoundaryConfig config;
   std::string body;  ///< for messages
   std::vector<int> nodes;
+  std::vector<Vec3> places = {};  ///< of the nodes at the start; asked for where the set turns
 };
 
 /// Looks up the set of a boundary in its body's mesh.
@@ -40,45 +41,51 @@ class BoundarySet {
   /// Place of a node in nodes(), -1 where it is free.
   int find(int node) const;
 
-  /// u(t) of nodes()[k]: the prescribed velocity, zero along free directions.
-  Vec3 prescribed(int k, double t) const;
+  /// u of nodes()[k], which is at x at the time t: the prescribed velocity of the step to t + dt,
+  /// zero along free directions.
+  Vec3 prescribed(int k, double t, double dt, const Vec3& x) const;
 
-  /// v <- P v + u(t_mid). Returns the largest prescribed speed, m/s.
-  double apply_velocity(double t_mid, NodeField& v) const;
+  /// v <- P v + u. Returns the largest prescribed speed, m/s.
+  double apply_velocity(double t, double dt, const NodeField& x, NodeField& v) const;
 
   /// What the prescription pushed on nodes()[k] in a step, N s:
   /// R = (I - P) [m (v_after - v_before) - dt f], f all other forces, before projection.
+  /// Its work is R . (v_before + v_after) / 2: with it and dt f . (v_before + v_after) / 2
+  /// for the other forces, the change of m v^2 / 2 is met exactly.
   Vec3 reaction_impulse(int k, const Vec3& force, double mass, const Vec3& v_before, const Vec3& v_after,
-                        double dt) const;
-  /// Its work, J: R . (v_before + v_after) / 2. With it and dt f . (v_before +
-  /// v_after) / 2 for the other forces, the change of m v^2 / 2 is met exactly.
-  double work(int k, const Vec3& force, double mass, const Vec3& v_before, const Vec3& v_after,
-              double dt) const;
-  /// Sum over all constrained nodes, in their order.
-  double work(const NodeField& force, const std::vector<double>& mass, const NodeField& v_before,
-              const NodeField& v_after, double dt) const;
+                        double dt) const {
+    const Vec3 impulse = mass * (v_after - v_before) - dt * force;
+    return impulse - projector(k) * impulse;
+  }
 
  private:
-  /// u along one fixed direction: sum of weight . profile(t).
+  /// u along one fixed direction: sum of weight . motion.
   struct Term {
-    int profile;
+    int motion;
     Vec3 weight;
   };
   struct Direction {
     Vec3 axis;
     std::vector<Term> terms;
   };
+  /// A direction that the others have fixed already: what its boundary prescribes beyond them, which must be nothing.
+  struct Beyond {
+    int boundary;
+    std::vector<Term> terms;
+  };
   /// Nodes that are in the same boundaries share one group.
   struct Group {
     Mat3 projector = Mat3::Identity();
     std::vector<Direction> directions;
+    std::vector<Beyond> beyond;
+    bool turns = false;  ///< u differs from node to node
   };
-  Group merge(const std::vector<int>& members, const std::vector<ResolvedBoundary>& boundaries, int dimension,
-              int node) const;
-  double speed(const std::vector<Term>& terms, double t) const;
-  Vec3 prescribed(const Group& group, double t) const;
+  Group merge(const std::vector<int>& members, const std::vector<ResolvedBoundary>& boundaries, int dimension) const;
+  /// Throws where the boundaries of a group prescribe different velocities of a node.
+  void check(const Group& group, const std::vector<int>& members, const std::vector<ResolvedBoundary>& boundaries, int node, const Vec3& place) const;
+  Vec3 prescribed(const Group& group, double t, double dt, const Vec3& x) const;
 
-  std::vector<VelocityProfile> profiles_;  ///< one per boundary; empty where it holds
+  std::vector<RigidVelocity> motions_;  ///< one per boundary; at rest where it holds
   std::vector<Group> groups_;
   std::vector<int> nodes_, group_;  ///< group_[k] of nodes_[k]
 };

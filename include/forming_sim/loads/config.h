@@ -18,16 +18,22 @@ struct BoundaryConfig {
   Vec3 normal = Vec3::Zero();       ///< symmetric
   std::vector<double> times;        ///< velocity: knots
   std::vector<Vec3> velocities;     ///< velocity: values at the knots
+  std::vector<Vec3> spins_deg_s;    ///< velocity: angular velocities at the knots
+  Vec3 centre = Vec3::Zero();       ///< velocity: about which the set turns
   std::string profile = "linear";   ///< velocity between knots: linear | smooth
+  std::string until;                ///< stage at whose beginning it lets go; empty: it stays
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(set), Field().required().doc("name of a set of this body"));
-    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"fixed", "symmetric", "velocity"}).doc("fixed: no motion along the axes; symmetric: no motion along the normal; velocity: prescribed along the axes"));
+    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"fixed", "symmetric", "velocity"}).doc("fixed: no motion along the axes; symmetric: no motion along the normal; velocity: the set moves and turns as a rigid body would, along the axes"));
     visit(FORMING_SIM_FIELD(axes), Field().choices({"x", "y", "z"}).when("kind", {"fixed", "velocity"}).computed("all").doc("axes that are held or driven; the others stay free"));
     visit(FORMING_SIM_FIELD(normal), Field().required().when("kind", {"symmetric"}).doc("normal of the plane of symmetry, any direction"));
     visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().when("kind", {"velocity"}).doc("times of the knots, increasing; before the first and after the last the velocity stays"));
-    visit(FORMING_SIM_FIELD(velocities), Field().unit("m/s").required().when("kind", {"velocity"}).doc("velocity at each knot"));
+    visit(FORMING_SIM_FIELD(velocities), Field().unit("m/s").when("kind", {"velocity"}).doc("velocity at each knot, of the centre where the set turns"));
+    visit(FORMING_SIM_FIELD(spins_deg_s), Field().unit("deg/s").when("kind", {"velocity"}).doc("angular velocity about the centre at each knot. Give velocities, spins_deg_s or both"));
+    visit(FORMING_SIM_FIELD(centre), Field().unit("m").when("kind", {"velocity"}).doc("centre of rotation at the start; it moves with the velocities"));
     visit(FORMING_SIM_FIELD(profile), Field().choices({"linear", "smooth"}).when("kind", {"velocity"}).doc("between knots: linear, or smooth (cubic with zero acceleration at the knots)"));
+    visit(FORMING_SIM_FIELD(until), Field().computed("it stays").doc("name of a later stage: when that begins, the boundary lets its nodes go"));
   }
 };
 
@@ -35,11 +41,13 @@ struct BoundaryConfig {
 struct PressureConfig {
   std::string set;
   std::vector<double> times, values;
+  std::string profile = "linear";  ///< between knots: linear | smooth
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(set), Field().required().doc("name of a set: the pressure acts on the surface faces all of whose nodes are in it"));
-    visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().doc("times of the knots, increasing; straight lines between, level before the first and after the last"));
+    visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().doc("times of the knots, increasing; level before the first and after the last"));
     visit(FORMING_SIM_FIELD(values), Field().unit("Pa").required().doc("pressure at each knot, positive pushes into the body"));
+    visit(FORMING_SIM_FIELD(profile), Field().choices({"linear", "smooth"}).doc("between knots: linear, or smooth (cubic, level at the knots: a load that starts and stops so sets off no swing)"));
   }
 };
 

@@ -7,12 +7,13 @@
 
 namespace forming_sim {
 
-/// A number over time: straight lines between knots, level before the first and
-/// after the last. Throws Error(invalid_scene) as Curve does. No knots: zero.
+/// A number over time, level before the first knot and after the last. shape
+/// "linear": straight lines; "smooth": cubics that are level at the knots.
+/// Throws Error(invalid_scene) for another shape and as Curve does. No knots: zero.
 class ScalarProfile {
  public:
   ScalarProfile() = default;
-  ScalarProfile(const std::vector<double>& times, const std::vector<double>& values);
+  ScalarProfile(const std::vector<double>& times, const std::vector<double>& values, const std::string& shape = "linear");
   double at(double t) const { return curve_.at(t).x(); }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Nodes chosen by a plane or a box.
+// Nodes chosen by where they are: a plane, a box, a cylinder, a sphere.
 #include <vector>
 
 #include "forming_sim/mesh/config.h"
@@ -7,7 +7,7 @@
 
 namespace forming_sim {
 
-/// Sorted nodes of the mesh on the plane or in the box, to within the tolerance
+/// Sorted nodes of the mesh on the plane, cylinder or sphere or in the box, to within the tolerance
 /// (1e-6 of the body's size unless given); may be empty. `surface_only` uses
 /// mesh.surface. Throws Error(mesh_error) for a normal of no length, a box whose
 /// least corner is beyond its greatest, or an unknown way to choose.

@@ -15,6 +15,7 @@ struct Probe {
   std::vector<int> nodes;     ///< joined numbering; one for a point
   std::vector<int> elements;  ///< over which the stress is averaged: those with all nodes in the set,
                               ///< or, where there is none, those that touch it
+  bool held = false;          ///< boundaries hold or drive nodes of it, or have, and push on them
 };
 
 struct ProbeValue {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "forming_sim/simulation/observer.h"
 #include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
@@ -53,6 +54,7 @@ struct RunRecord {
   std::vector<std::string> notes;                          ///< said in the summary's warnings
   double history_time = 0;                                 ///< of the last row, s
   std::vector<Vec3> history_impulses;                      ///< of the tools then, N s
+  std::vector<Reaction> history_reactions;                 ///< on the probes then
 
   std::string to_json() const;
   /// Throws Error(resume_error) where the text is not such a record.

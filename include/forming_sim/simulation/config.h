@@ -45,6 +45,9 @@ struct StageConfig {
   double kinetic_fraction = 1e-5;
   double limit = 0;
 
+  /// As it is called in feedback and files.
+  const std::string& title() const { return name.empty() ? kind : name; }
+
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(name), Field().computed("the kind").doc("name of the stage in feedback and files"));
     visit(FORMING_SIM_FIELD(kind), Field().required().choices({"form", "withdraw", "settle"})

@@ -2,7 +2,6 @@
 // Observers watch a run; none changes a number of it.
 #include <string>
 #include <vector>
-#include <vector>
 
 #include "forming_sim/config/fault.h"
 #include "forming_sim/tensor/vec.h"
@@ -24,6 +23,12 @@ struct Energies {
   double work = 0;      ///< of tools, prescribed motion, pressure, gravity and soft start
   double initial = 0;   ///< kinetic + elastic at the start
   double residual() const { return kinetic + elastic + contact + plastic + friction + damping - work - initial; }
+};
+
+/// What holds or drives nodes has pushed on them so far (per metre of width in plane strain).
+struct Reaction {
+  Vec3 impulse = Vec3::Zero();  ///< N s
+  Vec3 angular = Vec3::Zero();  ///< about the origin, N m s
 };
 
 /// What limits the time step.

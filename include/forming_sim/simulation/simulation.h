@@ -71,6 +71,9 @@ class Simulation {
   double balance_error() const;      ///< |residual| now over the largest work + initial so far, and no less than the energy of a strain of 1e-12
   ContactStatus contact_status() const;
   const std::vector<ToolStatus>& tools() const;
+  /// Sum over those of the nodes that boundaries hold or drive, or have; axisymmetric: what goes along the axis.
+  Reaction reaction(const std::vector<int>& nodes) const;
+  bool once_held(int node) const;    ///< a boundary holds or drives it, in part or in all directions, or has
   const std::vector<std::string>& warnings() const;  ///< "tool die was backed off by 1.2e-6 m"
 
   // ---- fields per element, computed when asked

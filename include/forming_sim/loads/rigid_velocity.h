@@ -1,0 +1,36 @@
+#pragma once
+// Velocity of a set that moves and turns as a rigid body: prescribed along its axes by a boundary.
+#include "forming_sim/loads/config.h"
+#include "forming_sim/loads/profile.h"
+
+namespace forming_sim {
+
+/// A centre c that moves with v(t), and a turn about it with w(t). Both are taken at the middle of a
+/// step, and the turn is done in full, so that a node that follows keeps its distance from the centre.
+class RigidVelocity {
+ public:
+  RigidVelocity() = default;  ///< rest
+  /// Of a boundary of kind velocity. Throws Error(invalid_scene) as VelocityProfile does.
+  explicit RigidVelocity(const BoundaryConfig& config);
+
+  bool turns() const { return !spin_.times().empty(); }
+  /// Times of the knots; none at rest.
+  const std::vector<double>& times() const { return times_; }
+  Vec3 velocity(double t) const { return velocity_.at(t); }
+  Vec3 spin(double t) const { return spin_.at(t); }  ///< rad/s
+  const Vec3& centre() const { return centre_; }     ///< at the start
+
+  /// By which a point at x at the time t moves on in dt, over dt (dt = 0: its velocity):
+  /// v + w x r sin(a)/a + w x (w x r) dt (1 - cos a)/a^2,  r = x - c(t), a = |w| dt, v and w at t + dt/2.
+  Vec3 at(double t, double dt, const Vec3& x) const;
+
+ private:
+  std::vector<double> times_;
+  VelocityProfile velocity_, spin_;
+  Vec3 centre_ = Vec3::Zero();
+};
+
+/// Two boundaries of kind velocity that say the same motion.
+bool same_motion(const BoundaryConfig& a, const BoundaryConfig& b);
+
+}  // namespace forming_sim

@@ -1,0 +1,19 @@
+#pragma once
+// When a boundary lets go.
+#include <string>
+#include <vector>
+
+#include "forming_sim/simulation/config.h"
+
+namespace forming_sim {
+
+/// The stage at whose beginning a boundary with this `until` lets go, the first of that name after the first stage: its
+/// index, or the number of stages where `until` is empty (it stays) or names no such stage.
+inline int release_stage(const std::string& until, const std::vector<StageConfig>& stages) {
+  const int count = static_cast<int>(stages.size());
+  for (int k = 1; k < count && !until.empty(); ++k)
+    if (stages[k].title() == until) return k;
+  return count;
+}
+
+}  // namespace forming_sim
