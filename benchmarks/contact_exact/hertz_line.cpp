@@ -20,19 +20,20 @@ void hertz_line_problem(Report& report) {
   report.begin("hertz", "Cylinder pressed on a plane and on a cylinder, a/R .013", sought, "cells across a");
   for (double other : {0., 1., 1.3})
     for (double cells : {2, 4, 8, 16}) {
+      if (other > 0 && cells > 8) continue;
       hertz_line::Press given;
       given.cells = cells;
       given.other_cells = other * cells;
       pressed(report, other == 0 ? "on a plane" : other == 1 ? "on a cylinder, same cells" : "on a cylinder, cells 1/1.3", words("%g across a", cells), given, cells);
     }
   report.begin("hertz by size", "Cylinder pressed on a plane: the part that is meshed, the load, the layer", sought, "");
-  for (double size : {8., 16., 32., 64.}) {
+  for (double size : {8., 16., 32.}) {
     hertz_line::Press given;
     given.cells = 8;
     given.size = size;
     pressed(report, "part of the cylinder", words("%g a high", size), given, 0);
   }
-  for (double load : {4e5, 1e5, 2.5e4}) {
+  for (double load : {4e5, 1e5, 2.5e4, 6.25e3}) {
     hertz_line::Press given;
     given.cells = 8;
     given.load = load;

@@ -16,34 +16,57 @@ void let_go(Report& report, const std::string& choice, const std::string& mesh, 
   report.add({choice, mesh, found.run, answers, "", fineness});
 }
 
+/// In the plane and in space, on facets and on a plane, by cells and by layer.
+void all_kinds(Report& report, const incline::Block& given) {
+  for (int dimension : {2, 3})
+    for (bool facets : {false, true}) {
+      incline::Block block = given;
+      block.dimension = dimension;
+      block.facets = facets;
+      for (int cells : {3, 6, 12}) {
+        block.cells = cells;
+        let_go(report, kind_of(block), words("%d along", cells), block, cells);
+      }
+      block.cells = 6;
+      for (double layer : {1e-3, 1e-4, 1e-6}) {
+        if (!facets) continue;
+        block.layer = layer;
+        let_go(report, kind_of(block) + ", by layer", words("h0 %g m", layer), block, 0);
+      }
+    }
+}
+
 }  // namespace
 
 void incline_problem(Report& report) {
-  for (double mu : {.5, .49, .3}) {
-    incline::Block block;
-    block.mu = mu;
-    if (mu == .5)
-      report.begin("incline sticks", "A block on an incline of tan = .5 with friction .5", {{"acceleration / g", 0, 1e-5}, {"creep, m/s", 0, 1e-5}}, "cells");
-    else
-      report.begin(words("incline slides %g", mu), words("A block on an incline of tan = .5 with friction %g", mu),
-                   {{"acceleration / g", incline::exact(block), 0.01}, {"tangential / normal force", mu, 1e-4}}, "cells");
-    for (int dimension : {2, 3})
-      for (bool facets : {false, true}) {
-        block = {};
-        block.mu = mu;
-        block.dimension = dimension;
-        block.facets = facets;
-        for (int cells : {3, 6, 12}) {
-          block.cells = cells;
-          let_go(report, kind_of(block), words("%d along", cells), block, cells);
-        }
-        block.cells = 6;
-        for (double layer : {1e-3, 1e-4, 1e-6}) {
-          block.layer = layer;
-          let_go(report, kind_of(block) + words(", h0 %g m", layer), "6 along", block, 0);
-        }
-      }
+  const auto slides = [](const incline::Block& block) {
+    return std::vector<Sought>{{"acceleration / g", incline::exact(block), 0.01}, {"tangential / normal force", block.mu, 1e-4}};
+  };
+  const std::vector<Sought> sticks{{"acceleration / g", 0, 1e-6}, {"creep, m/s", 0, 1e-6}};
+  report.begin("incline sticks", "A block on an incline of tan = .5 with friction .5", sticks);
+  all_kinds(report, {});
+  incline::Block sliding;
+  sliding.mu = 0.49;
+  sliding.belt = 0.5;
+  report.begin("incline slides", "A block on an incline of tan = .5 with friction .49", slides(sliding));
+  all_kinds(report, sliding);
+  // Friction feeds the swing of an elastic body that slides slowly; without damping it grows until nodes slip back.
+  incline::Block swinging;
+  swinging.damping = 0;
+  swinging.mu = 0.51;
+  report.begin("incline undamped sticks", "The same without damping, friction .51", sticks);
+  for (int cells : {3, 6, 12}) {
+    swinging.cells = cells;
+    let_go(report, kind_of(swinging), words("%d along", cells), swinging, cells);
   }
+  swinging.mu = 0.49;
+  report.begin("incline undamped slides", "The same without damping, friction .49: slow, and on a belt", slides(swinging));
+  for (double belt : {0., .5, 2.})
+    for (int cells : {3, 6, 12}) {
+      swinging.cells = cells;
+      swinging.belt = belt;
+      let_go(report, kind_of(swinging) + words(", belt %g m/s", belt), words("%d along", cells), swinging, cells);
+    }
 }
 
 }  // namespace forming_sim::bench

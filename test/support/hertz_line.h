@@ -3,6 +3,7 @@
 // pressure p0 = 2 P / (pi a) in the middle and p0 sqrt(1 - (x/a)^2) about it, E' = E / (1 - nu^2). Two equal cylinders
 // do to each other what the plane does.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "support/run_size.h"
@@ -81,30 +82,31 @@ inline Found press(const Press& given) {
   auto sim = run.start();
   while (sim->step()) {
   }
-  std::vector<std::pair<double, double>> pressure;  // of the lower face, by x
-  for (int n : run.model.bodies[0].mesh.sets.at("bottom")) pressure.emplace_back(sim->positions()[n][0], sim->contact_pressure()[n]);
-  std::sort(pressure.begin(), pressure.end());
-  const auto width = [&](std::size_t i) { return (pressure[i + 1].first - pressure[i - 1].first) / 2; };
+  // Nodes of the lower face from left to right, and the force of each: its pressure is over the width of the start.
+  std::vector<int> face = run.model.bodies[0].mesh.sets.at("bottom");
+  std::sort(face.begin(), face.end(), [&](int i, int j) { return sim->positions()[i][0] < sim->positions()[j][0]; });
+  const auto width = [&](const NodeField& x, std::size_t i) { return (x[face[i + 1]][0] - x[face[i - 1]][0]) / 2; };
+  std::vector<std::array<double, 3>> nodes;  // place, force, pressure
   // The half width from the second moment of the pressure: a^2 / 4 for Hertz.
-  double force = 0, moment = 0;
-  for (std::size_t i = 1; i + 1 < pressure.size(); ++i) {
-    const auto [x, p] = pressure[i];
-    force += p * width(i);
-    moment += p * width(i) * x * x;
-  }
   Found found{};
-  found.force = given.other_cells > 0 ? force : -sim->tools()[0].force.y();
+  double moment = 0;
+  for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+    const double x = sim->positions()[face[i]][0], f = sim->contact_pressure()[face[i]] * width(sim->initial_positions(), i);
+    nodes.push_back({x, f, f / width(sim->positions(), i)});
+    found.force += f;
+    moment += f * x * x;
+  }
   const double exact = half_width(found.force), p0 = 2 * found.force / (M_PI * exact);
   double square = 0, middle = 0;
   int count = 0;
-  for (const auto& [x, p] : pressure) {
+  for (const auto& [x, f, p] : nodes) {
     if (std::abs(x) < 0.05 * a) middle = std::max(middle, p);
     if (std::abs(x) > 1.5 * exact) continue;
     const double hertz = std::abs(x) < exact ? p0 * std::sqrt(1 - x * x / (exact * exact)) : 0;
     square += std::pow(p - hertz, 2);
     ++count;
   }
-  found.half_width = 2 * std::sqrt(moment / force) / exact;
+  found.half_width = 2 * std::sqrt(moment / found.force) / exact;
   found.middle = middle / p0;
   found.shape = std::sqrt(square / count) / p0;
   found.balance = sim->balance_error();

@@ -2,7 +2,9 @@
 // An elastic block on an incline of tan = .5 under gravity: with friction .5 it sticks, with less it slides at
 // g cos(theta) (tan(theta) - mu).
 //
-// It settles on the slope under damping; then the run goes on from there without.
+// It settles on the slope under damping; then the run goes on from there. The slope may move up along itself, as a belt:
+// the block slides on it at that speed from the start, at the same acceleration. What is found is the force on the block
+// over its mass: its acceleration and what damping took.
 #include <cmath>
 
 #include "support/run_size.h"
@@ -17,12 +19,14 @@ struct Block {
   double mu = 0.5;
   int cells = 6;             ///< along its length; it is a third as high and, in 3D, two thirds as wide
   double layer = 1e-5;       ///< h0, m
-  bool facets = true;        ///< the slope is of facets larger than the block's, some of whose borders it passes; else a plane
+  bool facets = true;        ///< the slope is of facets larger than the block's, whose borders it passes; else a plane
+  double belt = 0;           ///< speed of the slope up along itself, m/s
+  double damping = 500;      ///< after settling, 1/s; a sixth of critical of the slowest swing
 };
 
 struct Found {
-  double acceleration;       ///< down the slope over g, mean of the run after settling
-  double creep;              ///< m/s, mean speed
+  double acceleration;       ///< force down the slope over m g, mean of the run after settling
+  double creep;              ///< m/s, mean speed down the slope
   double ratio;              ///< of the tangential to the normal impulse on the slope
   double balance;
   long crossings;
@@ -89,15 +93,24 @@ inline Found rest_or_slide(const Block& block) {
   } else {
     slope.normal = turn * Vec3::Unit(up);
   }
+  const Vec3 down = turn * Vec3::UnitX(), normal = turn * Vec3::Unit(up);
+  if (block.belt > 0) {
+    MotionConfig motion;
+    motion.kind = "velocity";
+    motion.times = {0};
+    motion.velocities = {-block.belt * down};
+    motion.spins_deg_s = {Vec3::Zero()};
+    slope.motion = motion;
+  }
   run.model.tools.push_back(slope);
+  run.plan.time_step.damping = block.damping;
   RunPlan damped = run.plan;
-  damped.time_step.damping = 500;  // of its slowest swing
+  damped.time_step.damping = 500;
   Simulation settles(damped, run.model, 1);
   while (settles.stage() == 0 && settles.step()) {
   }
   Simulation sim(run.plan, run.model, 1);
   sim.restore(settles.save());
-  const Vec3 down = turn * Vec3::UnitX(), normal = turn * Vec3::Unit(up);
   double mass = 0;
   for (double m : sim.nodal_mass()) mass += m;
   const auto mean = [&](const NodeField& field) {
@@ -109,11 +122,11 @@ inline Found rest_or_slide(const Block& block) {
   const Vec3 impulse0 = sim.tools()[0].impulse;
   while (sim.step()) {
   }
-  const double t = sim.time() - t0;
+  const double t = sim.time() - t0, change = mean(sim.velocities()) - v0, way = mean(sim.positions()) - x0;
   const Vec3 impulse = sim.tools()[0].impulse - impulse0;
   RunSize size = size_of(sim);
   size.wall_time += settles.wall_time();
-  return {(mean(sim.velocities()) - v0) / (kGravity * t), (mean(sim.positions()) - x0) / t, impulse.dot(down) / -impulse.dot(normal), sim.balance_error(),
+  return {(change + block.damping * way) / (kGravity * t), way / t, impulse.dot(down) / -impulse.dot(normal), sim.balance_error(),
           sim.contact_status().crossings, size};
 }
 
