@@ -78,10 +78,12 @@ void Report::add(const Finished& run) {
 
 // Between two runs of a series error ~ fineness^-order.
 void Report::tell_orders() {
+  const bool any = std::any_of(sought_.begin(), sought_.end(), [](const Sought& s) { return !std::isnan(s.order); });
   for (const auto& [choice, points] : series_) {
-    if (points.size() < 2) continue;
+    if (points.size() < 2 || !any) continue;
     std::printf("\nOrder in %s, %s:", finer_.c_str(), choice.c_str());
     for (std::size_t i = 0; i < sought_.size(); ++i) {
+      if (std::isnan(sought_[i].order)) continue;
       std::printf("%s %s", i == 0 ? "" : ";", sought_[i].quantity.c_str());
       for (std::size_t k = 1; k < points.size(); ++k) {
         const Point &coarse = points[k - 1], &fine = points[k];

@@ -30,7 +30,7 @@ struct Sought {
   std::string quantity;   ///< with its unit
   double expected;        ///< 0: what is found is the error itself
   double goal;            ///< relative error that is good enough: the row holds
-  double order = 0;       ///< of convergence that is asked for between two runs of a series, or more; 0: it is told only
+  double order = 0;       ///< of convergence that is asked for between two runs of a series, or more; 0: it is told only; not a number: no mesh makes the error smaller
 };
 
 class Report {

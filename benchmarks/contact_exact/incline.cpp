@@ -40,9 +40,9 @@ void all_kinds(Report& report, const incline::Block& given) {
 
 void incline_problem(Report& report) {
   const auto slides = [](const incline::Block& block) {
-    return std::vector<Sought>{{"acceleration / g", incline::exact(block), 0.01}, {"tangential / normal force", block.mu, 1e-4}};
+    return std::vector<Sought>{{"acceleration / g", incline::exact(block), 0.01, kNothing}, {"tangential / normal force", block.mu, 1e-4, kNothing}};
   };
-  const std::vector<Sought> sticks{{"acceleration / g", 0, 1e-6}, {"creep, m/s", 0, 1e-6}};
+  const std::vector<Sought> sticks{{"acceleration / g", 0, 1e-4, kNothing}, {"creep, m/s", 0, 1e-5, kNothing}};
   report.begin("incline sticks", "A block on an incline of tan = .5 with friction .5", sticks);
   all_kinds(report, {});
   incline::Block sliding;

@@ -15,6 +15,7 @@ struct Blocks {
   bool axisymmetric = false;
   int lower = 4, upper = 4;   ///< cells along 1 m
   double layer = 1e-5;        ///< h0, m
+  int max_sweeps = 100;       ///< contact.max_sweeps
 };
 
 struct Found {
@@ -70,6 +71,7 @@ inline Found press(const Blocks& blocks) {
     }
   }
   plan.contact.layer = h0;
+  plan.contact.max_sweeps = blocks.max_sweeps;
   plan.time_step.damping = 60;  // of the slowest swing along the pressing
   plan.stages.push_back(form_for(time + 0.6));
   Simulation sim(plan, model, 1);
