@@ -11,7 +11,7 @@ namespace forming_sim::bench {
 namespace {
 
 constexpr int kCells[] = {20, 40, 80, 160};
-constexpr double kFront = 0.6, kFirst = 0.9;  ///< orders: what 2/3 and 1 are at least between two meshes
+constexpr double kFront = 0.6, kFirst = 0.85;  ///< orders: what 2/3 and 1 are at least between two meshes
 
 }  // namespace
 
