@@ -1,14 +1,15 @@
 // Two blocks meet: speeds from .5 to 1500 m/s, layers h0 from 1e-1 to 1e-6 of a
 // cell, meshes that match or not, tilted, in the plane and in space, elastic, and
 // plastic (tilted), and with a cut in the one that the blow closes, so that it meets
-// itself. Nothing may cross. And, where it is asked for, the long run of
-// benchmarks/contact_shaken.cpp.
+// itself. Nothing may cross. And, where they are asked for, the long run of
+// benchmarks/contact_shaken.cpp and the exact answers of benchmarks/contact_exact.cpp.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
+#include "contact_exact/problems.h"
 #include "forming_sim/config/fault.h"
 #include "forming_sim/contact/grid.h"
 #include "rows.h"
@@ -138,12 +139,7 @@ Found meet(const Scene& scene, double speed, double layer, int alone = -1) {
   return found;
 }
 
-}  // namespace
-
-std::vector<Row> contact(const Request& request) {
-  if (!request.arguments.empty() && request.arguments[0] != "shaken")
-    throw std::runtime_error(request.arguments[0] + " is not one of the runs of contact; give shaken, or nothing for the two blocks");
-  if (!request.arguments.empty()) return shaken();
+std::vector<Row> blocks_that_meet() {
   const Scene scenes[] = {{"2D, same meshes", 2, 16, 16, 0, false},      {"2D, 16 on 19", 2, 16, 19, 0, false},
                           {"2D, 16 on 19, tilted", 2, 16, 19, .1, false}, {"2D, 16 on 19, plastic", 2, 16, 19, .1, true},
                           {"3D, same meshes", 3, 5, 5, 0, false},        {"3D, 5 on 6", 3, 5, 6, 0, false},
@@ -174,6 +170,18 @@ std::vector<Row> contact(const Request& request) {
       }
     }
   }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<Row> contact(const Request& request) {
+  const std::string run = request.arguments.empty() ? "" : request.arguments[0];
+  if (run == "exact") return contact_exact({request.directory, {request.arguments.begin() + 1, request.arguments.end()}});
+  if (run != "" && run != "shaken") throw std::runtime_error(run + " is not one of the runs of contact; give shaken, exact, or nothing for the two blocks");
+  if (request.arguments.size() > 1) throw std::runtime_error(request.arguments[1] + ": nothing is chosen after shaken");
+  const std::vector<Row> rows = run == "" ? blocks_that_meet() : shaken();
+  print(rows);
   return rows;
 }
 

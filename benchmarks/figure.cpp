@@ -42,7 +42,7 @@ void Figure::add(const std::string& series, double x, double y) {
 }
 
 void Figure::write(const std::string& directory) const {
-  if (directory.empty()) return;
+  if (directory.empty() || series_.empty()) return;
   std::filesystem::create_directories(directory);
   const std::string csv = directory + "/" + name_ + ".csv";
   {

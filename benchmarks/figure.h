@@ -22,7 +22,7 @@ class Figure {
   /// Both axes in the same scale: shapes.
   void equal_axes() { equal_ = true; }
 
-  /// Writes both files; nothing where the directory is "". Throws std::runtime_error
+  /// Writes both files; nothing where the directory is "" or there is no curve. Throws std::runtime_error
   /// where a file cannot be written or the picture cannot be drawn.
   void write(const std::string& directory) const;
 

@@ -4,7 +4,7 @@
 // a quarter of them where the cells are four times as long as high. Free simplices fill a piece as long as thick.
 #include "speed_error/families.h"
 #include "speed_error/peers.h"
-#include "speed_error/report.h"
+#include "speed_error/problems.h"
 #include "support/column.h"
 
 namespace forming_sim::bench {

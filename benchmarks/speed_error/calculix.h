@@ -8,7 +8,7 @@
 
 #include "forming_sim/material/config.h"
 #include "forming_sim/mesh/mesh.h"
-#include "speed_error/report.h"
+#include "speed_error/problems.h"
 
 namespace forming_sim::bench {
 

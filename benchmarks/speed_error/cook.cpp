@@ -5,7 +5,7 @@
 
 #include "speed_error/families.h"
 #include "speed_error/peers.h"
-#include "speed_error/report.h"
+#include "speed_error/problems.h"
 #include "stepped_body.h"
 #include "support/cook.h"
 

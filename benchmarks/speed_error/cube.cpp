@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "speed_error/families.h"
-#include "speed_error/report.h"
+#include "speed_error/problems.h"
 #include "stepped_body.h"
 #include "support/free_mesh.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "forming_sim/scene/scene.h"
-#include "speed_error/report.h"
+#include "speed_error/problems.h"
 
 namespace forming_sim::bench {
 

@@ -1,6 +1,6 @@
 // A bar in uniaxial strain hits a rigid plane, and another bar whose mesh need not
 // match: pressure rho c_p v for the time that a wave takes there and back.
-#include "speed_error/report.h"
+#include "speed_error/problems.h"
 #include "support/bars.h"
 
 namespace forming_sim::bench {

@@ -4,7 +4,7 @@
 // springback is larger than with isotropic hardening.
 #include "forming_sim/material/calibration.h"
 #include "speed_error/families.h"
-#include "speed_error/report.h"
+#include "speed_error/problems.h"
 #include "support/column.h"
 
 namespace forming_sim::bench {

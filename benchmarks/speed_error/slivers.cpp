@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "speed_error/report.h"
+#include "speed_error/problems.h"
 #include "support/run_size.h"
 #include "support/runs.h"
 

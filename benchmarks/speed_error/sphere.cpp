@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "speed_error/families.h"
-#include "speed_error/report.h"
+#include "speed_error/problems.h"
 
 namespace forming_sim::bench {
 namespace {

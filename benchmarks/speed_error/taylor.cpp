@@ -2,7 +2,7 @@
 // at the rim. Length and face radius as published, 3D (a quarter) and axisymmetric.
 #include "speed_error/families.h"
 #include "speed_error/peers.h"
-#include "speed_error/report.h"
+#include "speed_error/problems.h"
 #include "support/taylor.h"
 
 namespace forming_sim::bench {

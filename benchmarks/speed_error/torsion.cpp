@@ -1,7 +1,7 @@
 // A round bar is twisted until most of it flows, and let go: error of the torque and of the twist that
 // stays, on three meshes of every family in 3D.
 #include "speed_error/families.h"
-#include "speed_error/report.h"
+#include "speed_error/problems.h"
 #include "support/torsion.h"
 
 namespace forming_sim::bench {

@@ -19,7 +19,7 @@ struct Command {
 };
 void printed_as_it_ran(const std::vector<Row>&) {}
 
-const std::map<std::string, Command> kCommands{{"calibrate", {calibrate, 3}}, {"contact", {contact, 1}}, {"costs", {costs, 0}},
+const std::map<std::string, Command> kCommands{{"calibrate", {calibrate, 3}}, {"contact", {contact, 16, printed_as_it_ran}}, {"costs", {costs, 0}},
                                                {"material", {material, 2}},   {"paper", {paper, 1}},     {"speed", {speed, 1, printed_as_it_ran}}, {"speed-error", {speed_error, 16, printed_as_it_ran}},
                                                {"stability", {stability, 16}}};
 
@@ -29,6 +29,9 @@ int usage(std::FILE* to) {
                "  costs    ns per element and step of each stage, contact per pair, gain of a second thread\n"
                "  contact  two blocks meet, by speed, layer and mesh: crossings, halvings, momentum, energy, cost\n"
                "  contact shaken  a sheet between two tools that shake, for a million steps\n"
+               "  contact exact [PROBLEM ...]  error against mesh, layer and wall time where the answer of contact is known:\n"
+               "           bounce, bars, hertz, hertz-sphere, patch, capstan, incline, or all of these (some minutes);\n"
+               "           writes DIR/contact-exact.csv and plots of each problem too\n"
                "  material  layered laws against a measured tension-compression-tension curve\n"
                "  material LAW.yaml HISTORY.csv  a law (the fields of a scene's material) at a point, driven by the\n"
                "           columns F11, F12, ... F33 or e11, e22, e33 (true strain), and time; a diagonal component\n"

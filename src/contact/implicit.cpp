@@ -168,7 +168,8 @@ void Contact::Impl::close_books(ContactStep& step) {
         chunk.books.add(pair);
         chunk.start += mild_potential(pair.gap, pair.layer, pair.stiffness);
         chunk.step.min_gap_over_layer = std::min(chunk.step.min_gap_over_layer, pair.end_gap / layer);
-        if (!relax_layer(layer, push_speed * step.dt, pair, chunk.end)) continue;
+        const bool inside = relax_layer(layer, push_speed * step.dt, pair, chunk.end);
+        if (!inside && pair.impulse == 0) continue;
         records.put(begin + chunk.kept++, pair, near.rubs, step.dt);
         chunk.thickest = std::max(chunk.thickest, pair.layer);
       }

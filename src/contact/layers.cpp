@@ -99,7 +99,7 @@ bool Layers::give(ContactPair& pair, std::vector<Rub>& rubs, Place& place) const
       rubs[pair.rub].slip = lasts_ * Node(drag[0], drag[1], drag[2], 0);
     }
   }
-  if (known) {
+  if (known && before_.pairs[place.before].inside(base)) {
     const double layer = before_.pairs[place.before].layer;
     pair.layer = pair.askew ? std::min(layer, base) : layer;
     return false;

@@ -75,3 +75,17 @@ TEST(ContactLayers, IsGivenOnceAndNoPotentialWithIt) {
   EXPECT_EQ(two[1], .6 * h0);
   EXPECT_LE(mild_potential(.4 * h0, two[0], 1) + mild_potential(.6 * h0, two[1], 1), mild_potential(.5 * h0, h0, 1) * (1 + 1e-12));
 }
+
+// Pressed in a layer that was raised and is gone: the pair is new, and the sweeps start from its force.
+TEST(ContactLayers, AForceOutlivesItsRaisedLayer) {
+  const double force = 3, dt = 1e-6;
+  PairRecords before;
+  before.pairs = {{on_facet(7, 20), 0, 1, .3 * h0, 1.2 * h0, force}};
+  LargeArray<ContactPair> pairs{pair_of(on_facet(7, 20), 0, 1, .9 * h0)};
+  pairs[0].w = 1;
+  std::vector<Rub> rubs;
+  const Workspace work;
+  give_layers(Layers(before, {}, work, dt, dt, h0, h0), pairs, rubs);
+  EXPECT_EQ(pairs[0].layer, .9 * h0);
+  EXPECT_EQ(pairs[0].impulse, dt * force);
+}

@@ -8,13 +8,17 @@
 
 namespace forming_sim {
 
-/// Kept of a pair that ended a step inside its layer.
+/// Kept of a pair that ended a step inside its layer, or was pressed in it: a layer that was raised is gone at the end of
+/// the step, the force is not.
 struct PairRecord {
   PairKey key;
   std::int32_t own, surface;  ///< surfaces of the first and of the second feature
   double layer;      ///< h0 of the pair, m
   double gap;        ///< h at the end of the step, m
   double force = 0;  ///< mean of the step along the normal, N
+
+  /// Whether its layer lasts. base: see ContactPair.
+  bool inside(double base) const { return gap < std::max(layer, base); }
 };
 struct Drag {
   double force[3];  ///< of friction, mean of the step, N
@@ -73,7 +77,7 @@ struct RelaxedPotential {
   double before = 0, after = 0;
 };
 /// Lets the layer of a pair grow (or shrink) to its base (of a contact whose layer is `full`) by at most `growth`, and adds its
-/// potential. Returns whether the pair ended the step inside its layer, and must be remembered.
+/// potential. Returns whether the pair ended the step inside its layer, which must be remembered.
 bool relax_layer(double full, double growth, ContactPair& pair, RelaxedPotential& potential);
 
 }  // namespace forming_sim

@@ -1,4 +1,4 @@
-#include "speed_error/report.h"
+#include "report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,13 +22,17 @@ std::string rate(const Finished& run) {
 
 }  // namespace
 
-void Report::begin(const std::string& name, const std::string& title, const std::vector<Sought>& sought) {
+void Report::begin(const std::string& name, const std::string& title, const std::vector<Sought>& sought, const std::string& finer) {
+  tell_orders();
   name_ = name;
   sought_ = sought;
-  std::string file = name;
-  std::replace(file.begin(), file.end(), ' ', '_');
-  figures_.emplace_back("speed_error_" + file, title, "wall time, s", "largest relative error");
+  finer_ = finer;
+  std::string file = report_ + "_" + name;
+  std::replace_if(file.begin(), file.end(), [](char c) { return c == ' ' || c == '-'; }, '_');
+  figures_.emplace_back(file, title, "wall time, s", "largest relative error");
   figures_.back().logarithmic();
+  finer_figures_.emplace_back(file + "_finer", title, finer, "largest relative error");
+  finer_figures_.back().logarithmic();
   std::printf("\n%s: %s\n\n| choice | mesh | cells | unknowns | steps | wall, s | 10^6 element-steps/s |", name.c_str(), title.c_str());
   for (const Sought& s : sought) std::printf(" %s: %.5g |", s.quantity.c_str(), s.expected);
   std::printf("\n|---|---|---|---|---|---|---|");
@@ -41,13 +45,16 @@ void Report::add(const Finished& run) {
   const double cost = static_cast<double>(run.size.elements) * static_cast<double>(run.size.steps);
   std::printf("| %s | %s | %ld | %ld | %ld | %.3g | %s |", run.choice.c_str(), run.mesh.c_str(), run.size.cells, run.size.unknowns, run.size.steps, run.size.wall_time, rate(run).c_str());
   double largest = 0;
+  std::vector<double> errors;
   for (std::size_t i = 0; i < sought_.size(); ++i) {
     if (std::isnan(run.found[i])) {
+      errors.push_back(kNothing);
       std::printf(" not reached |");
       continue;
     }
     const double error = error_of(run.found[i], sought_[i].expected);
     largest = std::max(largest, std::abs(error));
+    errors.push_back(error);
     std::printf(" %+.3g %% |", 100 * error);
     rows_.push_back({name, sought_[i].quantity, run.found[i], sought_[i].expected, error, run.size.wall_time, std::abs(error) <= sought_[i].goal, ""});
     csv_ += '"' + name_ + "\",\"" + run.choice + "\",\"" + run.mesh + "\"," + std::to_string(run.size.cells) + ',' + std::to_string(run.size.unknowns) + ',' +
@@ -62,6 +69,38 @@ void Report::add(const Finished& run) {
     rows_.push_back(just(name, quantity, static_cast<double>(value), run.size.wall_time));
   if (cost > 0) rows_.push_back(just(name, "element-steps/s", cost / run.size.wall_time, run.size.wall_time));
   if (largest > 0 && run.size.wall_time > 0) figures_.back().add(run.choice, run.size.wall_time, largest);
+  if (run.fineness == 0) return;
+  if (largest > 0) finer_figures_.back().add(run.choice, run.fineness, largest);
+  auto of_choice = std::find_if(series_.begin(), series_.end(), [&](const auto& series) { return series.first == run.choice; });
+  if (of_choice == series_.end()) of_choice = series_.insert(series_.end(), {run.choice, {}});
+  of_choice->second.push_back({run.fineness, run.mesh, errors});
+}
+
+// Between two runs of a series error ~ fineness^-order.
+void Report::tell_orders() {
+  const bool any = std::any_of(sought_.begin(), sought_.end(), [](const Sought& s) { return !std::isnan(s.order); });
+  for (const auto& [choice, points] : series_) {
+    if (points.size() < 2 || !any) continue;
+    std::printf("\nOrder in %s, %s:", finer_.c_str(), choice.c_str());
+    for (std::size_t i = 0; i < sought_.size(); ++i) {
+      if (std::isnan(sought_[i].order)) continue;
+      std::printf("%s %s", i == 0 ? "" : ";", sought_[i].quantity.c_str());
+      for (std::size_t k = 1; k < points.size(); ++k) {
+        const Point &coarse = points[k - 1], &fine = points[k];
+        const double order = std::log(std::abs(coarse.errors[i] / fine.errors[i])) / std::log(fine.fineness / coarse.fineness);
+        std::printf(" %.2f", order);
+        Row row = just(name_ + ": " + choice + ", " + coarse.mesh + " to " + fine.mesh, "order of " + sought_[i].quantity, order, 0);
+        if (sought_[i].order > 0) {
+          row.expected = sought_[i].order;
+          row.error = order / row.expected - 1;
+          row.holds = order >= row.expected;
+        }
+        rows_.push_back(row);
+      }
+    }
+    std::printf("\n");
+  }
+  series_.clear();
 }
 
 void Report::no_answer(const std::string& choice, const std::string& why, double wall_time, bool holds) {
@@ -77,10 +116,12 @@ void Report::no_answer(const std::string& choice, const std::string& why, double
 }
 
 std::vector<Row> Report::finish() {
+  tell_orders();
   if (!request_.directory.empty()) {
-    replace_file(in_directory(request_.directory, "speed-error.csv"),
+    replace_file(in_directory(request_.directory, report_ + ".csv"),
                  "problem,choice,mesh,cells,unknowns,steps,wall_time_s,element_steps_per_s,quantity,found,expected,error\n" + csv_);
-    for (const Figure& figure : figures_) figure.write(request_.directory);
+    for (const auto* figures : {&figures_, &finer_figures_})
+      for (const Figure& figure : *figures) figure.write(request_.directory);
   }
   return rows_;
 }
