@@ -160,13 +160,6 @@ inline Pack initial_volume(const CellGroup& g, const double* memory) { return Pa
 enum class Made { one_layer, layers, any };
 inline bool of_von_mises(Law law) { return law == Law::green_elastic || law == Law::paper; }
 
-/// Where a Pack takes several registers, their operations fill each other's waiting times already.
-#if defined(__AVX512F__)
-constexpr bool kOneRegister = true;
-#else
-constexpr bool kOneRegister = false;
-#endif
-
 /// Calls `work` with the cell type of the group's kind.
 template <class Work> void with_cell(const CellGroup& g, Work&& work) {
   const auto flat = [&](auto cell) {

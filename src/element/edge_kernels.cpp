@@ -2,6 +2,7 @@
 #include "element/block.h"
 #include "forming_sim/element/edge_points.h"
 #include "forming_sim/element/time_step.h"
+#include "forming_sim/material/von_mises_points.h"
 
 namespace forming_sim {
 namespace FORMING_SIM_ISA {
@@ -42,27 +43,45 @@ template <int D, bool Ring> void add_forces(const CellGroup& g, long block, cons
 
 double* memory_of_point(const CellGroup& g, long block) { return g.memory + block * g.items * kLanes; }
 
-/// The blocks from `block` on whose points go through the law together, points_in<Together> of them.
-template <int D, bool Ring, class Together> [[gnu::flatten]] void forces_of_blocks(const CellGroup& g, const NodalView& view, long block) {
-  constexpr int together = points_in<Together>;
-  Edges<Pack, D, Ring> edges[together];
-  double* memory[together];
-  Together J;
-  for (int i = 0; i < together; ++i) {
-    edges[i] = edges_of_point<D, Ring>(g, view, block + i);
-    find_areas(edges[i]);
-    memory[i] = memory_of_point(g, block + i);
-    part_of(J, i) = edges[i].volume / initial_volume(g, memory[i]);
-    g.upright[block + i] = all(part_of(J, i) > Pack(0.0));
+/// The points of N blocks from `block` on, for material/von_mises_points.h.
+template <int D, bool Ring, int N> struct BlocksOfPoints {
+  const CellGroup& g;
+  long block;
+  Vector<Pack, D> x[N][kEdges<D, Ring>];
+  Pack dissipated[N];
+
+  BlocksOfPoints(const CellGroup& g, const NodalView& view, long block) : g(g), block(block) {
+    for (int i = 0; i < N; ++i) {
+      const Edges<Pack, D, Ring> e = edges_of_point<D, Ring>(g, view, block + i);
+      for (int m = 0; m < kEdges<D, Ring>; ++m) x[i][m] = e.x[m];
+      dissipated[i] = Pack(0.0);
+    }
   }
-  PointResponse<Together, D> points;
-  if (together > 1 || of_von_mises(g.solid.law)) points = von_mises_step(g.solid, edges, J, memory, Keep::yes);
-  else if constexpr (together == 1) points = hyperelastic_step(g.solid, edges[0], J, memory[0]);
-  for (int i = 0; i < together; ++i) {
-    const PointResponse<Pack, D> point = points.of(i);
-    g.plastic_work[block + i] += sum_of_first(point.dissipation * initial_volume(g, memory[i]), lanes_in_use(g, block + i));
-    add_forces(g, block + i, edges[i], point.S);
+  double* memory(int i) const { return memory_of_point(g, block + i); }
+  void edges(int i, Edges<Pack, D, Ring>& e) const {
+    for (int m = 0; m < kEdges<D, Ring>; ++m) e.x[m] = x[i][m];
   }
+  Pack ratio(int i, const Edges<Pack, D, Ring>& e) const {
+    const Pack J = simplex_volume<Pack, D, Ring>(e.x) / initial_volume(g, memory(i));
+    g.upright[block + i] = all(J > Pack(0.0));
+    return J;
+  }
+  void dissipate(int i, const Pack& what) { dissipated[i] += what * initial_volume(g, memory(i)); }
+  void respond(int i, const Edges<Pack, D, Ring>& e, const Symmetric<Pack, D>& S, const CellGroup& group) const { add_forces(group, block + i, e, S); }
+};
+
+template <int D, bool Ring, int N> [[gnu::flatten]] void forces_of_blocks(const CellGroup& g, const NodalView& view, long block) {
+  BlocksOfPoints<D, Ring, N> points(g, view, block);
+  von_mises_points<N, Pack, D, Ring>(g.solid, points, g);
+  for (int i = 0; i < N; ++i) g.plastic_work[block + i] += sum_of_first(points.dissipated[i], lanes_in_use(g, block + i));
+}
+
+template <int D, bool Ring> [[gnu::flatten]] void hyperelastic_forces_of_block(const CellGroup& g, const NodalView& view, long block) {
+  BlocksOfPoints<D, Ring, 1> points(g, view, block);
+  Edges<Pack, D, Ring> e;
+  points.edges(0, e);
+  find_areas(e);
+  points.respond(0, e, hyperelastic_step(g.solid, e, points.ratio(0, e), points.memory(0)).S, g);
 }
 
 template <int D, bool Ring> void observe_block(const CellGroup& g, const NodalView& view, long block, double* stress, double* ratio, double* energy) {
@@ -117,10 +136,14 @@ template <class Work> void with_dimension(const CellGroup& g, Work&& work) {
 
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
   with_dimension(g, [&](auto D, auto ring) {
+    constexpr int together = 4;
     int b = first;
-    if (kOneRegister && of_von_mises(g.solid.law))
-      for (; b + 1 < last; b += 2) forces_of_blocks<D, ring, Several<Pack, 2>>(g, view, b);
-    for (; b < last; ++b) forces_of_blocks<D, ring, Pack>(g, view, b);
+    if (!of_von_mises(g.solid.law)) {
+      for (; b < last; ++b) hyperelastic_forces_of_block<D, ring>(g, view, b);
+      return;
+    }
+    for (; b + together <= last; b += together) forces_of_blocks<D, ring, together>(g, view, b);
+    for (; b < last; ++b) forces_of_blocks<D, ring, 1>(g, view, b);
   });
 }
 void observe(const CellGroup& g, const NodalView& view, int first, int last, double* stress, double* ratio, double* energy) {

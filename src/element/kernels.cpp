@@ -8,6 +8,7 @@
 #include "forming_sim/element/one_point_step.h"
 #include "forming_sim/element/time_step.h"
 #include "forming_sim/material/law.h"
+#include "forming_sim/material/von_mises_points.h"
 
 namespace forming_sim {
 namespace FORMING_SIM_ISA {
@@ -47,22 +48,90 @@ void pressures(const CellGroup& g, long block, const double* constants, const Pa
     for (int s = 0; s < Cell::simplices; ++s) p[s] += Pack(g.guard) * K * guard_pressure(J[s], free_of_guard<Cell>(constants, s));
 }
 
-/// Simplices of a cell that go through the law together, so that one has work to do while another waits for a root or a
-/// division: as many as there are registers for.
-template <class Cell, Made made>
-constexpr int kTogether = !kOneRegister || made == Made::any ? 1 : Cell::dimension == 2 && Cell::simplices % 4 == 0 ? 4 : Cell::simplices % 2 == 0 ? 2 : 1;
-template <class Cell, Made made>
-using Together = std::conditional_t<kTogether<Cell, made> == 1, Pack, Several<Pack, kTogether<Cell, made>>>;
+/// Simplices of a cell that go through the law at a time.
+template <class Cell> constexpr int kPoints = Cell::simplices % 6 == 0 ? 6 : Cell::simplices;
+
+/// Forces of the simplices of a block, summed by its nodes.
+template <class Cell> struct BlockForces {
+  static constexpr int D = kD<Cell>;
+  const double* constants;
+  const Vector<Pack, D>* x;
+  Vector<Pack, D> on_node[Cell::nodes], on_drawn[kDrawn<Cell>];
+  Pack hoops{0.0};
+
+  BlockForces(const double* constants, const Vector<Pack, D>* x) : constants(constants), x(x) {
+    repeat<Cell::nodes>([&](auto a) { repeat<D>([&](auto i) { on_node[a][i] = Pack(0.0); }); });
+    repeat<kDrawn<Cell>>([&](auto a) { repeat<D>([&](auto i) { on_drawn[a][i] = Pack(0.0); }); });
+  }
+
+  /// A third on each corner, since x_3 is their mean radius.
+  [[gnu::always_inline]] void add_hoop(int s, const Pack& force) {
+    const Pack hoop = force * Pack(1.0 / 3);
+    for (int m = 0; m < D; ++m) on_node[Cell::table[s][m + 1]][0] -= hoop;
+    hoops += hoop;
+  }
+  /// Of sigma = p I + S (3.4) of simplex s, e its edges for the law with their areas: the force on edge m is -V sigma . x^m, that of the
+  /// hoop of a ring -V sigma . x^3.
+  [[gnu::always_inline]] void add(int s, const CellEdges<Cell>& e, Symmetric<Pack, D> S, const Pack& p) {
+    if constexpr (Cell::drawn) {  // -V~ S . y^m on the edges of the law, -V p x^m on those of the volume
+      Vector<Pack, D> force[D];
+      CellEdges<Cell> of_volume;
+      edges_of<Cell>(constants, x, s, of_volume.x);
+      find_areas(of_volume);
+      for (int m = 0; m < D; ++m) {
+        force[m] = S * (Pack(-1.0) * e.area[m]);
+        on_node[Cell::table[s][m + 1]] -= p * of_volume.area[m];
+      }
+      add_law_forces<Cell>(constants, force, s, on_drawn);
+      if constexpr (Cell::ring) add_hoop(s, e.area[2][0] * S[2] + of_volume.area[2][0] * p);
+    } else {
+      for (int c = 0; c < 3; ++c) S[c] += p;
+      for (int m = 0; m < D; ++m) on_node[Cell::table[s][m + 1]] -= S * e.area[m];
+      if constexpr (Cell::ring) add_hoop(s, e.area[2][0] * S[2]);
+    }
+  }
+};
+
+/// What the law sees of a block of cells of simplices: n of them from `first` on are points of material/von_mises_points.h.
+template <class Cell, int n> struct BlockPoints {
+  static constexpr int D = kD<Cell>;
+  const CellGroup& g;
+  long block;
+  const double* constants;
+  const Vector<Pack, D>* x;
+  const Pack *J, *p;  ///< of each simplex: of its volume
+  Vector<Pack, D> drawn[kDrawn<Cell>];
+  Pack dissipated{0.0};  ///< J
+  Mask upright;
+  int first = 0;
+
+  BlockPoints(const CellGroup& g, long block, const double* constants, const Vector<Pack, D>* x, const Pack* J, const Pack* p)
+      : g(g), block(block), constants(constants), x(x), J(J), p(p), upright(J[0] > Pack(0.0)) {
+    if constexpr (Cell::drawn) draw<Cell>(constants, x, drawn);
+  }
+
+  /// Simplex of point i; without a sum where they are all of the cell's, so that the compiler knows it.
+  [[gnu::always_inline]] int simplex(int i) const { return n == Cell::simplices ? i : first + i; }
+  [[gnu::always_inline]] double* memory(int i) const { return memory_of<Cell>(g, block, simplex(i)); }
+  [[gnu::always_inline]] void edges(int i, CellEdges<Cell>& e) const { law_edges<Cell>(constants, x, drawn, simplex(i), e.x); }
+  /// J that the law sees.
+  [[gnu::always_inline]] Pack ratio(int i, const CellEdges<Cell>& e) {
+    fetch_ahead(g, memory(i));
+    const Pack of_law = Cell::drawn ? simplex_volume<Pack, D, Cell::ring>(e.x) / initial_volume(g, memory(i)) : J[simplex(i)];
+    upright = upright & (J[simplex(i)] > Pack(0.0)) & (of_law > Pack(0.0));
+    return of_law;
+  }
+  [[gnu::always_inline]] void dissipate(int i, const Pack& what) { dissipated += what * initial_volume(g, memory(i)); }
+  [[gnu::always_inline]] void respond(int i, const CellEdges<Cell>& e, const Symmetric<Pack, D>& S, BlockForces<Cell>& forces) const { forces.add(simplex(i), e, S, p[simplex(i)]); }
+};
 
 template <class Cell, Made made>
 [[gnu::flatten]] void forces_of_block(const CellGroup& g, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
   const double* constants = constants_of<Cell>(g, block);
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
-  Vector<Pack, D> x[Cell::nodes], f[Cell::nodes];
+  Vector<Pack, D> x[Cell::nodes];
   gather_ways<Cell>(nodes, view.x, x);
-  for (int a = 0; a < Cell::nodes; ++a)
-    for (int i = 0; i < D; ++i) f[a][i] = Pack(0.0);
 
   Pack V[Cell::simplices], J[Cell::simplices], p[Cell::simplices];
   find_volumes<Cell>(g, block, constants, x, V, J);
@@ -71,13 +140,9 @@ template <class Cell, Made made>
   if (classical) gather_ways<Cell>(nodes, view.v, v);
   if (classical) classical_pressures<Cell>(g, view, block, x, v, p);
   else pressures<Cell>(g, block, constants, V, J, p);
-  Vector<Pack, D> drawn_x[kDrawn<Cell>], drawn_v[kDrawn<Cell>], on_drawn[kDrawn<Cell>];
-  if constexpr (Cell::drawn) {
-    draw<Cell>(constants, x, drawn_x);
+  Vector<Pack, D> drawn_v[kDrawn<Cell>];
+  if constexpr (Cell::drawn)
     if (classical) draw<Cell>(constants, v, drawn_v);
-    for (Vector<Pack, D>& force : on_drawn)
-      for (int i = 0; i < D; ++i) force[i] = Pack(0.0);
-  }
   const int in_use = lanes_in_use(g, block);
   if (g.linear_viscosity > 0 || g.quadratic_viscosity > 0) {
     const Viscosity viscosity = viscosity_of_block<Cell>(g, view, block);
@@ -85,73 +150,33 @@ template <class Cell, Made made>
     g.viscous_work[block] += sum_of_first(viscosity.power, in_use) * view.dt;
   }
 
-  Pack dissipated(0.0), hoops(0.0);
-  Mask upright = J[0] > Pack(0.0);
-  using Points = Together<Cell, made>;
-  constexpr int together = points_in<Points>;
-  for (int first = 0; first < Cell::simplices; first += together) {
-    CellEdges<Cell> edges[together];
-    double* memory[together];
-    Points ratio;
-    repeat<together>([&](auto i) {
-      law_edges<Cell>(constants, x, drawn_x, first + i, edges[i].x);
-      if (classical) find_reciprocal(edges[i]);
-      else find_areas(edges[i]);
-      memory[i] = memory_of<Cell>(g, block, first + i);
-      fetch_ahead(g, memory[i]);
-      part_of(ratio, i) = Cell::drawn ? edges[i].volume / initial_volume(g, memory[i]) : J[first + i];
-      upright = upright & (J[first + i] > Pack(0.0)) & (part_of(ratio, i) > Pack(0.0));
-    });
-    PointResponse<Points, D> points;
-    if constexpr (made == Made::one_layer) points = layer_step(g.solid, 0, stress_factor(g.solid, ratio), edges, ratio, memory, Keep::yes);
-    if constexpr (made == Made::layers) points = von_mises_step(g.solid, edges, ratio, memory, Keep::yes);
-#pragma GCC unroll 4  // a turn of its own for each: repeat() would not do, whose calls are not flattened
-    for (int i = 0; i < together; ++i) {
-      const int s = first + i;
-      const CellEdges<Cell>& e = edges[i];
-      const Pack V0 = initial_volume(g, memory[i]);
-      PointResponse<Pack, D> point;
-      Vector<Pack, D> w[kE<Cell>], force[D];
+  constexpr int n = made == Made::any ? 1 : kPoints<Cell>;
+  BlockForces<Cell> forces(constants, x);
+  BlockPoints<Cell, n> points(g, block, constants, x, J, p);
+  for (; points.first < Cell::simplices; points.first += n) {
+    if constexpr (made == Made::one_layer) one_layer_of_points<n, Pack, D, Cell::ring>(g.solid, points, forces);
+    if constexpr (made == Made::layers) layers_of_points<n, Pack, D, Cell::ring>(g.solid, points, forces);
+    if constexpr (made == Made::any) {
+      CellEdges<Cell> e;
+      points.edges(0, e);
+      find_reciprocal(e);
+      Vector<Pack, D> w[kE<Cell>];
       if (classical) {
-        law_edges<Cell>(constants, v, drawn_v, s, w);
+        law_edges<Cell>(constants, v, drawn_v, points.first, w);
         moved<Cell>(view, w);
       }
-      if constexpr (made != Made::any) point = points.of(i);
-      else point = point_step(g.solid, e, classical ? w : nullptr, part_of(ratio, i), memory[i], Keep::yes);
-      dissipated += point.dissipation * V0;
-      if constexpr (Cell::drawn) {  // -V~ S . y^m on the edges of the law, -V p x^m on those of the volume
-        CellEdges<Cell> of_volume;
-        edges_of<Cell>(constants, x, s, of_volume.x);
-        find_areas(of_volume);
-        for (int m = 0; m < D; ++m) {
-          force[m] = point.S * (Pack(-1.0) * e.area[m]);
-          f[Cell::table[s][m + 1]] -= p[s] * of_volume.area[m];
-        }
-        add_law_forces<Cell>(constants, force, s, on_drawn);
-        if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
-          const Pack hoop = (e.area[2][0] * point.S[2] + of_volume.area[2][0] * p[s]) * Pack(1.0 / 3);
-          for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]][0] -= hoop;
-          hoops += hoop;
-        }
-        continue;
-      }
-      for (int c = 0; c < 3; ++c) point.S[c] += p[s];  // sigma = p I + S (3.4)
-      // The force on edge m is -V sigma . x^m, that of the hoop of a ring -V sigma . x^3.
-      for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]] -= point.S * e.area[m];
-      if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
-        const Pack hoop = e.area[2][0] * point.S[2] * Pack(1.0 / 3);
-        for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]][0] -= hoop;
-        hoops += hoop;
-      }
+      const PointResponse<Pack, D> point = point_step(g.solid, e, classical ? w : nullptr, points.ratio(0, e), points.memory(0), Keep::yes);
+      points.dissipate(0, point.dissipation);
+      points.respond(0, e, point.S, forces);
     }
   }
-  if constexpr (Cell::drawn) hand_back<Cell>(constants, on_drawn, f);
-  balance_apex<Cell>(hoops, f);
-  g.plastic_work[block] += sum_of_first(dissipated, in_use);
-  g.upright[block] = all(upright);
+  if constexpr (Cell::drawn) hand_back<Cell>(constants, forces.on_drawn, forces.on_node);
+  balance_apex<Cell>(forces.hoops, forces.on_node);
+  g.plastic_work[block] += sum_of_first(points.dissipated, in_use);
+  g.upright[block] = all(points.upright);
 
   const int* slots = g.slots + block * Cell::nodes * kLanes;
-  for (int a = 0; a < Cell::nodes; ++a) add_vectors(f[a], slots + a * kLanes, g.sums);
+  for (int a = 0; a < Cell::nodes; ++a) add_vectors(forces.on_node[a], slots + a * kLanes, g.sums);
 }
 
 template <class Cell>

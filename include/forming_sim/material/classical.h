@@ -89,7 +89,8 @@ template <class T, int D, bool Ring>
     if (any(yields)) {
       const T k = q * T(1 / (3 * m.mu));
       YieldStress<T> reached = yield;
-      const T u = select(yields, solve_correction(h, select(yields, q, yield.value), p, k, reached), T(0));
+      const T safe_q = select(yields, q, yield.value);
+      const T u = select(yields, solve_correction(h, safe_q, p, k, first_correction(safe_q, k, yield), reached), T(0));
       p += u * k;
       for (int i = 0; i < size; ++i) r.S[i] *= T(1) - u;  // (2.15)
       r.dissipation = J * (T(1) - u) * q * u * k;         // q_S dp

@@ -20,7 +20,6 @@
 // Memory of a point: G^X and p of every layer, one layer after the other.
 #include "forming_sim/material/constants.h"
 #include "forming_sim/tensor/tensor.h"
-#include "forming_sim/tensor/several.h"
 
 namespace forming_sim {
 
@@ -31,15 +30,6 @@ template <class T, int D> struct PointResponse {
   T kept = T(1);      ///< of a single layer: S over that of the trial, 1: elastic
   bool knows_yield = false;  ///< of a single layer: whether the law asked for `yield`
   YieldStress<T> yield;      ///< at its p after the step
-
-  /// What it answers for one of points_in<T> points.
-  PointResponse<PartOf<T>, D> of(int point) const {
-    PointResponse<PartOf<T>, D> r;
-    r.dissipation = part_of(dissipation, point);
-    r.kept = part_of(kept, point);
-    repeat<Symmetric<T, D>::size>([&](auto i) { r.S[i] = part_of(S[i], point); });
-    return r;
-  }
 };
 
 /// Numbers of memory of one layer: G^X and p.
@@ -51,12 +41,15 @@ enum class Keep { yes, no };
 /// Relative distance of q from sigma_s below which a point is on the yield surface: what stands still there keeps its memory.
 constexpr double kOnTheSurface = 1e-13;
 
-/// u = 1 - a of (1-u) q = sigma_s(p + u k): Newton inside a bracket, to round-off, from where the
-/// parabola at u = 0 has its root to second order; at: sigma_s at p, and then at p + u k.
-template <class T> T solve_correction(const HardeningCurve& h, const T& q, const T& p, const T& k, YieldStress<T>& at) {
-  const YieldStress<T> start = at;
+/// u = 1 - a of (1-u) q = sigma_s(p + u k), where the parabola at u = 0 has its root to second order; at: sigma_s at p.
+template <class T> T first_correction(const T& q, const T& k, const YieldStress<T>& at) {
   const T over_slope = T(1) / (q + k * at.slope), first = (q - at.value) * over_slope;
-  T u = smaller(first * (T(1) - T(0.5) * k * k * at.bend * first * over_slope), T(1));
+  return smaller(first * (T(1) - T(0.5) * k * k * at.bend * first * over_slope), T(1));
+}
+
+/// The same to round-off, from there on by Newton inside a bracket; at: sigma_s at p, and then at p + u k.
+template <class T> T solve_correction(const HardeningCurve& h, const T& q, const T& p, const T& k, T u, YieldStress<T>& at) {
+  const YieldStress<T> start = at;
   T low(0), high(1);
   for (int i = 0; i < 60; ++i) {
     at = yield_stress_beyond(h, p, start, u * k);
@@ -95,47 +88,80 @@ template <class T> T stress_factor(const SolidConstants& m, const T& J) {
   return m.law == Law::paper ? T(m.mu) : T(m.mu) * power_minus_five_thirds(J);
 }
 
-/// What a correction makes of a layer: its a, p, dissipation, and the yield stress after it.
+/// The trial state B' = s I + D (3.51) of a layer, m = D : D, the stress that it would have, S' = factor D, and Q = q_S'^2.
+template <class T, int D> struct Trial {
+  Symmetric<T, D> deviator;
+  T s, m, factor, Q;
+};
+/// factor: stress_factor(m, J).
+template <class T, int D> [[gnu::always_inline]] inline void find_trial(const Symmetric<T, D>& B, const T& factor, Trial<T, D>& trial) {
+  const T s = trace(B) * T(1.0 / 3);
+  Symmetric<T, D> d;
+  repeat<Symmetric<T, D>::size>([&](auto i) { d[i] = i < 3 ? B[i] - s : B[i]; });
+  const T m = contract(d, d);
+  trial.Q = T(1.5) * m * factor * factor;
+  trial.deviator = d;
+  trial.s = s;
+  trial.m = m;
+  trial.factor = factor;
+}
+
+/// Which trial states lie outside of the yield surface.
+template <class T, int D> auto yields(const Trial<T, D>& trial, const YieldStress<T>& yield) { return trial.Q > yield.value * yield.value * T(1 + 2 * kOnTheSurface); }
+/// Those that do so at the lowest stress that the curve knows: none other has to be asked for its root.
+template <class T, int D> auto may_yield(const HardeningCurve& h, const Trial<T, D>& trial) { return trial.Q > T(h.lowest * h.lowest); }
+
+/// How a trial state flows.
+template <class T> struct Flow {
+  T q;     ///< q_S'; of what does not yield sigma_s, so that its correction is none
+  T k;     ///< plastic strain per u = 1 - a: q(B'^-1)/3
+  T u;     ///< u to second order
+  T work;  ///< D : dev(B'^-1)
+};
+template <class T, int D> [[gnu::always_inline]] inline Flow<T> find_flow(const Trial<T, D>& trial, const YieldStress<T>& yield) {
+  const T &s = trial.s, &m = trial.m, d = determinant(trial.deviator, cofactor(trial.deviator));
+  const T over_det = T(1) / (s * (s * s - T(0.5) * m) + d);
+  Flow<T> flow;
+  flow.k = sqrt(T(1.5) * (s * (s * m - T(6) * d) + m * m * T(1.0 / 6))) * (over_det * T(1.0 / 3));
+  flow.q = select(yields(trial, yield), sqrt(trial.Q), yield.value);
+  flow.u = first_correction(flow.q, flow.k, yield);
+  flow.work = (s * m - T(3) * d) * over_det;
+  return flow;
+}
+
+/// What a correction makes of a layer: u, its p, dissipation, and the yield stress after it. The trial's factor becomes that of
+/// the stress after it.
 template <class T> struct Correction {
-  T kept, p, dissipation;
+  T u, p, dissipation;
   YieldStress<T> yield;
 };
-
-/// The correction of a layer whose trial B' = s I + D, m = D : D, has q_S'^2 = Q.
 template <class T, int D>
-Correction<T> correct(const HardeningCurve& hardening, const T& factor, const T& s, const Symmetric<T, D>& deviator, const T& m, const T& J, const T& Q, const T& p) {
-  YieldStress<T> yield = yield_stress(hardening, p);
-  const auto yields = Q > yield.value * yield.value * T(1 + 2 * kOnTheSurface);
-  if (!any(yields)) return {T(1), p, T(0), yield};
-  const T d = determinant(deviator, cofactor(deviator));
-  const T over_det = T(1) / (s * (s * s - T(0.5) * m) + d);
-  const T k = sqrt(T(1.5) * (s * (s * m - T(6) * d) + m * m * T(1.0 / 6))) * (over_det * T(1.0 / 3));
-  const T safe_q = select(yields, sqrt(Q), yield.value);  // lanes that do not yield solve to u = 0
-  const T u = select(yields, solve_correction(hardening, safe_q, p, k, yield), T(0));
-  const T kept = T(1) - u;
+[[gnu::always_inline]] inline Correction<T> correct(const HardeningCurve& hardening, Trial<T, D>& trial, const Flow<T>& flow, const T& J, const T& p, YieldStress<T> yield) {
+  const T u = solve_correction(hardening, flow.q, p, flow.k, flow.u, yield);
+  trial.factor *= T(1) - u;
   // J S : D_p with the stress after the correction, which is the one that moves the nodes
-  return {kept, p + u * k, factor * kept * J * T(0.5) * u * ((s * m - T(3) * d) * over_det), yield};
+  return {u, p + u * flow.k, trial.factor * J * T(0.5) * u * flow.work, yield};
 }
 
 /// What a layer answers, as if the body were made of it. B: the trial B' (3.51); J: V/V0 of the element; p: plastic strain, updated.
 template <class T, int D>
-PointResponse<T, D> update_layer(const HardeningCurve& hardening, T factor, const Symmetric<T, D>& B, const T& J, T& p) {
+PointResponse<T, D> update_layer(const HardeningCurve& hardening, const T& factor, const Symmetric<T, D>& B, const T& J, T& p) {
   PointResponse<T, D> r;
-  const Symmetric<T, D> B_D = deviator(B);
+  Trial<T, D> trial;
+  find_trial(B, factor, trial);
   r.dissipation = T(0);
-  if (hardening.kind != HardeningCurve::elastic) {
-    const T m = contract(B_D, B_D), Q = T(1.5) * m * factor * factor;  // q_S'^2: the root is needed only where something yields
-    if (any(Q > T(hardening.lowest * hardening.lowest))) {
-      const Correction<T> c = correct(hardening, factor, trace(B) * T(1.0 / 3), B_D, m, J, Q, p);
-      r.kept = c.kept;
+  if (hardening.kind != HardeningCurve::elastic && any(may_yield(hardening, trial))) {
+    r.yield = yield_stress(hardening, p);
+    r.knows_yield = true;
+    if (any(yields(trial, r.yield))) {
+      const Correction<T> c = correct(hardening, trial, find_flow(trial, r.yield), J, p, r.yield);
+      r.kept = T(1) - c.u;
       r.dissipation = c.dissipation;
       r.yield = c.yield;
-      r.knows_yield = true;
       p = c.p;
     }
   }
-  factor *= r.kept;
-  repeat<Symmetric<T, D>::size>([&](auto i) { r.S[i] = factor * B_D[i]; });
+  repeat<Symmetric<T, D>::size>([&](auto i) { r.S[i] = trial.factor * trial.deviator[i]; });
   return r;
 }
 
@@ -155,69 +181,43 @@ template <class T, int D> struct Metric {
 template <class T, int D, bool Ring> Metric<T, D> metric_of_areas(const Edges<T, D, Ring>& e) { return {area_metric(e), T(1) / (e.volume * e.volume)}; }
 template <class T, int D, bool Ring> Metric<T, D> metric_of_vectors(const Edges<T, D, Ring>& e) { return {metric_of<D, Ring>(e.up, T(1)), T(1)}; }
 
-/// One step of layer k of points_in<T> points (tensor/several.h), whose memories of that layer start at `memory`; factor: stress_factor(m, J);
-/// metric: gives the Metric of a point where it yields.
-template <class T, int D, bool Ring, class MetricOf>
-PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, const Edges<PartOf<T>, D, Ring>* e, const T& J, double* const* memory, Keep keep,
-                               const MetricOf& metric) {
-  using Part = PartOf<T>;
-  constexpr int size = Symmetric<T, D>::size;
-  Symmetric<T, D> B;
-  T p;
-  repeat<points_in<T>>([&](auto i) {
-    const Symmetric<Part, D> of_point = push(load_memory<Part, D>(memory[i]), e[i]);  // (3.51)
-    repeat<size>([&](auto c) { part_of(B[c], i) = of_point[c]; });
-    load(memory[i], size, part_of(p, i));
-  });
-  const T before = p;
-  const PointResponse<T, D> r = update_layer(m.layer[k].hardening, factor, B, J, p);
-  if (keep == Keep::yes && any(p > before))
-    repeat<points_in<T>>([&](auto i) {
-      const Metric<Part, D> target = metric(i);
-      const Symmetric<Part, D> G = load_memory<Part, D>(read_again(memory[i]));
-      const Part a = part_of(r.kept, i), share = (Part(1) - a) * target.over;
-      repeat<size>([&](auto c) { store(memory[i], c, a * G[c] + share * target.A[c]); });  // (3.54)
-      store(memory[i], size, part_of(p, i));
-    });
-  return r;
-}
-template <class T, int D, bool Ring>
-PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, const Edges<PartOf<T>, D, Ring>* e, const T& J, double* const* memory, Keep keep) {
-  return layer_step(m, k, factor, e, J, memory, keep, [&](int i) { return metric_of_areas(e[i]); });
-}
-/// Of one point whose reciprocal vectors are at hand.
-template <class T, int D, bool Ring>
-PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, const Edges<T, D, Ring>& e, const T& J, double* memory, Keep keep) {
-  return layer_step(m, k, factor, &e, J, &memory, keep, [&](int) { return metric_of_vectors(e); });
+/// (3.54) of the layer whose memory starts at `memory`, u = 1 - a; its p is stored already.
+template <class T, int D> void keep_flow(double* memory, const T& u, const Metric<T, D>& target) {
+  const T a = T(1) - u, share = u * target.over;
+  const Symmetric<T, D> G = load_memory<T, D>(memory);
+  repeat<Symmetric<T, D>::size>([&](auto c) { store(memory, c, a * G[c] + share * target.A[c]); });
 }
 
-/// One step of all layers of points_in<T> points.
+/// One step of layer k of a point whose reciprocal vectors are at hand; its memory of that layer starts at `memory`; factor: stress_factor(m, J).
 template <class T, int D, bool Ring>
-PointResponse<T, D> von_mises_step(const SolidConstants& m, const Edges<PartOf<T>, D, Ring>* e, const T& J, double* const* memory, Keep keep) {
+PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, const Edges<T, D, Ring>& e, const T& J, double* memory, Keep keep) {
+  constexpr int size = Symmetric<T, D>::size;
+  T p;
+  load(memory, size, p);
+  const T before = p;
+  const PointResponse<T, D> r = update_layer(m.layer[k].hardening, factor, push(load_memory<T, D>(memory), e), J, p);
+  if (keep == Keep::yes && any(p > before)) {
+    store(memory, size, p);
+    keep_flow(memory, T(1) - r.kept, metric_of_vectors(e));
+  }
+  return r;
+}
+
+/// One step of all layers of a point.
+template <class T, int D, bool Ring>
+PointResponse<T, D> von_mises_step(const SolidConstants& m, const Edges<T, D, Ring>& e, const T& J, double* memory, Keep keep) {
   const T factor = stress_factor(m, J);
   if (m.layers == 1) return layer_step(m, 0, factor, e, J, memory, keep);
   PointResponse<T, D> sum;
   repeat<Symmetric<T, D>::size>([&](auto i) { sum.S[i] = T(0); });
   sum.dissipation = T(0);
-  double* of_layer[points_in<T>];
-  Metric<PartOf<T>, D> metric[points_in<T>];
-  repeat<points_in<T>>([&](auto i) {
-    of_layer[i] = memory[i];
-    metric[i] = metric_of_areas(e[i]);
-  });
-  for (int k = 0; k < m.layers; ++k) {
-    const PointResponse<T, D> r = layer_step(m, k, factor, e, J, of_layer, keep, [&](int i) -> const Metric<PartOf<T>, D>& { return metric[i]; });
-    for (double*& at : of_layer) at += kLayerItems<D> * lanes_of<PartOf<T>>;
+  for (int k = 0; k < m.layers; ++k, memory += kLayerItems<D> * lanes_of<T>) {
+    const PointResponse<T, D> r = layer_step(m, k, factor, e, J, memory, keep);
     const T w(m.layer[k].weight);
     repeat<Symmetric<T, D>::size>([&](auto i) { sum.S[i] += w * r.S[i]; });
     sum.dissipation += w * r.dissipation;
   }
   return sum;
-}
-/// Of one point.
-template <class T, int D, bool Ring>
-PointResponse<T, D> von_mises_step(const SolidConstants& m, const Edges<T, D, Ring>& e, const T& J, double* memory, Keep keep) {
-  return von_mises_step(m, &e, J, &memory, keep);
 }
 
 /// Stored energy per initial volume, J/m3, of the deviatoric part:
