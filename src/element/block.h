@@ -145,10 +145,11 @@ template <class Cell> void balance_apex(const Pack& hoops, Vector<Pack, kD<Cell>
 template <class Cell> double* memory_of(const CellGroup& g, long block, int s) {
   return g.memory + (block * Cell::simplices + s) * g.items * kLanes;
 }
-/// Fetches the memory of the simplex four behind this one: what the processor fetches ahead by itself ends with a page, which
-/// a few simplices fill. Behind the last there is nothing to fetch, which does no harm.
-inline void fetch_ahead(const CellGroup& g, const double* memory) {
-  const std::uintptr_t ahead = reinterpret_cast<std::uintptr_t>(memory) + 4 * g.items * sizeof(Lane);
+/// Fetches the memory of the simplex so many behind this one: what the processor fetches ahead by itself ends with a page, which
+/// a few simplices fill. Behind the last there is nothing to fetch, which does no harm. (Where it is not inlined at once the compiler
+/// takes it for a function that does nothing, and leaves it out.)
+[[gnu::always_inline]] inline void fetch_ahead(const CellGroup& g, const double* memory, int simplices) {
+  const std::uintptr_t ahead = reinterpret_cast<std::uintptr_t>(memory) + static_cast<std::uintptr_t>(simplices) * g.items * sizeof(Lane);
   for (int i = 0; i < g.items; ++i) __builtin_prefetch(reinterpret_cast<const void*>(ahead + i * sizeof(Lane)), 1);
 }
 /// Lanes of a block that are not copies.

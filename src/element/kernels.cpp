@@ -116,7 +116,7 @@ template <class Cell, int n> struct BlockPoints {
   [[gnu::always_inline]] void edges(int i, CellEdges<Cell>& e) const { law_edges<Cell>(constants, x, drawn, simplex(i), e.x); }
   /// J that the law sees.
   [[gnu::always_inline]] Pack ratio(int i, const CellEdges<Cell>& e) {
-    fetch_ahead(g, memory(i));
+    fetch_ahead(g, memory(i), 4);
     const Pack of_law = Cell::drawn ? simplex_volume<Pack, D, Cell::ring>(e.x) / initial_volume(g, memory(i)) : J[simplex(i)];
     upright = upright & (J[simplex(i)] > Pack(0.0)) & (of_law > Pack(0.0));
     return of_law;
