@@ -59,7 +59,7 @@ class Start {
         const int side = f_.rigid(c[0]) ? sides_[facet] : f_.facet_outward[facet];
         const Node n = side * facet_normal(f_.dimension, at(c[0]), at(c[1]), third);
         const double distance = std::sqrt(q.squared), along = dot3(d, n);
-        if (distance < kShallow * layer_ && along <= 0 && along < -0.999 * distance) {
+        if (distance < kShallow * layer_ && along <= 1e-6 * layer_ - 0.999 * distance) {  // behind it, or on it
           const double free = room(g.vertex, n, at);
           if (free > most_room + 1e-6 || (free > most_room - 1e-6 && along > out.gap)) {
             most_room = std::max(free, most_room);

@@ -229,3 +229,17 @@ TEST(ContactStart, BlocksWithSidesInLineThatOverlapALittleAreParted) {
       EXPECT_NEAR(apart.norm(), apart[dimension - 1], 1e-6 * h0);
     }
 }
+
+// A strip lies on another one and reaches over its end, with a vertex on its face a layer and a half from that end: the way
+// out is up, not past the end.
+TEST(ContactStart, AVertexThatTouchesBesideAnEndIsPartedFromTheFaceItTouches) {
+  World world;
+  world.config.layer = h0;
+  world.add_strip(Vec3(0, 0, 0), 10, 2, .1, .1, 2700, 0);
+  world.add_strip(Vec3(1.5 * h0 - .1, .2, 0), 5, 2, .1, .1, 2700, 0);
+  Contact contact = world.make();
+  ASSERT_EQ(contact.warnings().size(), 2u);
+  const Vec3 parted = contact.body_shifts()[1] - contact.body_shifts()[0];
+  EXPECT_NEAR(parted.y(), h0, 1e-6 * h0);
+  EXPECT_NEAR(parted.x(), 0, 1e-9 * h0);
+}

@@ -11,6 +11,7 @@
 #include "forming_sim/scene/build.h"
 #include "forming_sim/scene/validate.h"
 #include "forming_sim/scene/yaml.h"
+#include "forming_sim/simulation/simulation.h"
 
 namespace forming_sim {
 namespace {
@@ -32,6 +33,13 @@ TEST_P(ShippedScene, is_valid) {
   const Scene scene = read_scene_file(kFolder + GetParam() + ".yaml", faults);
   for (const Fault& fault : validate(scene, faults)) ADD_FAILURE() << fault.sentence();
   EXPECT_EQ(scene.name, GetParam());
+}
+
+TEST_P(ShippedScene, does_its_first_step_without_a_crossing) {
+  const Scene scene = read_valid_scene(kFolder + GetParam() + ".yaml");
+  Simulation simulation(build_plan(scene), build_model(scene), 1);
+  EXPECT_TRUE(simulation.step());
+  EXPECT_EQ(simulation.contact_status().crossings, 0);
 }
 
 TEST_P(ShippedScene, starts_with_its_tools_at_rest_in_their_places) {
