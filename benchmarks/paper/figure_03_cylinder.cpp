@@ -35,13 +35,7 @@ OneBody cylinder() {
   OneBody run(body_of(generate_blank(bar), paper_material({.01})), kTimes.back());
   auto& boundaries = run.plan.bodies[0].boundaries;
   const char* planes[] = {"symmetry_x", "symmetry_y", "bottom"};
-  for (int axis = 0; axis < 3; ++axis) {
-    BoundaryConfig b;
-    b.set = planes[axis];
-    b.kind = "symmetric";
-    b.normal = Vec3::Unit(axis);
-    boundaries.push_back(b);
-  }
+  for (int axis = 0; axis < 3; ++axis) boundaries.push_back(symmetric(planes[axis], Vec3::Unit(axis)));
   BoundaryConfig top;
   top.set = "top";
   top.kind = "velocity";

@@ -7,14 +7,6 @@
 namespace forming_sim::bench {
 namespace {
 
-BoundaryConfig along(const std::string& set, const Vec3& normal) {
-  BoundaryConfig b;
-  b.set = set;
-  b.kind = "symmetric";
-  b.normal = normal;
-  return b;
-}
-
 /// A block of aluminium in plane strain flies against the plane x = 0.
 OneBody thrown(double speed, const std::string& pattern) {
   BlankConfig blank = strip_of(10e-3, 5e-3, 16, 8);
@@ -22,7 +14,7 @@ OneBody thrown(double speed, const std::string& pattern) {
   blank.pattern = pattern;
   OneBody run(body_of(generate_blank(blank), aluminium(true)), 20e-6);
   run.plan.bodies[0].initial_velocity = Vec3(-speed, 0, 0);
-  run.plan.bodies[0].boundaries.push_back(along("bottom", Vec3::UnitY()));
+  run.plan.bodies[0].boundaries.push_back(symmetric("bottom", Vec3::UnitY()));
   run.plan.time_step.linear_viscosity = 0.06;
   run.plan.time_step.quadratic_viscosity = 1.2;
   run.model.tools.push_back(wall_at_zero());
@@ -70,7 +62,7 @@ std::vector<Row> sudden_loads(const Request&) {
       OneBody run(body_of(generate_blank(blank), material), 8 * length / speed);
       run.plan.time_step.limit = limit.name;
       BodyLoads& loads = run.plan.bodies[0];
-      loads.boundaries = {along("left", Vec3::UnitX()), along("bottom", Vec3::UnitY()), along("top", Vec3::UnitY())};
+      loads.boundaries = {symmetric("left", Vec3::UnitX()), symmetric("bottom", Vec3::UnitY()), symmetric("top", Vec3::UnitY())};
       PressureConfig pressure;
       pressure.set = "right";
       pressure.times = {0};
@@ -97,13 +89,13 @@ std::vector<Row> sudden_loads(const Request&) {
     const double duration = 1e-3, length = 20e-3;
     OneBody run(body_of(generate_blank(strip_of(length, 2e-3, 20, 4)), aluminium(true)), duration);
     run.plan.time_step.mass_scaling = scaling;
-    BoundaryConfig held = along("left", Vec3::UnitX()), pulled;
+    BoundaryConfig held = symmetric("left", Vec3::UnitX()), pulled;
     pulled.set = "right";
     pulled.kind = "velocity";
     pulled.axes = {"x"};
     pulled.times = {0, duration / 2, duration};
     pulled.velocities = {Vec3::Zero(), Vec3(0.4 * length / duration, 0, 0), Vec3::Zero()};
-    run.plan.bodies[0].boundaries = {held, pulled, along("bottom", Vec3::UnitY())};
+    run.plan.bodies[0].boundaries = {held, pulled, symmetric("bottom", Vec3::UnitY())};
     const auto sim = tried(rows, name, run, 5e-3);
     const Energies& e = sim->energies();
     rows.push_back(just(name, "kinetic energy / internal, at the end", e.kinetic / (e.elastic + e.plastic), sim->wall_time()));

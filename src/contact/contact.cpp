@@ -101,8 +101,7 @@ void Contact::add_normal_impulses(std::vector<double>& sum) const {
     for (int k = 0; k < pair.nodes; ++k)
       if (pair.node[k] < impl_->work.body_entries) sum[impl_->work.vertex[pair.node[k]]] += std::abs(pair.weight[k]) * pair.impulse;
   for (const TiePair& pair : impl_->tie_pairs) {
-    const Mat3 rotation = pair.to_tool ? impl_->previous_motion[pair.tool].rotation0 : Mat3(Mat3::Identity());
-    const double impulse = vec3(pair.impulse).dot(pressing(impl_->ties[pair.tie], impl_->work, pair, rotation));
+    const double impulse = dot3(pair.impulse, pair.press);
     for (int k = 0; k < pair.nodes; ++k)
       if (pair.node[k] < impl_->work.body_entries) sum[impl_->work.vertex[pair.node[k]]] += std::abs(pair.weight[k]) * impulse;
   }

@@ -127,7 +127,7 @@ void Contact::Impl::gather(const NodeField& x, const NodeField& v, const NodeFie
   }
   for (const TiePair& tie : tie_pairs)
     if (tie.to_tool) place_on_tool(tie.node[1], tie.tool, ties[tie.tie].kept);
-  for (TiePair& tie : tie_pairs) aim_tie(ties[tie.tie], work, tie);
+  for (TiePair& tie : tie_pairs) aim_tie(ties[tie.tie], work, motion, tie);
 }
 
 void Contact::Impl::moved_by(double way) {

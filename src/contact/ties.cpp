@@ -301,16 +301,16 @@ void prepare_tie(const Workspace& work, TiePair& pair) {
   }
 }
 
-void aim_tie(const Tie& tie, const Workspace& work, TiePair& pair) {
+void aim_tie(const Tie& tie, const Workspace& work, const std::vector<ToolMotion>& motion, TiePair& pair) {
   pair.impulse.setZero();
   pair.missing = -relative(pair, work.x);
-  if (pair.to_tool) return;
-  pair.missing += node(frame_of(tie, [&](int k) -> const Node& { return work.x[pair.node[k]]; }) * tie.kept);
-}
-
-Vec3 pressing(const Tie& tie, const Workspace& work, const TiePair& pair, const Mat3& rotation) {
-  if (pair.to_tool) return rotation * tie.press;
-  return frame_of(tie, [&](int k) -> const Node& { return work.x[pair.node[k]]; }) * tie.press;
+  if (pair.to_tool) {
+    pair.press = node(motion[tie.tool].rotation0 * tie.press);
+    return;
+  }
+  const Mat3 frame = frame_of(tie, [&](int k) -> const Node& { return work.x[pair.node[k]]; });
+  pair.missing += node(frame * tie.kept);
+  pair.press = node(frame * tie.press);
 }
 
 double sweep_tie(double dt, Workspace& work, TiePair& pair) {

@@ -7,7 +7,7 @@
 
 namespace forming_sim {
 
-RigidVelocity::RigidVelocity(const BoundaryConfig& config) : times_(config.times), centre_(config.centre) {
+RigidVelocity::RigidVelocity(const BoundaryConfig& config) : centre_(config.centre) {
   if (!config.velocities.empty()) velocity_ = VelocityProfile(config.times, config.velocities, config.profile);
   if (config.spins_deg_s.empty()) return;
   std::vector<Vec3> spins;

@@ -4,30 +4,15 @@
 usage: bench_contact_exact_test.py FORMING_BENCH
 """
 import csv
-import json
 import os
-import shutil
-import subprocess
 import sys
-import tempfile
 import unittest
 
-BENCH = sys.argv[1] if len(sys.argv) > 1 else ''
+from bench_run import BenchRun, run_bench
 
 
-class ContactExact(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.directory = tempfile.mkdtemp(prefix='forming_sim_')
-        cls.addClassCleanup(shutil.rmtree, cls.directory)
-        cls.run_ = subprocess.run([BENCH, 'contact', 'exact', 'bounce', 'bars', '--output', cls.directory], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        if cls.run_.returncode != 0:
-            raise AssertionError(cls.run_.stderr)
-        with open(os.path.join(cls.directory, 'contact.json')) as file:
-            cls.rows = json.load(file)
-
-    def of_case(self, quantity):
-        return {row['case']: row for row in self.rows if row['quantity'] == quantity}
+class ContactExact(BenchRun):
+    words = ('contact', 'exact', 'bounce', 'bars')
 
     def test_the_end_of_the_step_is_of_first_order(self):
         """Least gap and rebound of the mass that bounces on the layer, by the implicit method."""
@@ -68,7 +53,7 @@ class ContactExact(unittest.TestCase):
     def test_what_is_not_there(self):
         for words, said in ((['exact', 'bounces'], 'problem bounces is not one of bounce, bars'), (['shakes'], 'shakes is not one of the runs of contact'),
                             (['shaken', 'bars'], 'nothing is chosen after shaken')):
-            run = subprocess.run([BENCH, 'contact'] + words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            run = run_bench('contact', *words)
             self.assertNotEqual(run.returncode, 0)
             self.assertIn(said, run.stderr)
 

@@ -7,12 +7,11 @@ import csv
 import json
 import os
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 
-BENCH = sys.argv[1] if len(sys.argv) > 1 else ''
+from bench_run import run_bench
 
 
 class Paper(unittest.TestCase):
@@ -21,7 +20,7 @@ class Paper(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.directory)
 
     def rows(self, figure):
-        run = subprocess.run([BENCH, 'paper', figure, '--output', self.directory], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        run = run_bench('paper', figure, '--output', self.directory)
         self.assertEqual(run.returncode, 0, run.stderr)
         with open(os.path.join(self.directory, 'paper.json')) as file:
             rows = json.load(file)
@@ -55,7 +54,7 @@ class Paper(unittest.TestCase):
             self.assertAlmostEqual(row['found'] / 70e6, 1, delta=0.02)
 
     def test_a_figure_that_is_not_there(self):
-        run = subprocess.run([BENCH, 'paper', '99'], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        run = run_bench('paper', '99')
         self.assertNotEqual(run.returncode, 0)
         self.assertIn('figure 99 is not one of', run.stderr)
         self.assertIn('long-runs', run.stderr)

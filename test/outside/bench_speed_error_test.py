@@ -7,27 +7,15 @@ import csv
 import json
 import os
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 
-BENCH = sys.argv[1] if len(sys.argv) > 1 else ''
+from bench_run import BenchRun, run_bench
 
 
-class SpeedError(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.directory = tempfile.mkdtemp(prefix='forming_sim_')
-        cls.addClassCleanup(shutil.rmtree, cls.directory)
-        cls.run_ = subprocess.run([BENCH, 'speed-error', 'cube', '--output', cls.directory], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        if cls.run_.returncode != 0:
-            raise AssertionError(cls.run_.stderr)
-        with open(os.path.join(cls.directory, 'speed-error.json')) as file:
-            cls.rows = json.load(file)
-
-    def of_case(self, quantity):
-        return {row['case']: row for row in self.rows if row['quantity'] == quantity}
+class SpeedError(BenchRun):
+    words = ('speed-error', 'cube')
 
     def test_fields_of_the_rows(self):
         periods = self.of_case('period, ms')
@@ -64,7 +52,7 @@ class SpeedError(unittest.TestCase):
                 self.assertEqual(file.read(8), b'\x89PNG\r\n\x1a\n')
 
     def test_a_problem_that_is_not_there(self):
-        run = subprocess.run([BENCH, 'speed-error', 'cubes'], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        run = run_bench('speed-error', 'cubes')
         self.assertNotEqual(run.returncode, 0)
         self.assertIn('problem cubes is not one of bending, cook', run.stderr)
 
@@ -74,7 +62,7 @@ class Stability(unittest.TestCase):
         """Nothing crosses, no energy is gained, and every run comes to its end."""
         directory = tempfile.mkdtemp(prefix='forming_sim_')
         self.addCleanup(shutil.rmtree, directory)
-        run = subprocess.run([BENCH, 'stability', 'impact', '--output', directory], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        run = run_bench('stability', 'impact', '--output', directory)
         self.assertEqual(run.returncode, 0, run.stderr)
         with open(os.path.join(directory, 'stability.json')) as file:
             rows = json.load(file)

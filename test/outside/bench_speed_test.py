@@ -4,34 +4,27 @@
 usage: bench_speed_test.py FORMING_BENCH
 """
 import csv
-import json
 import math
 import os
-import shutil
-import subprocess
 import sys
-import tempfile
 import unittest
 
-BENCH = sys.argv[1] if len(sys.argv) > 1 else ''
+from bench_run import BenchRun, run_bench
+
 STAGES = ('cells_ns', 'sum_ns', 'pressure_ns', 'nodes_ns', 'time_step_ns')
 FAMILIES = {'4 crossed triangles', '2 triangles', 'free triangles', 'axisymmetric, 4 crossed triangles', 'axisymmetric, 2 triangles',
             '24 tetrahedra', '6 tetrahedra', 'free tetrahedra', 'one-point quadrilaterals', 'one-point hexahedra'}
 MOTIONS = ('elastic', 'forming', 'full flow')
 
 
-class Speed(unittest.TestCase):
+class Speed(BenchRun):
+    words = ('speed', 'short')
+
     @classmethod
     def setUpClass(cls):
-        cls.directory = tempfile.mkdtemp(prefix='forming_sim_')
-        cls.addClassCleanup(shutil.rmtree, cls.directory)
-        cls.run_ = subprocess.run([BENCH, 'speed', 'short', '--output', cls.directory], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        if cls.run_.returncode != 0:
-            raise AssertionError(cls.run_.stderr)
+        super().setUpClass()
         with open(os.path.join(cls.directory, 'speed.csv')) as file:
             cls.lines = list(csv.DictReader(file))
-        with open(os.path.join(cls.directory, 'speed.json')) as file:
-            cls.rows = json.load(file)
 
     def test_every_family_in_every_motion_on_one_thread_and_two(self):
         one_layer = {(line['elements'], line['motion'], line['threads']) for line in self.lines if line['layers'] == '1'}
@@ -75,7 +68,7 @@ class Speed(unittest.TestCase):
             self.assertEqual(file.read(8), b'\x89PNG\r\n\x1a\n')
 
     def test_a_word_that_is_not_there(self):
-        run = subprocess.run([BENCH, 'speed', 'fast'], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        run = run_bench('speed', 'fast')
         self.assertNotEqual(run.returncode, 0)
         self.assertIn('given fast; right is nothing, large', run.stderr)
 

@@ -44,13 +44,7 @@ inline Bar bar_before_wall(BarKind kind, int cells, double length, double gap, d
   if (kind == BarKind::axisymmetric) close_at_axis(mesh);
   Bar bar{OneBody(body_of(std::move(mesh), impact_material()), duration), axis, plane ? side : space ? side * side : M_PI * side * side};
   bar.run.model.axisymmetric = kind == BarKind::axisymmetric;
-  const auto hold = [&](const char* set, const Vec3& normal) {
-    BoundaryConfig b;
-    b.set = set;
-    b.kind = "symmetric";
-    b.normal = normal;
-    bar.run.plan.bodies[0].boundaries.push_back(b);
-  };
+  const auto hold = [&](const char* set, const Vec3& normal) { bar.run.plan.bodies[0].boundaries.push_back(symmetric(set, normal)); };
   if (kind == BarKind::axisymmetric) hold("right", Vec3::UnitX());
   else
     for (const char* set : {"bottom", "top"}) hold(set, space ? Vec3(Vec3::UnitZ()) : Vec3(Vec3::UnitY()));
@@ -134,13 +128,7 @@ inline Meeting hit_each_other(int cells, int other_cells, const ContactConfig& c
     blank.origin = Vec3(side == 0 ? -L - gap / 2 : gap / 2, 0, 0);
     BodyModel body = body_of(generate_blank(blank), m);
     add_flying(model, plan, std::move(body), side == 0 ? "left" : "right", Vec3(side == 0 ? v : -v, 0, 0));
-    for (const char* edge : {"bottom", "top"}) {
-      BoundaryConfig b;
-      b.set = edge;
-      b.kind = "symmetric";
-      b.normal = Vec3::UnitY();
-      plan.bodies.back().boundaries.push_back(b);
-    }
+    for (const char* edge : {"bottom", "top"}) plan.bodies.back().boundaries.push_back(symmetric(edge, Vec3::UnitY()));
   }
   Simulation sim(plan, model, 1);
   const auto momentum = [&](std::size_t body) {

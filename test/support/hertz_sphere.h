@@ -164,14 +164,7 @@ inline Found strike(const Strike& given, int threads = 1) {
   OneBody run = one_ring(mesh, m, kAbove / speed + 1.1 * kDuration * std::pow(speed, -0.2));
   run.model.axisymmetric = flat;
   run.plan.bodies[0].initial_velocity = Vec3(0, -speed, 0);
-  for (const auto& [set, normal] : {std::pair{"x", Vec3(1, 0, 0)}, std::pair{"z", Vec3(0, 0, 1)}}) {
-    if (flat) continue;
-    BoundaryConfig b;
-    b.set = set;
-    b.kind = "symmetric";
-    b.normal = normal;
-    run.plan.bodies[0].boundaries.push_back(b);
-  }
+  if (!flat) run.plan.bodies[0].boundaries = {symmetric("x", Vec3::UnitX()), symmetric("z", Vec3::UnitZ())};
   ToolModel plane;
   plane.name = "plane";
   plane.normal = Vec3::UnitY();

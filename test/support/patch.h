@@ -50,11 +50,10 @@ inline Found press(const Blocks& blocks) {
     if (blocks.axisymmetric) close_at_axis(mesh);
     BodyLoads& loads = add_flying(model, plan, body_of(std::move(mesh), material), side == 0 ? "lower" : "upper", Vec3::Zero());
     BoundaryConfig b;
-    b.set = side == 0 ? "bottom" : "top";
     if (side == 0) {
-      b.kind = "symmetric";
-      b.normal = Vec3::Unit(up);
+      b = symmetric("bottom", Vec3::Unit(up));
     } else {
+      b.set = "top";
       b.kind = "velocity";
       b.axes = {dimension == 2 ? "y" : "z"};
       b.times = {0, 0.5 * time, time};
@@ -62,13 +61,8 @@ inline Found press(const Blocks& blocks) {
       b.profile = "smooth";
     }
     loads.boundaries.push_back(b);
-    for (int axis = 0; axis < up && !blocks.axisymmetric; ++axis) {  // nothing moves sideways: nu is 0
-      BoundaryConfig held;
-      held.set = axis == 0 ? "left" : "front";
-      held.kind = "symmetric";
-      held.normal = Vec3::Unit(axis);
-      loads.boundaries.push_back(held);
-    }
+    for (int axis = 0; axis < up && !blocks.axisymmetric; ++axis)  // nothing moves sideways: nu is 0
+      loads.boundaries.push_back(symmetric(axis == 0 ? "left" : "front", Vec3::Unit(axis)));
   }
   plan.contact.layer = h0;
   plan.contact.max_sweeps = blocks.max_sweeps;

@@ -37,6 +37,14 @@ inline BlankConfig strip_of(double length, double thickness, int along, int thro
   return blank;
 }
 
+/// A set that does not move along `normal`.
+inline BoundaryConfig symmetric(const std::string& set, const Vec3& normal) {
+  BoundaryConfig b;
+  b.set = set;
+  b.kind = "symmetric";
+  b.normal = normal;
+  return b;
+}
 /// Holds the set `left` of the body of a run.
 inline void clamp_left(OneBody& run) {
   BoundaryConfig left;

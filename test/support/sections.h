@@ -45,12 +45,4 @@ inline OneBody one_ring(const Mesh& mesh, const MaterialConfig& material, double
   return run;
 }
 
-inline BoundaryConfig symmetric_along_y(const std::string& set) {
-  BoundaryConfig b;
-  b.set = set;
-  b.kind = "symmetric";
-  b.normal = Vec3::UnitY();
-  return b;
-}
-
 }  // namespace forming_sim

@@ -64,7 +64,7 @@ inline OneBody section(int cells, const std::string& pattern, const std::string&
     return Vec3(t == 1 ? 0 : r * std::cos(angle), r * std::sin(angle), 0);
   }, pattern);
   OneBody run = one_ring(mesh, steel(), kDuration, average);
-  run.plan.bodies[0].boundaries.push_back(symmetric_along_y("bottom"));
+  run.plan.bodies[0].boundaries.push_back(symmetric("bottom", Vec3::UnitY()));
   return run;
 }
 
@@ -85,13 +85,7 @@ inline OneBody pyramid(int cells, const std::string& pattern, const std::string&
   check_volumes(mesh);
   OneBody run(body_of(mesh, steel(), average), kDuration);
   const std::pair<const char*, Vec3> sides[] = {{"left", {1, 0, 0}}, {"right", {1, 0, -1}}, {"front", {0, 1, 0}}, {"back", {0, 1, -1}}};
-  for (const auto& [set, normal] : sides) {
-    BoundaryConfig b;
-    b.set = set;
-    b.kind = "symmetric";
-    b.normal = normal;
-    run.plan.bodies[0].boundaries.push_back(b);
-  }
+  for (const auto& [set, normal] : sides) run.plan.bodies[0].boundaries.push_back(symmetric(set, normal));
   return run;
 }
 

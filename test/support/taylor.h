@@ -37,19 +37,11 @@ inline Mesh quarter_bar(int cells, const std::string& pattern) {
 inline OneBody taylor_bar(int dimension, int cells, const std::string& pattern, const std::string& average) {
   const Mesh section = bent_section(cells, 10 * cells, [](double s, double t) { return Vec3(kTaylorRadius * s, kTaylorLength * t, 0); }, pattern);
   OneBody run = dimension == 2 ? one_ring(section, copper(), kTaylorTime, average) : OneBody(body_of(quarter_bar(cells, pattern), copper(), average), kTaylorTime);
-  const auto symmetric = [&](const char* set, int axis) {
-    BoundaryConfig b;
-    b.set = set;
-    b.kind = "symmetric";
-    b.normal = Vec3::Unit(axis);
-    run.plan.bodies[0].boundaries.push_back(b);
-  };
   run.plan.bodies[0].initial_velocity = -kTaylorSpeed * Vec3::Unit(dimension - 1);
-  symmetric("bottom", dimension - 1);
-  if (dimension == 3) {
-    symmetric("symmetry_x", 0);
-    symmetric("symmetry_y", 1);
-  }
+  std::vector<BoundaryConfig>& boundaries = run.plan.bodies[0].boundaries;
+  boundaries = {symmetric("bottom", Vec3::Unit(dimension - 1))};
+  if (dimension == 3)
+    for (int axis : {0, 1}) boundaries.push_back(symmetric(axis == 0 ? "symmetry_x" : "symmetry_y", Vec3::Unit(axis)));
   return run;
 }
 

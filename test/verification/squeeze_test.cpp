@@ -26,13 +26,7 @@ Found squeeze(double less, double layer, bool plastic, int cells = 4, bool walls
   run.plan.contact.layer = layer;
   run.plan.time_step.damping = 3e5;
   if (walls)
-    for (const char* side : {"left", "right"}) {
-      BoundaryConfig b;
-      b.set = side;
-      b.kind = "symmetric";
-      b.normal = Vec3::UnitX();
-      run.plan.bodies[0].boundaries.push_back(b);
-    }
+    for (const char* side : {"left", "right"}) run.plan.bodies[0].boundaries.push_back(symmetric(side, Vec3::UnitX()));
   for (int up = 0; up < 2; ++up) {
     ToolModel plane;
     plane.name = up ? "punch" : "die";

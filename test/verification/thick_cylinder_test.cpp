@@ -12,7 +12,7 @@ constexpr double kInner = sphere::kInner, kOuter = sphere::kOuter, kYield = sphe
 OneBody cylinder(int cells, const std::string& pattern, const MaterialConfig& material) {
   const Mesh mesh = mapped_section(cells, 2, [](double s, double t) { return Vec3(sphere::radius(s), 0.1 * t, 0); }, pattern);
   OneBody run = one_ring(mesh, material, sphere::kDuration);
-  for (const char* set : {"bottom", "top"}) run.plan.bodies[0].boundaries.push_back(symmetric_along_y(set));
+  for (const char* set : {"bottom", "top"}) run.plan.bodies[0].boundaries.push_back(symmetric(set, Vec3::UnitY()));
   return run;
 }
 

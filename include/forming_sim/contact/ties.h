@@ -25,6 +25,7 @@ struct TiePair : Link {
   int tool = -1;                   ///< whose nodes these are in part
   bool to_tool = false;            ///< a vertex, and its place on the tool
   Node missing = Node::Zero();     ///< r_kept - r at the start of the step, m
+  Node press = Node::Zero();       ///< unit direction at the start of the step: an impulse along it presses
   Mat3 mass = Mat3::Zero();        ///< inverse of sum b^2 P/m over the directions that can move, kg
   Node impulse = Node::Zero();     ///< N s
 };
@@ -45,11 +46,8 @@ void keep_ties(const Features& features, const NodeField& x, const NodeField& pl
 TiePair link_tie(const Tie& tie, int index, const int* entries);
 void prepare_tie(const Workspace& work, TiePair& pair);
 
-/// Sets `missing` for a step that starts at work.x.
-void aim_tie(const Tie& tie, const Workspace& work, TiePair& pair);
-
-/// Direction in which a tie presses at the start of the step, rotation: of its tool.
-Vec3 pressing(const Tie& tie, const Workspace& work, const TiePair& pair, const Mat3& rotation);
+/// Sets `missing` and `press` for a step that starts at work.x; motion: of the tools.
+void aim_tie(const Tie& tie, const Workspace& work, const std::vector<ToolMotion>& motion, TiePair& pair);
 
 /// One visit; changes work.v. Returns the largest change of a place, m.
 double sweep_tie(double dt, Workspace& work, TiePair& pair);

@@ -15,7 +15,7 @@ class RigidVelocity {
 
   bool turns() const { return !spin_.times().empty(); }
   /// Times of the knots; none at rest.
-  const std::vector<double>& times() const { return times_; }
+  const std::vector<double>& times() const { return turns() ? spin_.times() : velocity_.times(); }
   Vec3 velocity(double t) const { return velocity_.at(t); }
   Vec3 spin(double t) const { return spin_.at(t); }  ///< rad/s
   const Vec3& centre() const { return centre_; }     ///< at the start
@@ -25,7 +25,6 @@ class RigidVelocity {
   Vec3 at(double t, double dt, const Vec3& x) const;
 
  private:
-  std::vector<double> times_;
   VelocityProfile velocity_, spin_;
   Vec3 centre_ = Vec3::Zero();
 };

@@ -62,23 +62,6 @@ template <int D, int N, class F> [[gnu::always_inline]] inline void each_point(F
     for (int i = 0; i < N; ++i) f(i);
 }
 
-/// What point i of a body with one layer answers; flows: any point of the layer does.
-template <class T, int D, bool Ring, class Layer, class At, class Forces>
-[[gnu::always_inline]] inline void respond(At& at, const Layer& layer, bool flows, int i, Forces& forces) {
-  Edges<T, D, Ring> e;
-  at.edges(i, e);
-  find_areas(e);
-  at.respond(i, e, layer.stress(i), forces);
-  if (flows) keep_flow(at.memory(i), layer.u[i], metric_of_areas(e));
-}
-/// In the plane a turn of its own for each point, so that what little such points have can live in registers.
-template <class T, int D, bool Ring, class Layer, class At, class Forces, int... I>
-[[gnu::always_inline]] inline void respond_each(At& at, const Layer& layer, bool flows, Forces& forces, std::integer_sequence<int, I...>) {
-  if constexpr (D == 2) (respond<T, D, Ring>(at, layer, flows, I, forces), ...);
-  else
-    for (int i = 0; i < static_cast<int>(sizeof...(I)); ++i) respond<T, D, Ring>(at, layer, flows, i, forces);
-}
-
 /// A step of N points of a body with one layer. `at` knows them, and is asked of point i:
 ///   at.edges(i, e)               its edges, twice
 ///   at.ratio(i, e)               J, once
@@ -96,7 +79,13 @@ template <int N, class T, int D, bool Ring, class At, class Forces> [[gnu::alway
     find_trial(push(load_memory<T, D>(at.memory(i)), e), stress_factor(m, J[i]), layer.trial[i]);
   }
   const bool flows = layer.correct_all(m.layer[0].hardening, J, [&](int i) { return at.memory(i); }, [&](int i, const T& what) { at.dissipate(i, what); });
-  respond_each<T, D, Ring>(at, layer, flows, forces, std::make_integer_sequence<int, N>());
+  each_point<D, N>([&](auto i) __attribute__((always_inline)) {
+    Edges<T, D, Ring> e;
+    at.edges(i, e);
+    find_areas(e);
+    at.respond(i, e, layer.stress(i), forces);
+    if (flows) keep_flow(at.memory(i), layer.u[i], metric_of_areas(e));
+  });
 }
 
 /// Likewise with several.
