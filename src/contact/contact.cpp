@@ -69,6 +69,7 @@ ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v,
     case Impl::Method::explicit_mild: step = m.advance_explicit(time, dt, x, v, v_before, predict, tools_at); break;
     case Impl::Method::geometric: step = m.advance_geometric(dt, x, v, v_before, predict, tools_at); break;
   }
+  step.tool_push.resize(m.tools.names.size());
   m.previous_dt = step.dt;
   m.previous_motion = tools_at(step.dt);
   return step;

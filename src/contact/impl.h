@@ -107,6 +107,11 @@ struct Contact::Impl {
   /// To a gap of h0, with no closing velocity left.
   void put_back(ContactPair pair);
 
+  // driven.cpp
+  /// Those of the present tools that forces drive, and what is of each in the step that has been gathered.
+  std::vector<DrivenTool> driven_tools(const std::vector<ToolMotion>& motion, double dt) const;
+  void gather_driven(DrivenTool& tool) const;
+
   // implicit.cpp
   /// Books the pairs of a step that was taken, lets their layers grow, keeps their records.
   void close_books(ContactStep& step);

@@ -208,8 +208,9 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
     const std::vector<ToolMotion> motion = tools_at(dt);
     predict(dt, v_star);
     laps.start();
-    const double tool_way = step_way(motion, x);
-    double bound = 2 * (both * fastest(v_star) * dt + tool_way);
+    std::vector<DrivenTool> driven = driven_tools(motion, dt);
+    const double free_way = step_way(motion, x);
+    double bound = 2 * (both * fastest(v_star) * dt + free_way);
     const std::vector<PlanePose> planes = tools.planes(motion);
     SweepResult swept;
     double way = 0;
@@ -227,13 +228,16 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
       layers.hand_over(near.born, near.pairs);
       laps.done(&ContactTimes::narrow);
       swept = SweepResult();
+      for (DrivenTool& tool : driven) gather_driven(tool);
       if (!near.pairs.empty() || !tie_pairs.empty())
-        swept = sweeps.solve(dt, kTolerance * layer, config.max_sweeps, work, tie_pairs, near.pairs, near.rubs);
+        swept = sweeps.solve(dt, kTolerance * layer, config.max_sweeps, work, tie_pairs, near.pairs, near.rubs, driven);
       laps.done(&ContactTimes::lanes);
       times.lanes -= swept.seconds;
       times.sweeps += swept.seconds;
       double most = 0;
       for (int i = 0; i < work.body_entries; ++i) most = std::max(most, dot3(work.v[i], work.v[i]));
+      double tool_way = free_way;
+      for (const DrivenTool& tool : driven) tool_way = std::max(tool_way, std::abs(tool.speed + tool.push) * dt);
       way = std::max(bound / 2, both * std::sqrt(most) * dt + tool_way);
       if (way <= bound) break;
     }
@@ -242,6 +246,8 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
     const int touch = swept.open ? first_touch(dt) : -1;
     laps.done(&ContactTimes::check);
     if (swept.open && touch < 0) {
+      step.tool_push.assign(motion.size(), 0.0);
+      for (const DrivenTool& tool : driven) step.tool_push[tool.tool] = tool.push;
       moved_by(way);
       break;
     }

@@ -163,22 +163,24 @@ void Sweeps::pack(Tile& tile, const LargeArray<ContactPair>& pairs, const std::v
   }
 }
 
+double Sweeps::impulse(long i) const { return tiles_[i / tile_size_].packs[place_[i] / kLanes].impulse[place_[i] % kLanes]; }
+Node Sweeps::slip(long i) const {
+  const RubPack& r = tiles_[i / tile_size_].rubs[place_[i] / kLanes];
+  const long l = place_[i] % kLanes;
+  return Node(r.slip[0][l], r.slip[1][l], r.slip[2][l], 0);
+}
+
 void Sweeps::take_back(long first, long last, LargeArray<ContactPair>& pairs, std::vector<Rub>& rubs) const {
   for (long i = first; i < last; ++i) {
     ContactPair& pair = pairs[i];
-    const Tile& tile = tiles_[i / tile_size_];
-    const PairPack& p = tile.packs[place_[i] / kLanes];
-    const int l = static_cast<int>(place_[i] % kLanes);
-    pair.impulse = p.impulse[l];
-    pair.end_gap = p.end_gap[l];
-    if (pair.rub < 0) continue;
-    const RubPack& r = tile.rubs[place_[i] / kLanes];
-    rubs[pair.rub].slip = Node(r.slip[0][l], r.slip[1][l], r.slip[2][l], 0);
+    pair.impulse = impulse(i);
+    pair.end_gap = tiles_[i / tile_size_].packs[place_[i] / kLanes].end_gap[place_[i] % kLanes];
+    if (pair.rub >= 0) rubs[pair.rub].slip = slip(i);
   }
 }
 
 SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, const LargeArray<ContactPair>& pairs,
-                          const std::vector<Rub>& rubs) {
+                          const std::vector<Rub>& rubs, std::vector<DrivenTool>& driven) {
   cut(work.share.size(), pairs);
   projector_.resize(work.share.size());
   for (std::size_t i = 0; i < projector_.size(); ++i) projector_[i] = work.projector[i] ? work.projector[i]->data() : nullptr;
@@ -189,6 +191,7 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
     pack(tile, pairs, rubs);
     kernels_.start(movers, tile.packs.data(), tile.rub(), static_cast<long>(tile.packs.size()));
   });
+  for (DrivenTool& tool : driven) push_driven(dt, true, work, ties, pairs, tool);
   SweepResult result;
   using Clock = std::chrono::steady_clock;
   double omega = 1, before = 0;
@@ -202,6 +205,10 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
       const std::lock_guard<std::mutex> lock(one);
       if (!(most_of_tile <= change)) change = most_of_tile;
     });
+    for (DrivenTool& tool : driven) {
+      const double way = push_driven(dt, false, work, ties, pairs, tool);
+      if (!(way <= change)) change = way;
+    }
     result.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
     ++result.sweeps;
     if (result.sweeps == kPlainSweeps && change < before) omega = over_relaxation(change / before);

@@ -17,7 +17,7 @@ ScalarProfile::ScalarProfile(const std::vector<double>& times, const std::vector
                              const std::string& shape) {
   std::vector<Vec3> points;
   for (double value : values) points.push_back(Vec3(value, 0, 0));
-  curve_ = curve_of(times, points, shape, "pressure");
+  curve_ = curve_of(times, points, shape, "load");
 }
 
 VelocityProfile::VelocityProfile(const std::vector<double>& times, const std::vector<Vec3>& velocities,

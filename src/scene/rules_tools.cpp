@@ -1,3 +1,4 @@
+#include "forming_sim/loads/force_drive.h"
 #include "rules.h"
 
 namespace forming_sim {
@@ -34,13 +35,20 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
   if (motion.kind == "velocity" && motion.velocities.empty() && motion.spins_deg_s.empty()) {
     faults.add(path, "a velocity without velocities and spins_deg_s", "give at least one of them, an entry for each time");
   }
-  if (motion.kind == "velocity" && motion.profile == "spline") {
+  if (motion.kind != "trajectory" && motion.profile == "spline") {
     faults.add(path + ".profile", given_text(motion.profile), "give smooth or linear: a spline is for trajectories");
   }
   check_as_many(motion.positions, motion.times, path + ".positions", faults);
   check_as_many(motion.rotations_deg, motion.times, path + ".rotations_deg", faults);
   check_as_many(motion.velocities, motion.times, path + ".velocities", faults);
   check_as_many(motion.spins_deg_s, motion.times, path + ".spins_deg_s", faults);
+  check_as_many(motion.forces, motion.times, path + ".forces", faults);
+  const Vec3 guide = guide_of(motion.forces);
+  if (!motion.forces.empty() && guide.isZero(0)) faults.add(path + ".forces", "no force other than 0", "give one; a tool without a force rests, and needs no motion");
+  faults.each(motion.forces, [&](std::size_t i) {
+    if (motion.forces[i].allFinite() && guide.allFinite() && !goes_along(motion.forces[i], guide))
+      faults.add(join_path(path + ".forces", i), given_text(motion.forces[i]), "give all forces along one line: on that the tool is guided");
+  });
 }
 
 }  // namespace
@@ -49,6 +57,8 @@ void check_tools(const Scene& scene, FaultList& faults) {
   for (std::size_t i = 0; i < scene.tools.size(); ++i) {
     const ToolConfig& tool = scene.tools[i];
     check_source(tool, tool_path(i), scene.dimension, faults);
+    if (tool.motion && tool.motion->kind == "force" && scene.contact.method != "implicit")
+      faults.add(tool_path(i) + ".motion.kind", "force, with contact.method " + given_text(scene.contact.method), "set contact.method to implicit: only that finds how fast the tool goes together with what presses on it");
     if (tool.motion) check_motion(*tool.motion, tool_path(i) + ".motion", faults);
   }
 }

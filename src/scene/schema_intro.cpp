@@ -63,7 +63,12 @@ A tool is rigid. It is a surface mesh (dimension 3), a profile of lines and arcs
 lies to the left of the way along the profile), or a plane given by `point` and `normal`, the normal towards the body.
 A tool that touches a body at the start is backed off by what the contact layer needs, and the run says by how much; a
 body that starts inside a tool is refused. The motion of a tool is a trajectory (where it is at given times, from
-where it stands at the start) or a velocity. Without a motion it rests.
+where it stands at the start), a velocity, or a force. Without a motion it rests.
+
+A tool of kind `force` is a blank holder: guided along the line of its force, it goes where the force and the bodies push it,
+and yields as a flange thickens. How fast it goes is found together with the forces of contact, so that it may weigh what it likes;
+a light one follows at once, a heavy one takes time to start and to stop. Let the force rise smoothly, and lay the holder on the blank:
+what falls on it rattles. Its place is in `history.csv`. A `withdraw` stage takes it away like any other tool.
 
 ## Stages
 

@@ -9,7 +9,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f6600000004u;
+constexpr std::uint64_t kLayout = 0x6d726f6600000005u;
 }  // namespace
 
 template <class Archive> void Simulation::Impl::exchange(Archive& a) {
@@ -50,6 +50,7 @@ std::vector<char> Simulation::save() const {
   out.number(s.x.size());
   out.number(s.tools.size());
   out.list(s.stages.starts());
+  s.stages.exchange_drives(out);
   s.exchange(out);
   std::vector<double> memory;
   s.elements.append_state(memory);
@@ -78,6 +79,7 @@ void Simulation::restore(const std::vector<char>& data) {
   std::vector<double> starts, memory;
   in.list(starts);
   s.stages = StageRunner(s.plan.stages, s.model);
+  s.stages.exchange_drives(in);
   s.stages.replay(starts);
   s.release_boundaries();
   s.exchange(in);

@@ -121,7 +121,7 @@ const std::vector<double>& Simulation::contact_pressure() const { return impl_->
 
 std::vector<double> Simulation::contact_gap() const {
   const Impl& s = *impl_;
-  return s.contact ? s.contact->gaps(s.x, s.tool_motions(s.time, s.time)) : std::vector<double>();
+  return s.contact ? s.contact->gaps(s.x, s.tool_motions(0)) : std::vector<double>();
 }
 
 const std::vector<double>& Simulation::contact_slip() const {

@@ -82,7 +82,10 @@ struct Simulation::Impl {
   /// Leaves those boundaries that hold in the running stage.
   void release_boundaries();
   void tell_contact_what_is_held();
-  std::vector<ToolMotion> tool_motions(double from, double to) const;
+  /// Gives those that a force drives a mass where the scene says none.
+  void give_tools_mass();
+  /// Where the tools stand, and where they will after a step of this dt; what forces drive, where it would without contact.
+  std::vector<ToolMotion> tool_motions(double step_dt) const;
   void place_tools();
 
   // step_limit.cpp

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "forming_sim/config/words.h"
 #include "forming_sim/mesh/axis.h"
 #include "forming_sim/simulation/release.h"
 #include "simulation/impl.h"
@@ -75,6 +76,7 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
       stages(plan.stages, model), contact_pressure(X.size(), 0.0), node_impulse(contact_pressure) {
   set_up_loads();
   raise_step();
+  give_tools_mass();
   set_up_contact();
   double kinetic = 0;
   for (std::size_t i = 0; i < v.size(); ++i) kinetic += 0.5 * elements.nodal_mass()[i] * v[i].squaredNorm();
@@ -152,7 +154,7 @@ void Simulation::Impl::set_up_contact() {
     setup.tools.push_back(std::move(s));
     setup.tool_meshes.push_back(&tool.mesh);
   }
-  contact.emplace(setup, x, tool_motions(0, 0));
+  contact.emplace(setup, x, tool_motions(0));
   for (std::size_t n = 0; n < x.size(); ++n)
     if (contact->nodal_area()[n] > 0) touchable.push_back(static_cast<int>(n));
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -186,12 +188,35 @@ void Simulation::Impl::tell_contact_what_is_held() {
   contact->set_masses(inverse_mass, held);
 }
 
-std::vector<ToolMotion> Simulation::Impl::tool_motions(double from, double to) const {
+void Simulation::Impl::give_tools_mass() {
+  double all = 0;
+  for (double m : elements.nodal_mass()) all += m;
+  for (ToolModel& tool : model.tools) {
+    if (!tool.motion || tool.motion->kind != "force" || tool.motion->mass > 0) continue;
+    tool.motion->mass = all;
+    warnings.push_back("tool " + tool.name + ", which a force drives, has the mass of the bodies, " + number_text(all) +
+                       (model.dimension == 2 && !model.axisymmetric ? " kg/m" : " kg") + ": set its motion.mass where its inertia matters");
+  }
+  stages = StageRunner(plan.stages, model);
+}
+
+std::vector<ToolMotion> Simulation::Impl::tool_motions(double step_dt) const {
   std::vector<ToolMotion> motions;
   motions.reserve(model.tools.size());
   for (int k = 0; k < static_cast<int>(model.tools.size()); ++k) {
-    const ToolPose a = stages.pose(k, from), b = stages.pose(k, to);
-    motions.push_back({a.position, b.position, a.rotation, b.rotation, stages.present(k)});
+    const ToolPose a = stages.pose(k, time);
+    ToolMotion motion{a.position, a.position, a.rotation, a.rotation, stages.present(k)};
+    if (const ForceDrive* drive = stages.drive(k)) {
+      const double kick = 0.5 * (previous_dt + step_dt);
+      motion.guide = drive->guide();
+      motion.inverse_mass = (1 + 0.5 * damping_rate() * kick) * drive->inverse_mass(kick);
+      motion.position1 += step_dt * drive->free_speed(time, kick) * motion.guide;
+    } else if (step_dt > 0) {
+      const ToolPose b = stages.pose(k, time + step_dt);
+      motion.position1 = b.position;
+      motion.rotation1 = b.rotation;
+    }
+    motions.push_back(motion);
   }
   return motions;
 }

@@ -9,9 +9,13 @@ double longest(const StageConfig& stage) { return stage.kind == "settle" ? stage
 }  // namespace
 
 StageRunner::StageRunner(const std::vector<StageConfig>& stages, const Model& model) : stages_(stages), model_(&model) {
-  for (const ToolModel& tool : model.tools)
-    motions_.push_back(tool.motion ? RigidMotion(*tool.motion, model.dimension) : RigidMotion());
+  for (const ToolModel& tool : model.tools) {
+    const bool by_force = tool.motion && tool.motion->kind == "force";
+    motions_.push_back(tool.motion && !by_force ? RigidMotion(*tool.motion, model.dimension) : RigidMotion());
+    drives_.push_back(by_force ? std::optional<ForceDrive>(*tool.motion) : std::nullopt);
+  }
   present_.assign(model.tools.size(), 1);
+  withdrawn_.assign(model.tools.size(), 0);
   known_.resize(motions_.size());
   starts_.push_back(0);
   if (!finished()) begin(0);
@@ -27,8 +31,12 @@ void StageRunner::begin(double t) {
   known_.assign(motions_.size(), {});
   for (std::size_t k = 0; k < motions_.size(); ++k) {
     if (!leaves(stages_[index_], static_cast<int>(k))) continue;
-    if (stages_[index_].displacement.isZero()) present_[k] = 0;
-    else motions_[k] = withdraw(motions_[k].at(t), stages_[index_].displacement, t, stages_[index_].duration);
+    if (withdrawn_[k]) continue;
+    Pose from = motions_[k].at(t);
+    if (drives_[k]) from.translation = drives_[k]->way();
+    withdrawn_[k] = 1;
+    present_[k] = !stages_[index_].displacement.isZero();
+    if (present_[k] || drives_[k]) motions_[k] = withdraw(from, stages_[index_].displacement, t, stages_[index_].duration);
   }
 }
 
@@ -56,6 +64,12 @@ double StageRunner::progress(double t) const {
 }
 
 ToolPose StageRunner::pose(int tool, double t) const {
+  if (const ForceDrive* by = drive(tool)) {
+    ToolPose pose = tool_pose(model_->tools[tool], RigidMotion(), t);
+    pose.position += by->way();
+    pose.velocity = by->velocity();
+    return pose;
+  }
   std::array<KnownPose, 2>& known = known_[tool];
   for (const KnownPose& k : known)
     if (k.time == t) return k.pose;

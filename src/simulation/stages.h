@@ -3,8 +3,10 @@
 // are told to be.
 #include <array>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "forming_sim/loads/force_drive.h"
 #include "forming_sim/loads/motion.h"
 #include "forming_sim/simulation/model.h"
 #include "forming_sim/simulation/plan.h"
@@ -27,13 +29,21 @@ class StageRunner {
   /// 0..1 by simulated time; a settle stage counts by its limit.
   double progress(double t) const;
 
-  /// The same time is asked for by several: the last two answers are kept.
+  /// Where a tool stands at time t; what a force drives, where it has come to.
   ToolPose pose(int tool, double t) const;
+  /// What drives a tool now; null: no force does.
+  const ForceDrive* drive(int tool) const { return drives_[tool] && !withdrawn_[tool] ? &*drives_[tool] : nullptr; }
+  ForceDrive* drive(int tool) { return drives_[tool] && !withdrawn_[tool] ? &*drives_[tool] : nullptr; }
   bool present(int tool) const { return present_[tool]; }
 
   /// Start times of the stages begun so far: all that a checkpoint needs.
   const std::vector<double>& starts() const { return starts_; }
   void replay(const std::vector<double>& starts);
+  /// What forces have done to the tools: before replay().
+  template <class Archive> void exchange_drives(Archive& a) {
+    for (std::optional<ForceDrive>& drive : drives_)
+      if (drive) drive->exchange(a);
+  }
 
  private:
   void begin(double t);
@@ -42,14 +52,15 @@ class StageRunner {
   std::vector<StageConfig> stages_;
   const Model* model_;
   std::vector<RigidMotion> motions_;
-  std::vector<char> present_;
+  std::vector<std::optional<ForceDrive>> drives_;  ///< of the tools that a force drives
+  std::vector<char> present_, withdrawn_;          ///< withdrawn_: on its way out, or gone
   std::vector<double> starts_;
   int index_ = 0;
   struct KnownPose {
     double time = std::numeric_limits<double>::quiet_NaN();
     ToolPose pose;
   };
-  mutable std::vector<std::array<KnownPose, 2>> known_;  ///< per tool, the later asked first
+  mutable std::vector<std::array<KnownPose, 2>> known_;  ///< per tool the last two answers, the later first: the same time is asked for by several
 };
 
 }  // namespace forming_sim

@@ -35,7 +35,7 @@ void Simulation::Impl::take_step() {
   if (contact) {
     const ContactStep done = contact->advance(
         time, dt, x, v, v_before, [&](double step_dt, NodeField& v_star) { predict(step_dt, v, v_star); },
-        [&](double step_dt) { return tool_motions(time, time + step_dt); }, full_dt());
+        [&](double step_dt) { return tool_motions(step_dt); }, full_dt());
     dt = done.dt;
     book(done);
   } else {
@@ -85,6 +85,7 @@ void Simulation::Impl::book(const ContactStep& done) {
       about.setZero();
     }
     tool.impulse += kick * over_kick * impulse;
+    if (ForceDrive* drive = stages.drive(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k], kick * over_kick * impulse.dot(drive->guide()));
     tool.force += (over_kick * impulse - tool.force) / kForceMeanSteps;
     tool.moment += (over_kick * about - tool.moment) / kForceMeanSteps;
     if (tool.force.squaredNorm() > tool.peak_force.squaredNorm()) tool.peak_force = tool.force;

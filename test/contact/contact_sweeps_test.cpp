@@ -67,7 +67,8 @@ struct Heap {
     std::vector<TiePair> ties;
     Team one(1);
     Sweeps sweeps(team ? *team : one, kernels);
-    const SweepResult result = sweeps.solve(kDt, tolerance, most, work, ties, pairs, rubs);
+    std::vector<DrivenTool> none_driven;
+    const SweepResult result = sweeps.solve(kDt, tolerance, most, work, ties, pairs, rubs, none_driven);
     sweeps.take_back(0, static_cast<long>(pairs.size()), pairs, rubs);
     return result;
   }

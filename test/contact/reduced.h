@@ -50,7 +50,7 @@ class Reduced {
     narrow_phase({features_, work_, world.modulus, layer_}, nullptr, planes, true, {reach, 0, 0}, team_, list, near_);
     if (reduce_) reduce_(work_, near_.pairs);
     give_layers({records_, {}, work_, dt, dt, layer_, layer_}, near_.pairs, near_.rubs);
-    sweeps_.solve(dt, 1e-3 * layer_, 50, work_, ties_, near_.pairs, near_.rubs);
+    sweeps_.solve(dt, 1e-3 * layer_, 50, work_, ties_, near_.pairs, near_.rubs, none_driven_);
     RelaxedPotential potential;
     records_.resize(static_cast<long>(near_.pairs.size()), !near_.rubs.empty());
     long kept = 0;
@@ -84,6 +84,7 @@ class Reduced {
   Team team_{1};
   Sweeps sweeps_{team_};
   std::vector<TiePair> ties_;
+  std::vector<DrivenTool> none_driven_;
   PairRecords records_;
 };
 

@@ -78,6 +78,7 @@ TEST(SceneRules, AnAxisymmetricSceneGoesAlongItsAxis) {
   expect_fault(with("{set: left, kind: fixed}", "{set: left, kind: velocity, times: [0], spins_deg_s: [[0, 0, 1]]}"), "bodies[0].boundaries[0].spins_deg_s[0]", "no ring");
   expect_fault(with("[0, -0.020]", "[0.001, -0.020]"), "tools[2].motion.positions[1]", "along the axis y only");
   expect_fault(with("positions:", "rotations_deg: [[0, 0, 0], [0, 0, 3]]\n      positions:"), "tools[2].motion.rotations_deg[1]", "no ring");
+  expect_fault(replaced(with("kind: trajectory", "kind: force"), "positions: [[0, 0], [0, -0.020]]", "forces: [[0, 0], [1, -2]]"), "tools[2].motion.forces[1]", "along the axis y only");
   expect_fault(with("tools:\n", "contact: {method: geometric}\ntools:\n"), "contact.method", "implicit or explicit");
   EXPECT_TRUE(faults_of(with("axisymmetric: true", "axisymmetric: true\ngravity: [0, 9.81]")).empty());
   Scene scene = scene_of(turned);
@@ -160,6 +161,23 @@ TEST(SceneRules, Histories) {
   expect_fault(replaced(minimal_example(), "velocities: [[0, 0], [2, 0]]", "spins_deg_s: [[0, 0, 0], [0, 1, 0]]"), "bodies[0].boundaries[1].spins_deg_s[1]", "about z only");
   EXPECT_TRUE(faults_of(replaced(minimal_example(), "velocities: [[0, 0], [2, 0]]", "spins_deg_s: [[0, 0, 0], [0, 0, 1]]")).empty());
   expect_fault(replaced(minimal_example(), "stages:", "    pressures: [{set: top, times: [0, 1], values: [1e6]}]\nstages:"), "bodies[0].pressures[0].values", "2 times");
+}
+
+TEST(SceneRules, AForceGoesAlongOneLine) {
+  const std::string motion = "tools[2].motion", text = replaced(flange_example(), "kind: trajectory", "kind: force");
+  const auto with = [&](const std::string& fields) { return replaced(text, "positions: [[0, 0], [0, -0.020]]", fields); };
+  EXPECT_TRUE(faults_of(with("forces: [[0, 0], [0, -2000]]")).empty()) << sentences(faults_of(with("forces: [[0, 0], [0, -2000]]")));
+  EXPECT_TRUE(faults_of(with("forces: [[1, -2], [-500, 1000]]\n      mass: 0.1\n      damping: 100")).empty());
+  expect_fault(with("forces: [[0, 0], [0, 0]]"), motion + ".forces", "a tool without a force rests");
+  expect_fault(with("forces: [[0, -1], [1, -2000]]"), motion + ".forces[0]", "along one line");
+  expect_fault(with("forces: [[0, -1]]"), motion + ".forces", "2 times");
+  expect_fault(with("forces: [[0, 0], [0, -2000, 1]]"), motion + ".forces[1]", "z = 0");
+  expect_fault(with("forces: [[0, 0], [0, -2000]]\n      mass: -1"), motion + ".mass", "at least 0");
+  expect_fault(with("forces: [[0, 0], [0, -2000]]\n      profile: spline"), motion + ".profile", "trajectories");
+  expect_fault(with("forces: [[0, 0], [0, -2000]]\n      positions: [[0, 0], [0, 1]]"), motion + ".positions", "where kind is trajectory");
+  expect_fault(replaced(with("forces: [[0, 0], [0, -2000]]"), "tools:\n", "contact: {method: geometric}\ntools:\n"), motion + ".kind", "set contact.method to implicit");
+  expect_flange_fault("positions: [[", "forces: [[0, 0], [0, -1]]\n      positions: [[", motion + ".forces", "where kind is force");
+  EXPECT_TRUE(fault_at(faults_of(text), motion + ".forces"));
 }
 
 TEST(SceneRules, SetsExist) {

@@ -43,6 +43,10 @@ struct ToolMotion {
   Vec3 position0 = Vec3::Zero(), position1 = Vec3::Zero();
   Mat3 rotation0 = Mat3::Identity(), rotation1 = Mat3::Identity();
   bool present = true;  ///< false: the tool has left
+  /// Of one that a force drives along its guide: a unit vector, and 1/kg. At the end of the step it stands at position1 if nothing
+  /// presses on it, and else where contact lets it (ContactStep::tool_push). 0: it goes to position1. Method implicit only.
+  Vec3 guide = Vec3::Zero();
+  double inverse_mass = 0;
 };
 
 inline Vec3 pose0(const ToolMotion& m, const Vec3& p) { return m.rotation0 * p + m.position0; }
@@ -90,6 +94,7 @@ struct ContactStep {
   double stable_dt = 0;           ///< explicit only: the step up to which the layer as it stands is stable, s; 0: nothing is in it
   std::vector<Vec3> tool_impulse;          ///< on each tool by the bodies, N s
   std::vector<Vec3> tool_angular_impulse;  ///< about the world's origin, N m s
+  std::vector<double> tool_push;           ///< velocity along its guide that contact gave each tool that a force drives, m/s; 0 of others
 };
 
 /// Two surfaces that can meet, or are tied.

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "forming_sim/contact/driven.h"
 #include "forming_sim/contact/pair_pack.h"
 #include "forming_sim/contact/ties.h"
 #include "forming_sim/parallel/team.h"
@@ -33,10 +34,10 @@ class Sweeps {
   explicit Sweeps(Team& team, const char* kernels = nullptr);
 
   /// From the impulses and slips that the pairs come with, sweeps until every pair ends with a gap > 0 and nothing changes
-  /// by more than `tolerance`, at most `most` times; in each sweep ties come before pairs. Changes
-  /// work.v and the ties' impulses; what was found of the pairs is for take_back to fetch.
+  /// by more than `tolerance`, at most `most` times; in each sweep ties come before pairs, and the tools that forces drive after them. Changes
+  /// work.v, the ties' impulses and the tools' pushes; what was found of the pairs is for take_back to fetch.
   SweepResult solve(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, const LargeArray<ContactPair>& pairs,
-                    const std::vector<Rub>& rubs);
+                    const std::vector<Rub>& rubs, std::vector<DrivenTool>& driven);
   /// Sets impulse and end_gap of the pairs first ... last - 1, and their slips in `rubs`.
   void take_back(long first, long last, LargeArray<ContactPair>& pairs, std::vector<Rub>& rubs) const;
 
@@ -51,6 +52,11 @@ class Sweeps {
   };
   void cut(std::size_t nodes, const LargeArray<ContactPair>& pairs);
   void pack(Tile& tile, const LargeArray<ContactPair>& pairs, const std::vector<Rub>& rubs);
+  /// driven.cpp: u of a tool as the impulses stand, that of its entries with it; begins: m = 0, so that it is what they give. Returns the change of place, m.
+  double push_driven(double dt, bool begins, Workspace& work, const std::vector<TiePair>& ties, const LargeArray<ContactPair>& pairs, DrivenTool& tool) const;
+  /// Of pair i, which rubs or not, as it stands.
+  double impulse(long i) const;
+  Node slip(long i) const;
   /// Calls work(tile) for all tiles, colour by colour; tiles of a colour by all threads.
   template <class Work> void each_tile(Work&& work);
 

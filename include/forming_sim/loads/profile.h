@@ -1,5 +1,5 @@
 #pragma once
-// Pressures and prescribed velocities over time.
+// Loads and prescribed velocities over time.
 #include <string>
 #include <vector>
 

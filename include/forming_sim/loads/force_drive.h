@@ -1,0 +1,53 @@
+#pragma once
+// A tool that a force drives: a blank holder. It is guided along the line of its force and does not turn.
+//
+//   M dV/dt = F(t) + R - alpha M V,   R: what the bodies press on it,
+//
+// V at the half step, as the velocities of nodes; k = (dt_previous + dt)/2 the kick, a = alpha k/2:
+//
+//   V* = ((1 - a) V + k F/M)/(1 + a),   V = V* + J/(M (1 + a)),   J = k R.
+//
+// V and J depend on each other: contact finds both (contact/driven.h). Taken one after the other, the tool would feed the swings of
+// what it touches, whatever its mass and however short the step.
+#include "forming_sim/loads/config.h"
+#include "forming_sim/loads/profile.h"
+
+namespace forming_sim {
+
+/// Unit vector along the largest of the forces; zero where all are.
+Vec3 guide_of(const std::vector<Vec3>& forces);
+/// Whether a force lies along it, to round-off.
+bool goes_along(const Vec3& force, const Vec3& guide);
+
+class ForceDrive {
+ public:
+  /// Of a motion of kind force, its mass above 0, kg (kg/m in plane strain). Throws Error(invalid_scene) where the forces are not
+  /// along one line or all zero, and as ScalarProfile does.
+  explicit ForceDrive(const MotionConfig& config);
+
+  const Vec3& guide() const { return guide_; }
+  /// V* of a step from t on, along the guide, m/s.
+  double free_speed(double t, double kick) const;
+  /// 1/(M (1 + a)), 1/kg.
+  double inverse_mass(double kick) const;
+  /// The step has been done, dt long, with V = V* + push; J: `answer`, N s along the guide.
+  void take(double t, double kick, double dt, double push, double answer);
+
+  Vec3 way() const { return way_ * guide_; }         ///< from the start, m
+  Vec3 velocity() const { return speed_ * guide_; }  ///< V of the last step, m/s
+
+  template <class Archive> void exchange(Archive& a) {
+    for (double* value : {&way_, &speed_, &momentum_}) a.number(*value);
+  }
+
+ private:
+  double braking(double kick) const { return 0.5 * damping_ * kick; }  ///< a
+
+  Vec3 guide_;
+  ScalarProfile force_;  ///< along guide_, N
+  double mass_, damping_;
+  double way_ = 0, speed_ = 0;
+  double momentum_ = 0;  ///< over M: V as J says, m/s; speed_ is as near to it as contact searches, and no impulse is lost
+};
+
+}  // namespace forming_sim

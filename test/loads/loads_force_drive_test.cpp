@@ -1,0 +1,96 @@
+// A tool that a force drives, without a mesh: what it weighs, how it follows, what it keeps.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "forming_sim/config/fault.h"
+#include "forming_sim/loads/force_drive.h"
+
+using namespace forming_sim;
+
+namespace {
+
+MotionConfig pushing(std::vector<Vec3> forces, double mass) {
+  MotionConfig config;
+  config.kind = "force";
+  for (std::size_t k = 0; k < forces.size(); ++k) config.times.push_back(1e-3 * k);
+  config.forces = std::move(forces);
+  config.mass = mass;
+  return config;
+}
+
+/// Steps of this dt from t = 0 on; answer(J that would hold it where it is): J, N s.
+template <class Answer> void steps(ForceDrive& drive, double dt, int count, const Answer& answer) {
+  for (int n = 0; n < count; ++n) {
+    const double t = n * dt, kick = n == 0 ? dt / 2 : dt, J = answer(-drive.free_speed(t, kick) / drive.inverse_mass(kick));
+    drive.take(t, kick, dt, J * drive.inverse_mass(kick), J);
+  }
+}
+
+const auto nothing = [](double) { return 0.0; };
+
+}  // namespace
+
+TEST(LoadsForceDrive, AloneItFallsAsItsForceSays) {
+  const Vec3 force(-30, 40, 0);
+  ForceDrive drive(pushing({force}, 2.5));
+  EXPECT_LT((drive.guide() - Vec3(-0.6, 0.8, 0)).norm(), 1e-15);
+  steps(drive, 1e-5, 400, nothing);
+  EXPECT_LT((drive.way() - 0.5 * force / 2.5 * std::pow(400e-5, 2)).norm(), 1e-12 * drive.way().norm());
+  EXPECT_LT((drive.velocity() - force / 2.5 * 399.5e-5).norm(), 1e-12 * drive.velocity().norm());
+}
+
+TEST(LoadsForceDrive, ItsGuideTakesSpeed) {
+  MotionConfig config = pushing({Vec3(8, 0, 0)}, 2);
+  config.damping = 500;
+  ForceDrive drive(config);
+  steps(drive, 1e-4, 1000, nothing);
+  EXPECT_NEAR(drive.velocity().x(), 8 / (500. * 2), 1e-14);
+}
+
+// What holds it still bears its force, whatever its guide takes.
+TEST(LoadsForceDrive, HeldStillItPressesWithItsForce) {
+  for (const double damping : {0., 500.}) {
+    MotionConfig config = pushing({Vec3(8, 0, 0)}, 2);
+    config.damping = damping;
+    ForceDrive drive(config);
+    steps(drive, 1e-4, 100, [](double holding) {
+      EXPECT_NEAR(holding, -8e-4, 4.001e-4);
+      return holding;
+    });
+    EXPECT_EQ(drive.way().x(), 0);
+    EXPECT_NEAR(drive.free_speed(1, 1e-4) / drive.inverse_mass(1e-4), 8e-4, 1e-17);
+  }
+}
+
+// Whatever presses on it, when and in steps of whatever length, and however well contact has met its speed: in the end it has the sum of all impulses.
+TEST(LoadsForceDrive, NoImpulseIsLost) {
+  const double mass = 3;
+  ForceDrive drive(pushing({Vec3(5, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 0)}, mass));
+  double t = 0, previous = 0, sum = 0;
+  const ScalarProfile force({0, 1e-3, 2e-3}, {5, -1, 0}, "smooth");
+  for (int n = 0; t < 3e-3; ++n) {
+    const double dt = n % 7 == 3 ? 2.5e-6 : 2e-5, kick = (previous + dt) / 2, answer = t > 1e-4 && t < 2e-3 ? -4 * kick * std::sin(1e4 * t) : 0;
+    sum += kick * force.at(t) + answer;
+    drive.take(t, kick, dt, answer * drive.inverse_mass(kick) * (n % 2 ? 1.001 : 0.999), answer);
+    previous = dt;
+    t += dt;
+  }
+  EXPECT_GT(std::abs(sum), 1e-5);
+  EXPECT_NEAR(drive.velocity().x() * mass, sum, 1e-14);
+}
+
+TEST(LoadsForceDrive, RefusesWhatIsNoForceAlongALine) {
+  EXPECT_THROW(ForceDrive(pushing({Vec3::Zero()}, 1)), Error);
+  EXPECT_THROW(ForceDrive(pushing({Vec3(1, 0, 0), Vec3(1, 1e-6, 0)}, 1)), Error);
+  EXPECT_NO_THROW(ForceDrive(pushing({Vec3(1, 2, 0), Vec3(-0.5, -1, 0)}, 1)));
+  MotionConfig config = pushing({Vec3(1, 0, 0)}, 1);
+  config.profile = "spline";
+  try {
+    ForceDrive drive(config);
+    FAIL() << "a force as a spline";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("motion.profile: given \"spline\" for a load; give linear or smooth"), std::string::npos) << error.what();
+  }
+}

@@ -1,0 +1,199 @@
+// Tools that a force drives: a blank holder presses with its force, a hammer keeps momentum and energy, and neither needs a parameter.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/runs.h"
+
+namespace forming_sim {
+namespace {
+
+/// A rigid plane that looks along `normal`.
+ToolModel plane_at(const std::string& name, int dimension, const Vec3& point, const Vec3& normal) {
+  ToolModel plane;
+  plane.name = name;
+  plane.mesh.dimension = dimension;
+  plane.point = point;
+  plane.normal = normal;
+  return plane;
+}
+void drive(ToolModel& tool, std::vector<double> times, std::vector<Vec3> forces, double mass = 0) {
+  MotionConfig motion;
+  motion.kind = "force";
+  motion.times = std::move(times);
+  motion.forces = std::move(forces);
+  motion.mass = mass;
+  tool.motion = motion;
+}
+
+constexpr double kLength = 10e-3, kThickness = 1e-3;
+/// A strip between a table at y = 0 and a holder `gap` above it, which a force presses down.
+OneBody held_strip(int along, int through, double gap, double duration) {
+  OneBody run(body_of(generate_blank(strip_of(kLength, kThickness, along, through)), aluminium()), duration);
+  run.model.tools.push_back(plane_at("table", 2, Vec3::Zero(), Vec3::UnitY()));
+  run.model.tools.push_back(plane_at("holder", 2, Vec3(0, kThickness + gap, 0), -Vec3::UnitY()));
+  return run;
+}
+ToolModel& holder_of(OneBody& run) { return run.model.tools[1]; }
+
+double mass_of(const OneBody& run) {
+  double sum = 0;
+  for (const double m : run.start()->nodal_mass()) sum += m;
+  return sum;
+}
+/// Of a tool of this mass, J.
+double kinetic_energy(const Simulation& sim, int tool, double mass) { return 0.5 * mass * sim.tools()[tool].velocity.squaredNorm(); }
+
+}  // namespace
+
+// In the end the sheet bears the force, and is thinner by F t/(L E'), E' = E/(1 - nu^2), whatever the holder weighs.
+TEST(DrivenTool, AHolderPressesWithItsForce) {
+  const double force = 1e6;
+  for (const double mass : {0., 1e-6, 10.}) {  // of the sheet: .027 kg/m
+    OneBody run = held_strip(40, 4, 0, 1.5e-3);
+    drive(holder_of(run), {0, 5e-4}, {Vec3::Zero(), Vec3(0, -force, 0)}, mass);
+    run.plan.time_step.damping = 5e4;
+    auto sim = run.start();
+    const double start = sim->tools()[1].position.y();
+    while (sim->step()) {}
+    const MaterialConfig m = aluminium();
+    const double thinner = force * kThickness / kLength * (1 - m.poissons_ratio * m.poissons_ratio) / m.E(), way = start - sim->tools()[1].position.y();
+    std::printf("  mass %g kg/m: force on holder %.7g, on table %.7g of %g N/m; way %.5g of %.5g m; kinetic energy %.1e of elastic\n", mass, sim->tools()[1].force.y(),
+                sim->tools()[0].force.y(), force, way, thinner, sim->energies().kinetic / sim->energies().elastic);
+    EXPECT_NEAR(sim->tools()[1].force.y(), force, 1e-3 * force);
+    EXPECT_NEAR(sim->tools()[0].force.y(), -force, 1e-3 * force);
+    EXPECT_NEAR(way, thinner, 0.005 * thinner);
+    EXPECT_LT(sim->energies().kinetic, 1e-5 * sim->energies().elastic);
+    EXPECT_EQ(sim->contact_status().crossings, 0);
+  }
+}
+
+// A hammer is pushed, flies, strikes a free block and flies on, or back: what it had, both have together. What the hammer loses is what the
+// ledger of the block counts as work on it; that ledger is open by what the step leaves open.
+TEST(DrivenTool, AStrikeKeepsMomentumAndEnergy) {
+  for (const int dimension : {2, 3})
+    for (const double heavier : {3., .1, .001}) {
+      BlankConfig blank = strip_of(0.1, 0.05, 12, 6);
+      if (dimension == 3) blank.shape = "plate", blank.width = 0.05, blank.cells_across = 6, blank.pattern = "coarse";
+      OneBody run(body_of(generate_blank(blank), aluminium()), 3e-4);
+      const double mass = heavier * mass_of(run), push = 2e-5, force = 20 * mass / push;  // to 10 m/s, smoothly
+      run.model.tools.push_back(plane_at("hammer", dimension, Vec3(-2e-4, 0, 0), Vec3::UnitX()));
+      drive(run.model.tools[0], {0, push / 2, push}, {Vec3::Zero(), force * Vec3::UnitX(), Vec3::Zero()}, mass);
+      auto sim = run.start();
+      double before = 0, open = 0;
+      while (sim->step()) {
+        if (sim->time() > push && before == 0) before = sim->tools()[0].velocity.x();
+        if (before > 0) open = std::max(open, std::abs(kinetic_energy(*sim, 0, mass) + sim->energies().work - 0.5 * mass * before * before));
+      }
+      const double after = sim->tools()[0].velocity.x(), given = mass * before, energy = 0.5 * given * before;
+      const double kept = momenta(*sim).linear.x() + mass * after;
+      std::printf("  %dD, %g of the block: %.4f m/s before, %.4f after; momentum %.1e, energy %.1e open, ledger of the block %.1e\n", dimension, heavier, before, after, kept / given - 1,
+                  open / energy, sim->energies().residual() / energy);
+      EXPECT_NEAR(before, 10, 0.05);
+      EXPECT_LT(after, 0.9 * before);
+      EXPECT_EQ(sim->contact_status().crossings, 0);
+      EXPECT_NEAR(kept / given, 1, 1e-10);
+      EXPECT_LT(open / energy, 1e-4);
+    }
+}
+
+// Dropped with its whole force on a sheet of one cell it rattles: what the force does is in its motion and in the work on the sheet.
+TEST(DrivenTool, DroppedOnOneCellItRattlesAndGainsNothing) {
+  const double force = 1e5, gap = 1.5e-4;
+  for (const double mass : {1e-3, 0.1}) {
+    OneBody run = held_strip(10, 1, gap, 2e-3);
+    drive(holder_of(run), {0}, {Vec3(0, -force, 0)}, mass);
+    auto sim = run.start();
+    const double start = sim->tools()[1].position.y();
+    double open = 0, back = 0;
+    while (sim->step()) {
+      const double way = start - sim->tools()[1].position.y() + 0.5 * sim->dt() * sim->tools()[1].velocity.y();  // at the half step, as the ledger
+      open = std::max(open, std::abs(kinetic_energy(*sim, 1, mass) + sim->energies().work - force * way));
+      if (sim->time() > 1e-3) back = std::max(back, gap - way);
+    }
+    std::printf("  mass %g kg/m: %.1e of what the force gave is open; rebound in the second half %.3g m\n", mass, open / (force * gap), back);
+    EXPECT_LT(open / (force * gap), 2e-3);
+    EXPECT_LT(back, gap);
+    EXPECT_EQ(sim->contact_status().crossings, 0);
+  }
+}
+
+// Tied to the end of a bar it pulls that along: all that the force gives is in both.
+TEST(DrivenTool, ATieHandsItsForceOn) {
+  const double mass = 0.02, force = 3e4, duration = 1e-4;
+  OneBody run(body_of(generate_blank(strip_of(0.05, 0.01, 20, 4)), aluminium()), duration);
+  run.model.tools.push_back(plane_at("jaw", 2, Vec3(0.05, 0, 0), -Vec3::UnitX()));
+  drive(run.model.tools[0], {0, duration / 2, duration}, {Vec3::Zero(), Vec3(force, 0, 0), Vec3::Zero()}, mass);
+  PairConfig tied;
+  tied.first = "block", tied.second = "jaw", tied.kind = "tied";
+  run.plan.contact.pairs.push_back(tied);
+  auto sim = run.start();
+  while (sim->step()) {}
+  const double bar = momenta(*sim).linear.x(), jaw = mass * sim->tools()[0].velocity.x(), given = force * duration / 2;
+  std::printf("  bar %.6g, jaw %.6g of %.6g N s\n", bar, jaw, given);
+  EXPECT_NEAR((bar + jaw) / given, 1, 1e-6);  // the force is summed over the steps
+  EXPECT_GT(bar, 0.8 * given);
+}
+
+// A ring under a ring: force, mass and the answer are of the whole circle.
+TEST(DrivenTool, ARingIsPressedWithTheForceOnItsWholeCircle) {
+  const double force = 5e4, inner = 10e-3, outer = 20e-3, height = 2e-3;
+  BlankConfig blank = strip_of(outer - inner, height, 20, 4);
+  blank.origin = Vec3(inner, 0, 0);
+  OneBody run(body_of(generate_blank(blank), aluminium()), 1e-3);
+  run.model.axisymmetric = true;
+  run.model.tools.push_back(plane_at("table", 2, Vec3::Zero(), Vec3::UnitY()));
+  run.model.tools.push_back(plane_at("holder", 2, Vec3(0, height, 0), -Vec3::UnitY()));
+  drive(run.model.tools[1], {0, 4e-4}, {Vec3::Zero(), Vec3(0, -force, 0)});
+  run.plan.time_step.damping = 5e4;
+  auto sim = run.start();
+  const double start = sim->tools()[1].position.y(), thinner = force / (M_PI * (outer * outer - inner * inner)) * height / aluminium().youngs_modulus;
+  while (sim->step()) {}
+  std::printf("  force on holder %.6g of %g N; way %.5g of %.5g m\n", sim->tools()[1].force.y(), force, start - sim->tools()[1].position.y(), thinner);
+  EXPECT_NEAR(sim->tools()[1].force.y(), force, 1e-3 * force);
+  EXPECT_NEAR(start - sim->tools()[1].position.y(), thinner, 0.01 * thinner);
+}
+
+// Two threads, and a run resumed while the force acts and while the tool is withdrawn, give the same bits.
+TEST(DrivenTool, ThreadsAndResumesGiveTheSameBits) {
+  OneBody run = held_strip(24, 4, 2e-5, 1e-4);
+  ToolModel& holder = holder_of(run);  // a surface instead of a plane, which rubs
+  holder.normal = holder.point = Vec3::Zero();
+  holder.friction = 0.1;
+  for (const double x : {-0.1, 0.45, 1.1}) holder.mesh.nodes.push_back(Vec3(x * kLength, kThickness + 2e-5 + 1e-6 * x, 0));
+  for (int k = 0; k < 2; ++k) {
+    Facet f;
+    f.nodes = {k, k + 1, -1};
+    holder.mesh.surface.push_back(f);
+  }
+  drive(holder_of(run), {0, 5e-5}, {Vec3::Zero(), Vec3(0, -2e5, 0)});
+  StageConfig withdraw = form_for(5e-5);
+  withdraw.name = withdraw.kind = "withdraw";
+  withdraw.displacement = Vec3(0, 1e-3, 0);
+  run.plan.stages.push_back(withdraw);
+  run.plan.stages.push_back(form_for(2e-5));
+  auto one = run.start(1), two = run.start(2);
+  std::vector<std::vector<char>> saved;
+  Vec3 before_withdrawal = Vec3::Zero();
+  for (bool goes_on = true; goes_on;) {
+    goes_on = one->step();
+    EXPECT_EQ(two->step(), goes_on);
+    if (one->stage() == 0) before_withdrawal = one->tools()[1].position;
+    if (one->time() > 7e-5 && saved.empty()) saved.push_back(one->save());
+    if (one->time() > 1.2e-4 && saved.size() == 1) saved.push_back(one->save());
+  }
+  for (std::size_t n = 0; n < one->positions().size(); ++n) ASSERT_EQ(two->positions()[n], one->positions()[n]) << n;
+  EXPECT_EQ(two->tools()[1].position, one->tools()[1].position);
+  ASSERT_EQ(saved.size(), 2u);
+  EXPECT_LT(before_withdrawal.y(), -1e-5);
+  EXPECT_NEAR(one->tools()[1].position.y() - before_withdrawal.y(), 1e-3, 1e-7);
+  for (const std::vector<char>& state : saved) {
+    auto resumed = run.start(1);
+    resumed->restore(state);
+    while (resumed->step()) {}
+    for (std::size_t n = 0; n < resumed->positions().size(); ++n) ASSERT_EQ(resumed->positions()[n], one->positions()[n]) << n;
+    EXPECT_EQ(resumed->tools()[1].position, one->tools()[1].position);
+  }
+}
+
+}  // namespace forming_sim
