@@ -57,4 +57,34 @@ inline Found by_impulses(const Block& block, double steps) {
   return {(change + block.damping * way) / (kGravity * t), way / t, mean(v) + block.belt, rubbed / pressed, 0, 0, size_of(body.mesh, last, wall_time)};
 }
 
+struct BothWays {
+  Found found{}, by_impulses{};
+};
+/// Means over runs that start a little differently: where a swing has grown as far as it can, single runs scatter.
+inline BothWays both_ways(const Block& block, double steps, int starts) {
+  const BodyModel body = body_of(level_block(block), material_of_block());
+  const NodeField X = positions_of(body.mesh);
+  Elements elements({body}, 2, X, {}, 1);
+  Block one = block;
+  one.longest_step = steps * dense_limit(elements, X, 2);
+  BothWays mean;
+  const auto add = [&](const Found& found, Found& sum) {
+    sum.acceleration += found.acceleration / starts;
+    sum.creep += found.creep / starts;
+    sum.slip += found.slip / starts;
+    sum.ratio += found.ratio / starts;
+    sum.crossings += found.crossings;
+    const RunSize before = sum.run;
+    sum.run = found.run;
+    sum.run.steps += before.steps;
+    sum.run.wall_time += before.wall_time;
+  };
+  for (int k = 0; k < starts; ++k) {
+    one.settling = block.settling * (1 + 1e-4 * k);
+    add(rest_or_slide(one), mean.found);
+    add(by_impulses(one, steps), mean.by_impulses);
+  }
+  return mean;
+}
+
 }  // namespace forming_sim::incline

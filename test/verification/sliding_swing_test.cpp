@@ -56,7 +56,7 @@ TEST(SlidingSwing, DoesNotGrowWhereTheEigenvaluesAreReal) {
   for (const Case& c : {Case{2, 1, 0}, Case{8, 4, 0}, Case{2, 1, .1}, Case{3, 1, .1}, Case{1, 1, .49}}) {
     const incline::Grown grown = incline::let_swing(incline::sliding_block(c.cells, c.rows, c.mu, 0));
     tell(c.cells, c.rows, c.mu, grown);
-    EXPECT_EQ(grown.linear.rate, 0);
+    EXPECT_LT(grown.linear.rate, 1e-3);  // rounding
     EXPECT_LT(grown.last, 50 * grown.first);  // a rate of 10/s would make it 55 times as fast
   }
 }
@@ -83,25 +83,29 @@ TEST(SlidingSwing, IsEndedByTwiceItsRateOfDamping) {
 // Friction .51 of .5: what rests, stays, but what slides while it swings is not stopped. A block of one cell, whose swings do
 // not grow, is; in the same time as a rigid one.
 TEST(SlidingSwing, KeepsABlockSlidingThatAtRestWouldStay) {
+  incline::Block block;
+  block.mu = .51;
+  block.facets = false;
+  block.damping = 0;
+  block.after = 1;
   for (double belt : {0., .01})
     for (int cells : {1, 3}) {
-      incline::Block block;
       block.cells = cells;
-      block.mu = .51;
-      block.facets = false;
-      block.damping = 0;
       block.belt = belt;
-      block.after = 1;
-      const double found = incline::rest_or_slide(block).slip, other = incline::by_impulses(block, .4).slip;
-      std::printf("  %d x 1 cells on a belt of %g m/s: slip after 1 s %.1e m/s, by impulses %.1e\n", cells, belt, found, other);
-      if (cells == 1 || belt == 0) {
+      const bool swings = cells == 3 && belt > 0;
+      const incline::BothWays both = incline::both_ways(block, .4, swings ? 16 : 1);
+      const double found = both.found.slip, other = both.by_impulses.slip, way = both.found.creep + belt, other_way = both.by_impulses.creep + belt;
+      std::printf("  %d x 1 cells on a belt of %g m/s: slip after 1 s %.1e m/s, by impulses %.1e; mean %.1e and %.1e\n", cells, belt, found, other, way, other_way);
+      if (swings) {
+        EXPECT_GT(found, .02);
+        EXPECT_GT(other, .02);
+        EXPECT_NEAR(way, other_way, .2 * other_way);
+      } else {
         const double still = belt == 0 ? 1e-7 : 1e-4;
         EXPECT_LT(std::abs(found), still);
         EXPECT_LT(std::abs(other), still);
-      } else {
-        EXPECT_GT(found, .02);
-        EXPECT_GT(other, .02);
-        EXPECT_NEAR(found, other, .5 * other);
+        // Until then it has slowed down evenly.
+        EXPECT_NEAR(way, belt * belt / (2 * incline::kGravity * std::cos(std::atan(incline::kTan)) * (block.mu - incline::kTan)), .05 * way + 1e-7);
       }
     }
 }
