@@ -106,6 +106,8 @@ std::string plan_text(const Simulation& simulation) {
     rubs = rubs || pair.friction > 0;
     lines.add((pair.first == pair.second ? pair.first + " with itself" : pair.first + " with " + pair.second) + ": " + kind_of(pair));
   }
+  for (const ToolModel& tool : model.tools)
+    if (tool.motion && tool.motion->kind == "force") lines.add(tool.name + " is driven by a force: its speed is found with the impulses of its pairs");
   if (surface_pairs.empty()) absent.push_back("contact");
   else if (!rubs) absent.push_back("friction and slip");
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
-#include "forming_sim/config/words.h"
 #include "forming_sim/mesh/axis.h"
 #include "forming_sim/simulation/release.h"
 #include "simulation/impl.h"
@@ -194,8 +194,10 @@ void Simulation::Impl::give_tools_mass() {
   for (ToolModel& tool : model.tools) {
     if (!tool.motion || tool.motion->kind != "force" || tool.motion->mass > 0) continue;
     tool.motion->mass = all;
-    warnings.push_back("tool " + tool.name + ", which a force drives, has the mass of the bodies, " + number_text(all) +
-                       (model.dimension == 2 && !model.axisymmetric ? " kg/m" : " kg") + ": set its motion.mass where its inertia matters");
+    std::ostringstream text;
+    text << "tool " << tool.name << ", which a force drives, has the mass of the bodies, " << all << (model.dimension == 2 && !model.axisymmetric ? " kg/m" : " kg")
+         << ": set its motion.mass where its inertia matters";
+    warnings.push_back(text.str());
   }
   stages = StageRunner(plan.stages, model);
 }

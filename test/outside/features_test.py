@@ -337,6 +337,31 @@ class Features(unittest.TestCase):
         self.assertTrue(any('body upper touches another body' in note for note in summary['warnings']), summary['warnings'])
         self.assertGreater(summary['bodies'][1]['momentum'][1], 0, 'it should have bounced')
 
+    def test_a_blank_holder_presses_with_its_force(self):
+        """A plate between a table and a block that a force drives: u = F t/(A E) on a plate free to spread; then the block is taken away."""
+        side, thickness, force, rise = 0.010, 0.002, 2e4, 2e-4
+        block = {'name': 'holder', 'mesh': {'points': [[x * side, y * side, z * side] for x in (-0.1, 1.1) for y in (-0.1, 1.1) for z in (0.0, 0.3)],
+                                            'cells': [0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3, 0, 4, 5, 0, 5, 1, 2, 3, 7, 2, 7, 6, 0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5],
+                                            'cell_type': 'triangle', 'unit_scale': 1.0},
+                 'position': [0, 0, thickness],
+                 'motion': {'kind': 'force', 'profile': 'smooth', 'times': [0, rise], 'forces': [[0, 0, 0], [0, 0, -force]]}}
+        case = scene(body('plate'), dimension=3, duration=2.5 * rise, time_step={'damping': 1e5},
+                     tools=[{'name': 'table', 'normal': [0, 0, 1]}, block], output={'frames': 3, 'history_interval': rise / 50})
+        case['stages'].append({'name': 'open', 'kind': 'withdraw', 'tools': ['holder'], 'displacement': [0, 0, 0.002], 'duration': 1e-4})
+        summary = self.run_scene(case)
+        self.assertEqual(summary['contact']['crossings'], 0)
+        self.assertTrue(any('holder, which a force drives, has the mass of the bodies, 0.000542 kg' in note for note in summary['warnings']), summary['warnings'])
+        rows = self.history()
+        pressed = [row for row in rows if row['stage'] == 'form'][-1]
+        self.assertAlmostEqual(float(pressed['tool_holder_force_z_N']) / force, 1, delta=2e-3)
+        self.assertAlmostEqual(float(pressed['tool_table_force_z_N']) / force, -1, delta=2e-3)
+        exact = force * thickness / (side * side * ALUMINIUM['youngs_modulus'])
+        self.assertAlmostEqual(-float(pressed['tool_holder_position_z_m']) / exact + thickness / exact, 1, delta=0.01)
+        self.assertAlmostEqual(float(rows[-1]['tool_holder_position_z_m']) - float(pressed['tool_holder_position_z_m']), 0.002, delta=1e-7)
+        with h5py.File(self.path('out/result.h5')) as file:
+            heights = [file['frames'][name]['tools/1/position'][2] for name in sorted(file['frames'])]
+        self.assertGreater(heights[-1] - heights[0], 0.0019)
+
     def test_a_bar_is_twisted_and_let_go(self):
         """T = G (pi/2) R^4 theta/L, at both ends alike, and less by the polygon of its section; let go, it is straight again."""
         radius, length, degrees, turn = 0.01, 0.01, 0.05, 2e-4

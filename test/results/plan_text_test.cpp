@@ -62,8 +62,16 @@ TEST(Plan, EverythingThatIsAskedFor) {
   model.bodies[0].self_contact = true;
   model.tools.push_back(wall_at_zero());
   model.tools[0].friction = .2;
+  model.tools.push_back(wall_at_zero());
+  ToolModel& driven = model.tools[1];
+  driven.name = "hammer";
+  driven.point = Vec3(-1, 0, 0);
+  driven.motion.emplace();
+  driven.motion->kind = "force";
+  driven.motion->times = {0};
+  driven.motion->forces = {Vec3::UnitX()};
   const std::string text = plan_text(Simulation(plan, model, 1));
-  for (const char* line : {"green_elastic, 2 layers", "gravity", "damping 5 1/s", "bulk viscosity", "initial motion", "sheet with itself: no friction",
+  for (const char* line : {"hammer is driven by a force", "green_elastic, 2 layers", "gravity", "damping 5 1/s", "bulk viscosity", "initial motion", "sheet with itself: no friction",
                            "sheet with wall: friction 0.2", "form: 0.001 s"})
     EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
   EXPECT_EQ(line_with(text, "not there").find("gravity"), std::string::npos) << text;
