@@ -165,6 +165,7 @@ std::vector<Row> blocks_that_meet() {
         rows.push_back(at_most(name, "drift of momentum", found.linear, 1e-12, found.wall_time));
         rows.push_back(just(name, "drift of angular momentum", found.angular, found.wall_time));
         rows.push_back(just(name, "energy that contact took / at the start", found.lost, found.wall_time));
+        rows.push_back(at_most(name, "energy that contact gave / at the start", std::max(0.0, -found.lost), 1e-6, found.wall_time));
         rows.push_back(at_most(name, "error of the ledger", found.balance, 0.01, found.wall_time));
         rows.push_back(just(name, "time of a step / without contact", found.step_time / free, found.wall_time));
       }

@@ -24,7 +24,7 @@ void Simulation::Impl::choose_dt() {
   if (control.due()) find_stable_step();
   const TimeStepConfig& config = plan.time_step;
   dt = config.safety * control.stable_dt;
-  if (!by_cells() && previous_dt > 0) dt = std::min(dt, kRise * previous_dt);
+  if (previous_dt > 0) dt = std::min(dt, kRise * previous_dt);
   limit.dt = dt;
   limit.element = control.element;
   limit.node = control.node;

@@ -192,6 +192,39 @@ TEST(ContactScenes, AStandingBodyWeighsItsWeight) {
   EXPECT_LT(sim->dt(), .9 * dt);
 }
 
+// A strip driven into a groove with walls of so little slope that they hold it like a wedge: contact takes energy and gives none.
+TEST(ContactScenes, ASharpGrooveGivesNothing) {
+  for (double slope : {.005, .02})
+    for (double speed : {5., 50., 500.}) {
+      const double half = .5e-3, way = 1e-3, depth = half / slope;  // it is as wide as the groove when it has gone that way
+      BlankConfig blank = strip_of(2 * half, 10e-3, 4, 40);
+      blank.origin = Vec3(-half, way, 0);
+      OneBody run(body_of(generate_blank(blank), aluminium()), 2 * way / speed + 2e-5);
+      run.plan.bodies[0].initial_velocity = Vec3(0, -speed, 0);
+      ToolModel groove;
+      groove.name = "groove";
+      groove.mesh.dimension = 2;
+      groove.mesh.nodes = {Vec3(-2 * half, depth, 0), Vec3(0, -depth, 0), Vec3(2 * half, depth, 0)};
+      for (int k = 0; k < 2; ++k) {
+        Facet f;
+        f.nodes = {k, k + 1, -1};
+        groove.mesh.surface.push_back(f);
+      }
+      run.model.tools.push_back(groove);
+      auto sim = run.start();
+      double least = 0, most = 0;
+      while (sim->step()) {
+        const Energies& e = sim->energies();
+        least = std::min(least, e.contact / e.initial);
+        most = std::max(most, e.contact / e.initial);
+      }
+      std::printf("  slope %g, %g m/s: energy in contact %.1e to %.1e of that at the start, %ld halvings\n", slope, speed, least, most, sim->contact_status().halvings);
+      EXPECT_GE(least, -1e-6);
+      EXPECT_GT(most, 1e-6);
+      EXPECT_EQ(sim->contact_status().crossings, 0);
+    }
+}
+
 TEST(ContactScenes, OneThreadAndTwoGiveTheSameBits) {
   for (int dimension : {2, 3}) {
     Blocks blocks(dimension, dimension == 2 ? 20 : 6, dimension == 2 ? 23 : 7, .1, 300, 1e-4, 2e-4);
