@@ -44,22 +44,22 @@ void Contact::Impl::gather_driven(DrivenTool& tool) const {
     tool.ties.push_back(static_cast<int>(i));
     if (tie_pairs[i].to_tool) tool.entries.push_back(tie_pairs[i].node[1]);
   }
-  for (size_t i = 0; i < near.pairs.size(); ++i)
-    if (near.pairs[i].tool(features.bodies) == tool.tool && near.pairs[i].w > 0) tool.pairs.push_back(static_cast<long>(i));
+  for (size_t i = 0; i < near.pairs.size(); ++i) {
+    const ContactPair& pair = near.pairs[i];
+    if (pair.tool(features.bodies) != tool.tool || pair.w == 0) continue;
+    const double share = on_tool(pair, work), along = share * dot3(pair.normal, tool.guide);
+    tool.pairs.push_back({static_cast<long>(i), share, along, (pair.rub < 0 ? along * along : share * share) / pair.w, pair.rub >= 0});
+  }
 }
 
-double Sweeps::push_driven(double dt, bool begins, Workspace& work, const std::vector<TiePair>& ties, const LargeArray<ContactPair>& pairs, DrivenTool& tool) const {
+double Sweeps::push_driven(double dt, bool begins, Workspace& work, const std::vector<TiePair>& ties, DrivenTool& tool) const {
   double J = 0, m = 0;
-  for (const long i : tool.pairs) {
-    const ContactPair& pair = pairs[i];
-    const double j = impulse(i);
+  for (const DrivenPair& pair : tool.pairs) {
+    const double j = impulse(pair.pair);
     if (j == 0) continue;
-    const double share = on_tool(pair, work), along = dot3(pair.normal, tool.guide);
-    J += share * j * along;
-    m += share * share * along * along / pair.w;
-    if (pair.rub < 0) continue;
-    J += share * dot3(slip(i), tool.guide);
-    m += share * share * std::max(0.0, 1 - along * along) / pair.w;
+    J += pair.along * j;
+    if (pair.rubs) J += pair.share * dot3(slip(pair.pair), tool.guide);
+    m += pair.mass;
   }
   for (const int i : tool.ties) {
     const double share = on_tool(ties[i], work);

@@ -191,7 +191,7 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
     pack(tile, pairs, rubs);
     kernels_.start(movers, tile.packs.data(), tile.rub(), static_cast<long>(tile.packs.size()));
   });
-  for (DrivenTool& tool : driven) push_driven(dt, true, work, ties, pairs, tool);
+  for (DrivenTool& tool : driven) push_driven(dt, true, work, ties, tool);
   SweepResult result;
   using Clock = std::chrono::steady_clock;
   double omega = 1, before = 0;
@@ -206,7 +206,7 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
       if (!(most_of_tile <= change)) change = most_of_tile;
     });
     for (DrivenTool& tool : driven) {
-      const double way = push_driven(dt, false, work, ties, pairs, tool);
+      const double way = push_driven(dt, false, work, ties, tool);
       if (!(way <= change)) change = way;
     }
     result.seconds += std::chrono::duration<double>(Clock::now() - begin).count();

@@ -15,6 +15,15 @@
 
 namespace forming_sim {
 
+/// What a pair is to such a tool.
+struct DrivenPair {
+  long pair;     ///< its number
+  double share;  ///< an impulse of the pair is so many on the tool: 1 or -1
+  double along;  ///< its normal impulse is so many along the guide
+  double mass;   ///< by which its impulses change with u at most, kg
+  bool rubs;
+};
+
 struct DrivenTool {
   int tool = -1;
   Node guide = Node::Zero();
@@ -22,8 +31,8 @@ struct DrivenTool {
   double speed = 0;          ///< along the guide without contact, m/s
   double push = 0;           ///< u, m/s
   std::vector<int> entries;  ///< of the workspace: what moves with it
-  std::vector<long> pairs;   ///< numbers of its pairs
-  std::vector<int> ties;     ///< and of its ties
+  std::vector<DrivenPair> pairs;
+  std::vector<int> ties;     ///< numbers of its ties
 };
 
 }  // namespace forming_sim

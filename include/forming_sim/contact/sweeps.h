@@ -53,7 +53,7 @@ class Sweeps {
   void cut(std::size_t nodes, const LargeArray<ContactPair>& pairs);
   void pack(Tile& tile, const LargeArray<ContactPair>& pairs, const std::vector<Rub>& rubs);
   /// driven.cpp: u of a tool as the impulses stand, that of its entries with it; begins: m = 0, so that it is what they give. Returns the change of place, m.
-  double push_driven(double dt, bool begins, Workspace& work, const std::vector<TiePair>& ties, const LargeArray<ContactPair>& pairs, DrivenTool& tool) const;
+  double push_driven(double dt, bool begins, Workspace& work, const std::vector<TiePair>& ties, DrivenTool& tool) const;
   /// Of pair i, which rubs or not, as it stands.
   double impulse(long i) const;
   Node slip(long i) const;
