@@ -73,7 +73,7 @@ TEST(ContactScenes, TiltedBlocksKeepTheirMomenta) {
     }
 }
 
-// h0 a millionth of a cell, far less than the way of a step: steps are halved, a few times each, and the run gets through.
+// h0 a millionth of a cell, far less than the way of a step: some steps are halved, those after them are short too, and the run gets through.
 TEST(ContactScenes, LayersOfAMillionthAtHighSpeed) {
   struct Case {
     int dimension, n, m;
@@ -87,8 +87,8 @@ TEST(ContactScenes, LayersOfAMillionthAtHighSpeed) {
     const ContactStatus status = sim.contact_status();
     std::printf("  %dD, %d on %d, tilt %g: %ld steps, %ld halvings, momentum %.1e, angular %.1e\n", c.dimension, c.m, c.n, c.tilt, sim.steps(), status.halvings, drift.linear,
                 drift.angular);
-    EXPECT_GT(status.halvings, 20);
-    EXPECT_LT(status.halvings, 10 * sim.steps());
+    EXPECT_GT(status.halvings, 10);
+    EXPECT_LT(status.halvings, 0.1 * sim.steps());
     EXPECT_LT(drift.linear, 1e-12);
     EXPECT_LT(drift.angular, 1e-12);
     EXPECT_EQ(status.crossings, 0);
