@@ -209,36 +209,38 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
     predict(dt, v_star);
     laps.start();
     std::vector<DrivenTool> driven = driven_tools(motion, dt);
-    const double free_way = step_way(motion, x);
-    double bound = 2 * (both * fastest(v_star) * dt + free_way);
+    // How far a driven tool goes is known afterwards: what its force alone would do to a light one is far more than what it does while that lies on something.
+    const double predicted = both * fastest(v_star) * dt, told_way = step_way(motion, x);
+    double first_way = told_way;
+    for (const DrivenTool& tool : driven) first_way = std::max(first_way, std::abs(motion[tool.tool].last_speed) * dt);
+    double bound = 2 * (predicted + first_way);
     const std::vector<PlanePose> planes = tools.planes(motion);
     SweepResult swept;
     double way = 0;
-    // The sweeps may make a node faster than was predicted: then look farther.
+    // The sweeps may make a node or a driven tool faster than was predicted: then look farther.
     for (;; bound = 1.5 * way) {
       const double reach = std::max(thickest, std::min(ceiling, 0.1 * bound)) + bound;
       ensure_list(x, motion, reach, bound);
       near.clear();
-      way = bound / 2;
       laps.done(&ContactTimes::list);
-      if (list.size() == 0) break;
-      gather(x, v, v_star, dt, motion, planes);
-      const Layers layers(records, tried, work, dt, previous_dt, layer, ceiling);
-      narrow_phase(constants(), &layers, planes, all, {reach, bound, travel}, team, list, near);
-      layers.hand_over(near.born, near.pairs);
-      laps.done(&ContactTimes::narrow);
-      swept = SweepResult();
-      for (DrivenTool& tool : driven) gather_driven(tool);
-      if (!near.pairs.empty() || !tie_pairs.empty())
-        swept = sweeps.solve(dt, kTolerance * layer, config.max_sweeps, work, tie_pairs, near.pairs, near.rubs, driven);
-      laps.done(&ContactTimes::lanes);
-      times.lanes -= swept.seconds;
-      times.sweeps += swept.seconds;
-      double most = 0;
-      for (int i = 0; i < work.body_entries; ++i) most = std::max(most, dot3(work.v[i], work.v[i]));
-      double tool_way = free_way;
+      double most = 0, tool_way = told_way;
+      if (list.size() > 0) {
+        gather(x, v, v_star, dt, motion, planes);
+        const Layers layers(records, tried, work, dt, previous_dt, layer, ceiling);
+        narrow_phase(constants(), &layers, planes, all, {reach, bound, travel}, team, list, near);
+        layers.hand_over(near.born, near.pairs);
+        laps.done(&ContactTimes::narrow);
+        swept = SweepResult();
+        for (DrivenTool& tool : driven) gather_driven(tool);
+        if (!near.pairs.empty() || !tie_pairs.empty())
+          swept = sweeps.solve(dt, kTolerance * layer, config.max_sweeps, work, tie_pairs, near.pairs, near.rubs, driven);
+        laps.done(&ContactTimes::lanes);
+        times.lanes -= swept.seconds;
+        times.sweeps += swept.seconds;
+        for (int i = 0; i < work.body_entries; ++i) most = std::max(most, dot3(work.v[i], work.v[i]));
+      }
       for (const DrivenTool& tool : driven) tool_way = std::max(tool_way, std::abs(tool.speed + tool.push) * dt);
-      way = std::max(bound / 2, both * std::sqrt(most) * dt + tool_way);
+      way = std::max(bound / 2, std::max(predicted, both * std::sqrt(most) * dt) + tool_way);
       if (way <= bound) break;
     }
     step.sweeps += swept.sweeps;

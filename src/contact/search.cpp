@@ -55,7 +55,7 @@ double Contact::Impl::step_way(const std::vector<ToolMotion>& motion, const Node
   for (const ToolMotion& m : motion) rests = rests && m.position0 == m.position1 && m.rotation0 == m.rotation1;
   if (rests) return 0;
   return farthest(motion, x, [&](size_t t, const Vec3& p) { return pose0(motion[t], p); },
-             [&](size_t t, const Vec3& p) { return pose1(motion[t], p); });
+             [&](size_t t, const Vec3& p) { return motion[t].inverse_mass > 0 ? pose0(motion[t], p) : pose1(motion[t], p); });
 }
 
 void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion>& motion, double reach, double step_bound) {

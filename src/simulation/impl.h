@@ -82,7 +82,7 @@ struct Simulation::Impl {
   /// Leaves those boundaries that hold in the running stage.
   void release_boundaries();
   void tell_contact_what_is_held();
-  /// Gives those that a force drives a mass where the scene says none.
+  /// Gives those that a force drives a mass where the scene says none. Throws SceneError for one too light.
   void give_tools_mass();
   /// Where the tools stand, and where they will after a step of this dt; what forces drive, where it would without contact.
   std::vector<ToolMotion> tool_motions(double step_dt) const;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "forming_sim/config/words.h"
 #include "forming_sim/mesh/axis.h"
 #include "forming_sim/simulation/release.h"
 #include "simulation/impl.h"
@@ -13,6 +14,8 @@
 namespace forming_sim {
 
 namespace {
+
+constexpr double kLightest = 1e-4;  ///< mass of a tool that a force drives, over that of all bodies
 
 NodeField initial_positions_of(const Model& model) {
   NodeField x;
@@ -191,12 +194,18 @@ void Simulation::Impl::tell_contact_what_is_held() {
 void Simulation::Impl::give_tools_mass() {
   double all = 0;
   for (double m : elements.nodal_mass()) all += m;
-  for (ToolModel& tool : model.tools) {
-    if (!tool.motion || tool.motion->kind != "force" || tool.motion->mass > 0) continue;
-    tool.motion->mass = all;
+  const char* unit = model.dimension == 2 && !model.axisymmetric ? " kg/m" : " kg";
+  for (std::size_t k = 0; k < model.tools.size(); ++k) {
+    ToolModel& tool = model.tools[k];
+    if (!tool.motion || tool.motion->kind != "force") continue;
     std::ostringstream text;
-    text << "tool " << tool.name << ", which a force drives, has the mass of the bodies, " << all << (model.dimension == 2 && !model.axisymmetric ? " kg/m" : " kg")
-         << ": set its motion.mass where its inertia matters";
+    if (tool.motion->mass > 0) {
+      if (tool.motion->mass >= kLightest * all) continue;
+      text << "give at least " << kLightest * all << unit << ", " << kLightest << " of the mass of the bodies, or leave it out: what contact leaves open would throw a lighter one about";
+      throw SceneError({{Code::invalid_scene, "tools[" + std::to_string(k) + "].motion.mass", number_text(tool.motion->mass) + unit, text.str()}});
+    }
+    tool.motion->mass = all;
+    text << "tool " << tool.name << ", which a force drives, has the mass of the bodies, " << all << unit << ": set its motion.mass where its inertia matters";
     warnings.push_back(text.str());
   }
   stages = StageRunner(plan.stages, model);
@@ -211,6 +220,7 @@ std::vector<ToolMotion> Simulation::Impl::tool_motions(double step_dt) const {
     if (const ForceDrive* drive = stages.drive(k)) {
       const double kick = 0.5 * (previous_dt + step_dt);
       motion.guide = drive->guide();
+      motion.last_speed = drive->velocity().dot(motion.guide);
       motion.inverse_mass = (1 + 0.5 * damping_rate() * kick) * drive->inverse_mass(kick);
       motion.position1 += step_dt * drive->free_speed(time, kick) * motion.guide;
     } else if (step_dt > 0) {

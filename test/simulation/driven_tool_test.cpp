@@ -49,7 +49,7 @@ double kinetic_energy(const Simulation& sim, int tool, double mass) { return 0.5
 // In the end the sheet bears the force, and is thinner by F t/(L E'), E' = E/(1 - nu^2), whatever the holder weighs.
 TEST(DrivenTool, AHolderPressesWithItsForce) {
   const double force = 1e6;
-  for (const double mass : {0., 1e-6, 10.}) {  // of the sheet: .027 kg/m
+  for (const double mass : {0., 1e-5, 10.}) {  // of the sheet: .027 kg/m
     OneBody run = held_strip(40, 4, 0, 1.5e-3);
     drive(holder_of(run), {0, 5e-4}, {Vec3::Zero(), Vec3(0, -force, 0)}, mass);
     run.plan.time_step.damping = 5e4;
@@ -65,6 +65,61 @@ TEST(DrivenTool, AHolderPressesWithItsForce) {
     EXPECT_NEAR(way, thinner, 0.005 * thinner);
     EXPECT_LT(sim->energies().kinetic, 1e-5 * sim->energies().elastic);
     EXPECT_EQ(sim->contact_status().crossings, 0);
+  }
+}
+
+// Where it lies its force does not let it fall, however light it is: contact looks no farther than for a heavy one.
+TEST(DrivenTool, ALightOneIsNotSoughtFarAway) {
+  long listed[2] = {0, 0};
+  for (const bool light : {false, true}) {
+    OneBody run = held_strip(60, 1, 0, 2e-5);
+    ToolModel& holder = holder_of(run);
+    holder.normal = holder.point = Vec3::Zero();
+    for (int k = 0; k <= 60; ++k) holder.mesh.nodes.push_back(Vec3((1.2 * k / 60 - 0.1) * kLength, kThickness, 0));
+    for (int k = 0; k < 60; ++k) {
+      Facet f;
+      f.nodes = {k, k + 1, -1};
+      holder.mesh.surface.push_back(f);
+    }
+    drive(holder, {0, 1e-5}, {Vec3::Zero(), Vec3(0, -1e6, 0)}, light ? 3e-6 : 1.);
+    auto sim = run.start();
+    while (sim->step()) listed[light] = std::max(listed[light], sim->contact_status().listed_pairs);
+  }
+  std::printf("  most pairs listed: heavy %ld, light %ld\n", listed[0], listed[1]);
+  EXPECT_LT(listed[1], 1.5 * listed[0]);
+}
+
+// In its first step it has no speed yet, and its force takes it through all that there is of the sheet: it is looked for that far.
+TEST(DrivenTool, OneThatIsThrownInASingleStepMeetsTheSheet) {
+  for (const double gap : {1e-3, 1e-2}) {
+    OneBody run = held_strip(10, 2, gap, 1e-6);
+    const double mass = 2e-4 * mass_of(run), step = run.start()->dt();
+    drive(holder_of(run), {0}, {Vec3(0, -2 * mass * 3 * (gap + kThickness) / (step * step), 0)}, mass);
+    auto sim = run.start();
+    try {
+      while (sim->step()) EXPECT_EQ(sim->contact_status().crossings, 0);
+    } catch (const Error& error) {  // more than a sheet can bear
+      EXPECT_TRUE(error.code() == Code::mesh_error || error.code() == Code::contact_error) << error.what();
+    }
+    EXPECT_GT(sim->tools()[1].position.y(), -gap - kThickness);
+  }
+}
+
+// A mass that drowns in what the sweeps leave open is refused, and told what would do.
+TEST(DrivenTool, ATooLightOneIsRefused) {
+  for (const double part : {0.9e-4, 1.1e-4}) {
+    OneBody run = held_strip(10, 1, 0, 1e-6);
+    const double mass = mass_of(run);
+    drive(holder_of(run), {0}, {Vec3(0, -1e5, 0)}, part * mass);
+    try {
+      run.start();
+      EXPECT_GT(part, 1e-4);
+    } catch (const SceneError& error) {
+      EXPECT_LT(part, 1e-4);
+      ASSERT_EQ(error.faults().size(), 1u);
+      EXPECT_EQ(error.faults()[0].field, "tools[1].motion.mass");
+      EXPECT_NE(error.faults()[0].remedy.find("0.0001 of the mass of the bodies"), std::string::npos) << error.what();
+    }
   }
 }
 

@@ -47,6 +47,7 @@ struct ToolMotion {
   /// presses on it, and else where contact lets it (ContactStep::tool_push). 0: it goes to position1. Method implicit only.
   Vec3 guide = Vec3::Zero();
   double inverse_mass = 0;
+  double last_speed = 0;  ///< along the guide in the step before, m/s: so far contact looks at first
 };
 
 inline Vec3 pose0(const ToolMotion& m, const Vec3& p) { return m.rotation0 * p + m.position0; }
