@@ -67,10 +67,10 @@ where it stands at the start), a velocity, or a force. Without a motion it rests
 
 A tool of kind `force` is a blank holder: guided along the line of its force, it goes where the force and the bodies push it,
 and yields as a flange thickens. Its force is all that acts on it: gravity does not. How fast it goes is found together with the forces of
-contact, so that it may be light, down to 1e-4 of the mass of the bodies (what is lighter is refused);
+contact, so that it may be light, down to a thousandth of the mass of the bodies (what is lighter is refused);
 a light one follows at once, a heavy one takes time to start and to stop. Let the force rise smoothly, and lay the holder on the blank:
 what falls on it rattles. A set that is held rigidly does not stop it, but ends the run: keep it off what is clamped.
-Its place is in `history.csv`. A `withdraw` stage takes it away like any other tool.
+Its place is in `history.csv`. A `withdraw` stage takes it away like any other tool, from rest where it has come to.
 
 ## Stages
 

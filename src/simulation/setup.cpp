@@ -15,7 +15,7 @@ namespace forming_sim {
 
 namespace {
 
-constexpr double kLightest = 1e-4;  ///< mass of a tool that a force drives, over that of all bodies
+constexpr double kLightest = 1e-3;  ///< mass of a tool that a force drives, over that of all bodies
 
 NodeField initial_positions_of(const Model& model) {
   NodeField x;

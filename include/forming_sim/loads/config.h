@@ -73,7 +73,7 @@ struct MotionConfig {
     visit(FORMING_SIM_FIELD(velocities), Field().unit("m/s").when("kind", {"velocity"}).doc("velocity at each knot"));
     visit(FORMING_SIM_FIELD(spins_deg_s), Field().unit("deg/s").when("kind", {"velocity"}).doc("angular velocity about the centre at each knot"));
     visit(FORMING_SIM_FIELD(forces), Field().unit("N").required().when("kind", {"force"}).doc("force on the tool at each knot, all along one line; plane strain: N/m; axisymmetric: of the whole circle"));
-    visit(FORMING_SIM_FIELD(mass), Field().unit("kg").at_least(0).computed("that of all bodies").when("kind", {"force"}).doc("mass of the tool, kg/m in plane strain; what is left out is that of all bodies, mass scaling included"));
+    visit(FORMING_SIM_FIELD(mass), Field().unit("kg").at_least(0).computed("that of all bodies").when("kind", {"force"}).doc("mass of the tool, kg/m in plane strain; at least a thousandth of that of all bodies, mass scaling included"));
     visit(FORMING_SIM_FIELD(damping), Field().unit("1/s").at_least(0).when("kind", {"force"}).doc("rate at which the tool loses speed to its guide: a force of damping times mass times velocity"));
     visit(FORMING_SIM_FIELD(centre), Field().unit("m").when("kind", {"trajectory", "velocity"}).doc("centre of rotation at the start; it moves with the tool"));
     visit(FORMING_SIM_FIELD(profile), Field().choices({"smooth", "linear", "spline"}).doc("smooth: from rest to rest between knots (quintic trajectory, cubic velocity and force); linear: straight lines; spline: a trajectory that passes the inner knots without stopping"));
