@@ -205,10 +205,10 @@ void Simulation::Impl::give_tools_mass() {
       throw SceneError({{Code::invalid_scene, "tools[" + std::to_string(k) + "].motion.mass", number_text(tool.motion->mass) + unit, text.str()}});
     }
     tool.motion->mass = all;
+    stages = StageRunner(plan.stages, model);  // so that it knows
     text << "tool " << tool.name << ", which a force drives, has the mass of the bodies, " << all << unit << ": set its motion.mass where its inertia matters";
     warnings.push_back(text.str());
   }
-  stages = StageRunner(plan.stages, model);
 }
 
 std::vector<ToolMotion> Simulation::Impl::tool_motions(double step_dt) const {

@@ -15,7 +15,6 @@ StageRunner::StageRunner(const std::vector<StageConfig>& stages, const Model& mo
     drives_.push_back(by_force ? std::optional<ForceDrive>(*tool.motion) : std::nullopt);
   }
   present_.assign(model.tools.size(), 1);
-  withdrawn_.assign(model.tools.size(), 0);
   known_.resize(motions_.size());
   starts_.push_back(0);
   if (!finished()) begin(0);
@@ -31,12 +30,12 @@ void StageRunner::begin(double t) {
   known_.assign(motions_.size(), {});
   for (std::size_t k = 0; k < motions_.size(); ++k) {
     if (!leaves(stages_[index_], static_cast<int>(k))) continue;
-    if (withdrawn_[k]) continue;
+    const bool at_once = stages_[index_].displacement.isZero();
+    const ForceDrive* by = drive(static_cast<int>(k));
     Pose from = motions_[k].at(t);
-    if (drives_[k]) from.translation = drives_[k]->way();
-    withdrawn_[k] = 1;
-    present_[k] = !stages_[index_].displacement.isZero();
-    if (present_[k] || drives_[k]) motions_[k] = withdraw(from, stages_[index_].displacement, t, stages_[index_].duration);
+    if (by) from.translation = by->way();
+    if (at_once) present_[k] = 0;
+    if (!at_once || by) motions_[k] = withdraw(from, stages_[index_].displacement, t, stages_[index_].duration);
   }
 }
 

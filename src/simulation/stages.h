@@ -32,8 +32,8 @@ class StageRunner {
   /// Where a tool stands at time t; what a force drives, where it has come to.
   ToolPose pose(int tool, double t) const;
   /// What drives a tool now; null: no force does.
-  const ForceDrive* drive(int tool) const { return drives_[tool] && !withdrawn_[tool] ? &*drives_[tool] : nullptr; }
-  ForceDrive* drive(int tool) { return drives_[tool] && !withdrawn_[tool] ? &*drives_[tool] : nullptr; }
+  const ForceDrive* drive(int tool) const { return driven(tool) ? &*drives_[tool] : nullptr; }
+  ForceDrive* drive(int tool) { return driven(tool) ? &*drives_[tool] : nullptr; }
   bool present(int tool) const { return present_[tool]; }
 
   /// Start times of the stages begun so far: all that a checkpoint needs.
@@ -48,12 +48,13 @@ class StageRunner {
  private:
   void begin(double t);
   bool leaves(const StageConfig& stage, int tool) const;
+  bool driven(int tool) const { return drives_[tool] && motions_[tool].rests(); }  ///< until it is withdrawn
 
   std::vector<StageConfig> stages_;
   const Model* model_;
   std::vector<RigidMotion> motions_;
   std::vector<std::optional<ForceDrive>> drives_;  ///< of the tools that a force drives
-  std::vector<char> present_, withdrawn_;          ///< withdrawn_: on its way out, or gone
+  std::vector<char> present_;
   std::vector<double> starts_;
   int index_ = 0;
   struct KnownPose {
