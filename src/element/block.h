@@ -113,7 +113,7 @@ void law_edges(const double* constants, const Vector<Pack, kD<Cell>>* x, const V
       edge[m] += weight(constants, kCrossedFreed + s) * drawn[4];
     }
 }
-/// Adds the forces on these edges to those on what draw() gives.
+/// Adds what pulls at these edges to what pulls at those of draw().
 template <class Cell> void add_law_forces(const double* constants, const Vector<Pack, kD<Cell>>* on_edges, int s, Vector<Pack, kD<Cell>>* on_drawn) {
   for (int m = 0; m < 2; ++m) {
     on_drawn[Cell::table[s][m + 1]] += on_edges[m];
@@ -123,7 +123,7 @@ template <class Cell> void add_law_forces(const double* constants, const Vector<
 /// And hands them back to the corners.
 template <class Cell> void hand_back(const double* constants, const Vector<Pack, kD<Cell>>* on_drawn, Vector<Pack, kD<Cell>>* f) {
   for (int b = 0; b < 4; ++b)
-    for (int c = 0; c <= 4; ++c) f[b] += weight(constants, c * 4 + b) * on_drawn[c];
+    for (int c = 0; c <= 4; ++c) f[b] -= weight(constants, c * 4 + b) * on_drawn[c];
 }
 
 template <class Cell> Pack volume_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s) {

@@ -28,15 +28,15 @@ template <int D, bool Ring> Edges<Pack, D, Ring> edges_of_point(const CellGroup&
 }
 
 /// f_a = - V_e dw/dx_a: the forces -V S . x^m on the edges and -V S . x^3 on the hoop, through the weights by which the nodes make them.
-template <int D, bool Ring> void add_forces(const CellGroup& g, long block, const Edges<Pack, D, Ring>& e, const Symmetric<Pack, D>& S) {
+template <int D, bool Ring, class Pull> void add_forces(const CellGroup& g, long block, const Edges<Pack, D, Ring>& e, const Pull& pull) {
   Vector<Pack, D> force[D];
-  for (int m = 0; m < D; ++m) force[m] = S * (Pack(-1.0) * e.area[m]);
+  for (int m = 0; m < D; ++m) force[m] = -pull.on(e, m);
   const int* slots = g.slots + block * g.cell_nodes * kLanes;
   const double* w = weights_of<D, Ring>(g, block);
   for (int a = 0; a < g.cell_nodes; ++a, w += edge_weights(D, Ring) * kLanes) {
     Vector<Pack, D> f = weight(w, 0) * force[0];
     for (int m = 1; m < D; ++m) f += weight(w, m) * force[m];
-    if constexpr (Ring) f[0] -= weight(w, D) * e.area[2][0] * S[2];
+    if constexpr (Ring) f[0] -= weight(w, D) * pull.on_hoop(e);
     add_vectors(f, slots + a * kLanes, g.sums);
   }
 }
@@ -67,7 +67,7 @@ template <int D, bool Ring, int N> struct BlocksOfPoints {
     return J;
   }
   void dissipate(int i, const Pack& what) { dissipated[i] += what * initial_volume(g, memory(i)); }
-  void respond(int i, const Edges<Pack, D, Ring>& e, const Symmetric<Pack, D>& S, const CellGroup& group) const { add_forces(group, block + i, e, S); }
+  template <class Pull> void respond(int i, const Edges<Pack, D, Ring>& e, const Pull& pull, const CellGroup& group) const { add_forces(group, block + i, e, pull); }
 };
 
 template <int D, bool Ring, int N> [[gnu::flatten]] void forces_of_blocks(const CellGroup& g, const NodalView& view, long block) {
@@ -80,8 +80,8 @@ template <int D, bool Ring> [[gnu::flatten]] void hyperelastic_forces_of_block(c
   BlocksOfPoints<D, Ring, 1> points(g, view, block);
   Edges<Pack, D, Ring> e;
   points.edges(0, e);
-  find_areas(e);
-  points.respond(0, e, hyperelastic_step(g.solid, e, points.ratio(0, e), points.memory(0)).S, g);
+  find_normals(e);
+  points.respond(0, e, pull_of<D, Ring>(hyperelastic_step(g.solid, e, points.ratio(0, e), points.memory(0)).S), g);
 }
 
 template <int D, bool Ring> void observe_block(const CellGroup& g, const NodalView& view, long block, double* stress, double* ratio, double* energy) {

@@ -44,8 +44,12 @@ void pressures(const CellGroup& g, long block, const double* constants, const Pa
   const Pack theta(g.element_share);
   const Pack mean = (Pack(1.0) - theta) * K * (sum_V / sum_V0 - Pack(1.0));
   for (int s = 0; s < Cell::simplices; ++s) p[s] = mean + theta * K * (J[s] - Pack(1.0));
-  if (g.guard > 0)
-    for (int s = 0; s < Cell::simplices; ++s) p[s] += Pack(g.guard) * K * guard_pressure(J[s], free_of_guard<Cell>(constants, s));
+  if (g.guard > 0) {
+    Mask far = absolute(J[0] - Pack(1.0)) > free_of_guard<Cell>(constants, 0);
+    for (int s = 1; s < Cell::simplices; ++s) far = far | (absolute(J[s] - Pack(1.0)) > free_of_guard<Cell>(constants, s));
+    if (any(far))
+      for (int s = 0; s < Cell::simplices; ++s) p[s] += Pack(g.guard) * K * guard_pressure(J[s], free_of_guard<Cell>(constants, s));
+  }
 }
 
 /// Simplices of a cell that go through the law at a time.
@@ -70,24 +74,24 @@ template <class Cell> struct BlockForces {
     for (int m = 0; m < D; ++m) on_node[Cell::table[s][m + 1]][0] -= hoop;
     hoops += hoop;
   }
-  /// Of sigma = p I + S (3.4) of simplex s, e its edges for the law with their areas: the force on edge m is -V sigma . x^m, that of the
-  /// hoop of a ring -V sigma . x^3.
-  [[gnu::always_inline]] void add(int s, const CellEdges<Cell>& e, Symmetric<Pack, D> S, const Pack& p) {
+  /// Of simplex s, e its edges for the law with their normals: what the law pulls, and p.
+  template <class Pull> [[gnu::always_inline]] void add(int s, const CellEdges<Cell>& e, Pull pull, const Pack& p) {
     if constexpr (Cell::drawn) {  // -V~ S . y^m on the edges of the law, -V p x^m on those of the volume
       Vector<Pack, D> force[D];
       CellEdges<Cell> of_volume;
       edges_of<Cell>(constants, x, s, of_volume.x);
-      find_areas(of_volume);
+      find_normals(of_volume);
+      const Pack part = Pack(kVolumePart<D, Cell::ring>) * p;
       for (int m = 0; m < D; ++m) {
-        force[m] = S * (Pack(-1.0) * e.area[m]);
-        on_node[Cell::table[s][m + 1]] -= p * of_volume.area[m];
+        force[m] = pull.on(e, m);
+        on_node[Cell::table[s][m + 1]] -= part * of_volume.normal[m];
       }
       add_law_forces<Cell>(constants, force, s, on_drawn);
-      if constexpr (Cell::ring) add_hoop(s, e.area[2][0] * S[2] + of_volume.area[2][0] * p);
+      if constexpr (Cell::ring) add_hoop(s, pull.on_hoop(e) + of_volume.normal[2][0] * part);
     } else {
-      for (int c = 0; c < 3; ++c) S[c] += p;
-      for (int m = 0; m < D; ++m) on_node[Cell::table[s][m + 1]] -= S * e.area[m];
-      if constexpr (Cell::ring) add_hoop(s, e.area[2][0] * S[2]);
+      pull.add(p);
+      for (int m = 0; m < D; ++m) on_node[Cell::table[s][m + 1]] -= pull.on(e, m);
+      if constexpr (Cell::ring) add_hoop(s, pull.on_hoop(e));
     }
   }
 };
@@ -122,7 +126,7 @@ template <class Cell, int n> struct BlockPoints {
     return of_law;
   }
   [[gnu::always_inline]] void dissipate(int i, const Pack& what) { dissipated += what * initial_volume(g, memory(i)); }
-  [[gnu::always_inline]] void respond(int i, const CellEdges<Cell>& e, const Symmetric<Pack, D>& S, BlockForces<Cell>& forces) const { forces.add(simplex(i), e, S, p[simplex(i)]); }
+  template <class Pull> [[gnu::always_inline]] void respond(int i, const CellEdges<Cell>& e, const Pull& pull, BlockForces<Cell>& forces) const { forces.add(simplex(i), e, pull, p[simplex(i)]); }
 };
 
 template <class Cell, Made made>
@@ -167,7 +171,7 @@ template <class Cell, Made made>
       }
       const PointResponse<Pack, D> point = point_step(g.solid, e, classical ? w : nullptr, points.ratio(0, e), points.memory(0), Keep::yes);
       points.dissipate(0, point.dissipation);
-      points.respond(0, e, point.S, forces);
+      points.respond(0, e, pull_of<D, Cell::ring>(point.S), forces);
     }
   }
   if constexpr (Cell::drawn) hand_back<Cell>(constants, forces.on_drawn, forces.on_node);

@@ -57,11 +57,12 @@ template <class Cell> [[gnu::flatten]] void forces_of_block(const CellGroup& g, 
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
     edges_of<Cell>(nullptr, x, s, e.x);
-    find_areas(e);
+    find_normals(e);
     upright = upright & (J[s] > Pack(0.0));
-    for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]] -= p[s] * e.area[m];
+    const Pack share = Pack(kVolumePart<D, Cell::ring>) * p[s];
+    for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]] -= share * e.normal[m];
     if constexpr (Cell::ring) {  // a third on each corner, since x_3 is their mean radius
-      const Pack hoop = e.area[2][0] * p[s] * Pack(1.0 / 3);
+      const Pack hoop = e.normal[2][0] * share * Pack(1.0 / 3);
       for (int m = 0; m < D; ++m) f[Cell::table[s][m + 1]][0] -= hoop;
       hoops += hoop;
     }

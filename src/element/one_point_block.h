@@ -92,7 +92,7 @@ template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_block
   });
   repeat<D>([&](auto m) { repeat<D>([&](auto i) { force[m][i] = dot(M[i], e.up[m]); }); });
   Pack hoop;  // of a ring, through the weights of x_3
-  if constexpr (Cell::ring) hoop = e.area[2][0] * point.S[2];
+  if constexpr (Cell::ring) hoop = e.volume * e.up[2][0] * point.S[2];
 
   const AtCorners<Pack, D> corners(r);
   const int* slots = g.slots + block * Cell::nodes * kLanes;

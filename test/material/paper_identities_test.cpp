@@ -110,8 +110,8 @@ TEST(AppendixB, ReciprocalVectorsInThePlane) { check_reciprocal<2>(); }
 
 /// G^x of an element: x^m . x^k.
 template <int D> Symmetric<double, D> metric(const Edges<double, D>& e) {
-  Symmetric<double, D> G = area_metric(e);
-  for (int i = 0; i < Symmetric<double, D>::size; ++i) G[i] /= e.volume * e.volume;
+  Symmetric<double, D> G = metric_of_normals(e);
+  for (int i = 0; i < Symmetric<double, D>::size; ++i) G[i] /= e.det * e.det;
   return G;
 }
 

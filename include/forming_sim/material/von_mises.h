@@ -70,16 +70,18 @@ constexpr double series_of_power(int n) { return n == 0 ? 1.0 : series_of_power(
 /// J^(-5/3) for J > 0. For |J - 1| <= 0.02, where metals are, by its series to the ninth power, in pairs of terms that do
 /// not wait for each other: to round-off.
 template <class T> T power_minus_five_thirds(const T& J) {
-  const T d = J - T(1);
-  if (any(absolute(d) > T(0.02))) {
+  const T d = J - T(1), away = absolute(d);
+  constexpr double c[10] = {series_of_power(0), series_of_power(1), series_of_power(2), series_of_power(3), series_of_power(4),
+                            series_of_power(5), series_of_power(6), series_of_power(7), series_of_power(8), series_of_power(9)};
+  const auto pair = [&](int n) { return T(c[n]) + T(c[n + 1]) * d; };
+  const T d2 = d * d;
+  if (!any(away > T(0.004))) return (pair(0) + d2 * pair(2)) + d2 * d2 * (pair(4) + d2 * T(c[6]));
+  if (any(away > T(0.02))) {
     const T j13 = inverse_cube_root(J);
     const T j23 = j13 * j13;
     return j23 * j23 * j13;
   }
-  constexpr double c[10] = {series_of_power(0), series_of_power(1), series_of_power(2), series_of_power(3), series_of_power(4),
-                            series_of_power(5), series_of_power(6), series_of_power(7), series_of_power(8), series_of_power(9)};
-  const auto pair = [&](int n) { return T(c[n]) + T(c[n + 1]) * d; };
-  const T d2 = d * d, d4 = d2 * d2;
+  const T d4 = d2 * d2;
   return (pair(0) + d2 * pair(2)) + d4 * ((pair(4) + d2 * pair(6)) + d4 * pair(8));
 }
 
@@ -91,7 +93,8 @@ template <class T> T stress_factor(const SolidConstants& m, const T& J) {
 /// The trial state B' = s I + D (3.51) of a layer, m = D : D, the stress that it would have, S' = factor D, and Q = q_S'^2.
 template <class T, int D> struct Trial {
   Symmetric<T, D> deviator;
-  T s, m, factor, Q;
+  T s, m, factor;
+  T Q() const { return T(1.5) * m * factor * factor; }
 };
 /// factor: stress_factor(m, J).
 template <class T, int D> [[gnu::always_inline]] inline void find_trial(const Symmetric<T, D>& B, const T& factor, Trial<T, D>& trial) {
@@ -99,7 +102,6 @@ template <class T, int D> [[gnu::always_inline]] inline void find_trial(const Sy
   Symmetric<T, D> d;
   repeat<Symmetric<T, D>::size>([&](auto i) { d[i] = i < 3 ? B[i] - s : B[i]; });
   const T m = contract(d, d);
-  trial.Q = T(1.5) * m * factor * factor;
   trial.deviator = d;
   trial.s = s;
   trial.m = m;
@@ -107,9 +109,9 @@ template <class T, int D> [[gnu::always_inline]] inline void find_trial(const Sy
 }
 
 /// Which trial states lie outside of the yield surface.
-template <class T, int D> auto yields(const Trial<T, D>& trial, const YieldStress<T>& yield) { return trial.Q > yield.value * yield.value * T(1 + 2 * kOnTheSurface); }
+template <class T, int D> auto yields(const Trial<T, D>& trial, const YieldStress<T>& yield) { return trial.Q() > yield.value * yield.value * T(1 + 2 * kOnTheSurface); }
 /// Those that do so at the lowest stress that the curve knows: none other has to be asked for its root.
-template <class T, int D> auto may_yield(const HardeningCurve& h, const Trial<T, D>& trial) { return trial.Q > T(h.lowest * h.lowest); }
+template <class T, int D> auto may_yield(const HardeningCurve& h, const Trial<T, D>& trial) { return trial.Q() > T(h.lowest * h.lowest); }
 
 /// How a trial state flows.
 template <class T> struct Flow {
@@ -123,7 +125,7 @@ template <class T, int D> [[gnu::always_inline]] inline Flow<T> find_flow(const 
   const T over_det = T(1) / (s * (s * s - T(0.5) * m) + d);
   Flow<T> flow;
   flow.k = sqrt(T(1.5) * (s * (s * m - T(6) * d) + m * m * T(1.0 / 6))) * (over_det * T(1.0 / 3));
-  flow.q = select(yields(trial, yield), sqrt(trial.Q), yield.value);
+  flow.q = select(yields(trial, yield), sqrt(trial.Q()), yield.value);
   flow.u = first_correction(flow.q, flow.k, yield);
   flow.work = (s * m - T(3) * d) * over_det;
   return flow;
@@ -177,8 +179,8 @@ template <class T, int D> struct Metric {
   Symmetric<T, D> A;
   T over;
 };
-/// From what find_areas() gives, and from what find_reciprocal() gives.
-template <class T, int D, bool Ring> Metric<T, D> metric_of_areas(const Edges<T, D, Ring>& e) { return {area_metric(e), T(1) / (e.volume * e.volume)}; }
+/// From what find_normals() gives, and from what find_reciprocal() gives.
+template <class T, int D, bool Ring> Metric<T, D> metric_from_normals(const Edges<T, D, Ring>& e) { return {metric_of_normals(e), T(1) / (e.det * e.det)}; }
 template <class T, int D, bool Ring> Metric<T, D> metric_of_vectors(const Edges<T, D, Ring>& e) { return {metric_of<D, Ring>(e.up, T(1)), T(1)}; }
 
 /// (3.54) of the layer whose memory starts at `memory`, u = 1 - a; its p is stored already.

@@ -3,6 +3,7 @@
 // the next begins. A point's roots and divisions wait for each other, but not for those of the next point, and a
 // processor looks ahead some hundred operations: so a pass is short, what is needed once only is asked for
 // again, and what goes from pass to pass is little, since a store of a Pack costs as much as two products.
+#include "forming_sim/material/edge_pull.h"
 #include "forming_sim/material/von_mises.h"
 
 namespace forming_sim {
@@ -12,11 +13,22 @@ template <class T, int D, int N> struct LayerOfPoints {
   Trial<T, D> trial[N];
   T u[N];  ///< 1 - a of each
 
-  /// S of a point, as if the body were made of this layer.
-  Symmetric<T, D> stress(int i) const {
-    Symmetric<T, D> S;
-    repeat<Symmetric<T, D>::size>([&](auto c) { S[c] = trial[i].factor * trial[i].deviator[c]; });
-    return S;
+  /// Of the single layer of a body.
+  template <bool Ring> StressPull<T, D, Ring> pull(int i) const {
+    const T share = T(kVolumePart<D, Ring>) * trial[i].factor;
+    StressPull<T, D, Ring> of_layer;
+    repeat<Symmetric<T, D>::size>([&](auto c) { of_layer.share[c] = share * trial[i].deviator[c]; });
+    return of_layer;
+  }
+  /// Adds w times that of a layer.
+  template <bool Ring> void add(int i, const T& w, StressPull<T, D, Ring>& sum) const {
+    const T share = w * T(kVolumePart<D, Ring>) * trial[i].factor;
+    repeat<Symmetric<T, D>::size>([&](auto c) { sum.share[c] += share * trial[i].deviator[c]; });
+  }
+  /// Likewise of the single layer of a body in space. y: y^m.
+  WayPull<T> pull_of_ways(int i, const Edges<T, 3>& e, const Vector<T, 3>* y) const {
+    const T share = T(kVolumePart<3, false>) * trial[i].factor;
+    return {y, share * e.det, -(share * trial[i].s)};
   }
 
   /// After the trials are found: the corrections and the p of those that yield, and whether any does. memory(i): of this
@@ -34,16 +46,21 @@ template <class T, int D, int N> struct LayerOfPoints {
     if (!may) return none();
     YieldStress<T> yield[N];
     Flow<T> flow[N];
-    bool flows = false;
+    bool flows[N], any_flows = false;
     for (int i = 0; i < N; ++i) {
       T p;
       load(memory(i), plastic_strain, p);
       yield[i] = yield_stress(hardening, p);
-      flows |= any(yields(trial[i], yield[i]));
+      flows[i] = any(yields(trial[i], yield[i]));
+      if (flows[i]) {
+        flow[i] = find_flow(trial[i], yield[i]);
+        any_flows = true;
+      }
     }
-    if (!flows) return none();
-    for (int i = 0; i < N; ++i) flow[i] = find_flow(trial[i], yield[i]);
+    if (!any_flows) return none();
     for (int i = 0; i < N; ++i) {
+      u[i] = T(0);
+      if (!flows[i]) continue;
       T p;
       load(memory(i), plastic_strain, p);
       const Correction<T> c = correct(hardening, trial[i], flow[i], J[i], p, yield[i]);
@@ -63,60 +80,106 @@ template <int D, int N, class F> [[gnu::always_inline]] inline void each_point(F
 }
 
 /// A step of N points of a body with one layer. `at` knows them, and is asked of point i:
-///   at.edges(i, e)               its edges, twice
-///   at.ratio(i, e)               J, once
-///   at.memory(i)                 where its memory starts
-///   at.dissipate(i, what)        takes the plastic work of the step, J/m3, where any of them flows
-///   at.respond(i, e, S, forces)  takes its stress beside the pressure into `forces`; e has areas.
+///   at.edges(i, e)                  its edges, more than once
+///   at.ratio(i, e)                  J, once
+///   at.memory(i)                    where its memory starts
+///   at.dissipate(i, what)           takes the plastic work of the step, J/m3, where any of them flows
+///   at.respond(i, e, pull, forces)  takes what its stress beside the pressure does (material/edge_pull.h) into `forces`; e has normals.
 template <int N, class T, int D, bool Ring, class At, class Forces> [[gnu::always_inline]] inline void one_layer_of_points(const SolidConstants& m, At& at, Forces& forces) {
+  constexpr bool by_ways = D == 3;
   LayerOfPoints<T, D, N> layer;
   T J[N];
+  Vector<T, D> y[by_ways ? N : 1][D];
 #pragma GCC unroll 1
   for (int i = 0; i < N; ++i) {
     Edges<T, D, Ring> e;
     at.edges(i, e);
     J[i] = at.ratio(i, e);
-    find_trial(push(load_memory<T, D>(at.memory(i)), e), stress_factor(m, J[i]), layer.trial[i]);
+    const Symmetric<T, D> G = load_memory<T, D>(at.memory(i));
+    Vector<T, D>* way = y[by_ways ? i : 0];
+    raise(G, e, way);
+    find_trial(push(G, e, way), stress_factor(m, J[i]), layer.trial[i]);
   }
   const bool flows = layer.correct_all(m.layer[0].hardening, J, [&](int i) { return at.memory(i); }, [&](int i, const T& what) { at.dissipate(i, what); });
   each_point<D, N>([&](auto i) __attribute__((always_inline)) {
     Edges<T, D, Ring> e;
     at.edges(i, e);
-    find_areas(e);
-    at.respond(i, e, layer.stress(i), forces);
-    if (flows) keep_flow(at.memory(i), layer.u[i], metric_of_areas(e));
+    find_normals(e);
+    if constexpr (by_ways) at.respond(i, e, layer.pull_of_ways(i, e, y[i]), forces);
+    else at.respond(i, e, layer.template pull<Ring>(i), forces);
+    if (flows) keep_flow(at.memory(i), layer.u[i], metric_from_normals(e));
   });
 }
 
-/// Likewise with several.
+/// Likewise with several. In space the edges of a point are found again for each layer, since they would fill a cache; in the plane
+/// what is found of a point stays.
 template <int N, class T, int D, bool Ring, class At, class Forces> [[gnu::always_inline]] inline void layers_of_points(const SolidConstants& m, At& at, Forces& forces) {
-  constexpr int size = Symmetric<T, D>::size;
   LayerOfPoints<T, D, N> layer;
-  Edges<T, D, Ring> e[N];
   T J[N], factor[N];
   Metric<T, D> metric[N];
-  Symmetric<T, D> S[N];
-  each_point<D, N>([&](auto i) __attribute__((always_inline)) {
-    at.edges(i, e[i]);
-    J[i] = at.ratio(i, e[i]);
-    factor[i] = stress_factor(m, J[i]);
-    find_areas(e[i]);
-    metric[i] = metric_of_areas(e[i]);
-    repeat<size>([&](auto c) { S[i][c] = T(0); });
-  });
-  for (int k = 0; k < m.layers; ++k) {
-    const auto memory = [&](int i) { return at.memory(i) + k * kLayerItems<D> * lanes_of<T>; };
-    const T w(m.layer[k].weight);
-#pragma GCC unroll 1
-    for (int i = 0; i < N; ++i) find_trial(push(load_memory<T, D>(memory(i)), e[i]), factor[i], layer.trial[i]);
-    const bool flows = layer.correct_all(m.layer[k].hardening, J, memory, [&](int i, const T& what) { at.dissipate(i, w * what); });
+  StressPull<T, D, Ring> sum[N];
+  if constexpr (D == 2) {
+    Edges<T, D, Ring> e[N];
     each_point<D, N>([&](auto i) __attribute__((always_inline)) {
-      const Symmetric<T, D> of_layer = layer.stress(i);
-      repeat<size>([&](auto c) { S[i][c] += w * of_layer[c]; });
-      if (flows) keep_flow(memory(i), layer.u[i], metric[i]);
+      at.edges(i, e[i]);
+      J[i] = at.ratio(i, e[i]);
+      factor[i] = stress_factor(m, J[i]);
+      find_normals(e[i]);
+      metric[i] = metric_from_normals(e[i]);
+      repeat<Symmetric<T, D>::size>([&](auto c) { sum[i].share[c] = T(0); });
     });
+    for (int k = 0; k < m.layers; ++k) {
+      const auto memory = [&](int i) { return at.memory(i) + k * kLayerItems<D> * lanes_of<T>; };
+      const T w(m.layer[k].weight);
+#pragma GCC unroll 1
+      for (int i = 0; i < N; ++i) find_trial(push(load_memory<T, D>(memory(i)), e[i]), factor[i], layer.trial[i]);
+      const bool flows = layer.correct_all(m.layer[k].hardening, J, memory, [&](int i, const T& what) { at.dissipate(i, w * what); });
+      each_point<D, N>([&](auto i) __attribute__((always_inline)) {
+        layer.add(i, w, sum[i]);
+        if (flows) keep_flow(memory(i), layer.u[i], metric[i]);
+      });
+    }
+    each_point<D, N>([&](auto i) __attribute__((always_inline)) { at.respond(i, e[i], sum[i], forces); });
+  } else {
+    bool knows_metrics = false;
+    for (int k = 0; k < m.layers; ++k) {
+      const auto memory = [&](int i) { return at.memory(i) + k * kLayerItems<D> * lanes_of<T>; };
+      const T w(m.layer[k].weight);
+      for (int i = 0; i < N; ++i) {
+        Edges<T, D, Ring> e;
+        at.edges(i, e);
+        if (k == 0) {
+          J[i] = at.ratio(i, e);
+          factor[i] = stress_factor(m, J[i]);
+          repeat<Symmetric<T, D>::size>([&](auto c) { sum[i].share[c] = T(0); });
+        }
+        find_trial(push(load_memory<T, D>(memory(i)), e), factor[i], layer.trial[i]);
+      }
+      const bool flows = layer.correct_all(m.layer[k].hardening, J, memory, [&](int i, const T& what) { at.dissipate(i, w * what); });
+      if (flows && !knows_metrics) {
+        for (int i = 0; i < N; ++i) {
+          Edges<T, D, Ring> e;
+          at.edges(i, e);
+          find_normals(e);
+          metric[i] = metric_from_normals(e);
+        }
+        knows_metrics = true;
+      }
+      for (int i = 0; i < N; ++i) {
+        if (flows) keep_flow(memory(i), layer.u[i], metric[i]);
+        StressPull<T, D, Ring> pull = sum[i];
+        layer.add(i, w, pull);
+        if (k + 1 < m.layers) {
+          sum[i] = pull;
+          continue;
+        }
+        Edges<T, D, Ring> e;
+        at.edges(i, e);
+        find_normals(e);
+        at.respond(i, e, pull, forces);
+      }
+    }
   }
-  each_point<D, N>([&](auto i) __attribute__((always_inline)) { at.respond(i, e[i], S[i], forces); });
 }
 
 /// A step of N points of a body of either.

@@ -43,17 +43,20 @@ namespace FORMING_SIM_ISA {
 
 typedef double Lanes __attribute__((vector_size(64)));
 typedef std::int64_t Bits __attribute__((vector_size(64)));
+typedef std::uint64_t Whole __attribute__((vector_size(64)));
 
 /// One truth a lane.
 #if defined(__AVX512DQ__)
 struct Mask {
   __mmask8 v;  ///< a bit a lane
   friend Mask operator&(Mask a, Mask b) { return {static_cast<__mmask8>(a.v & b.v)}; }
+  friend Mask operator|(Mask a, Mask b) { return {static_cast<__mmask8>(a.v | b.v)}; }
 };
 #else
 struct Mask {
   Bits v;  ///< all ones where true
   friend Mask operator&(Mask a, Mask b) { return {a.v & b.v}; }
+  friend Mask operator|(Mask a, Mask b) { return {a.v | b.v}; }
 };
 #endif
 
@@ -198,20 +201,32 @@ inline Pack sqrt(Pack a) {
   return r;
 }
 
-/// e^x to 2 units in the last place for |x| < 700, clamped beyond: x = n ln 2 + r,
-/// |r| <= ln 2 / 2, e^r by its Taylor polynomial of degree 13, in pairs of terms that do not wait for each other.
+/// 2^(j/16) of the lowest four bits of each lane.
+inline Pack sixteenth_power(Bits j) {
+  alignas(64) static constexpr double powers[16] = {
+      1, 1.0442737824274138, 1.0905077326652577, 1.1387886347566916, 1.189207115002721, 1.241857812073484, 1.2968395546510096, 1.3542555469368927, 1.4142135623730951, 1.4768261459394993, 1.5422108254079407, 1.6104903319492543, 1.681792830507429, 1.7562521603732995, 1.8340080864093424, 1.9152065613971474};
+#if defined(__AVX512DQ__)
+  return Pack(_mm512_permutex2var_pd(_mm512_load_pd(powers), (__m512i)j, _mm512_load_pd(powers + 8)));
+#else
+  Pack r;
+  for (int l = 0; l < kLanes; ++l) r.v[l] = powers[j[l] & 15];
+  return r;
+#endif
+}
+
+/// e^x to 2 units in the last place for |x| < 700, clamped beyond: x = n ln 2 / 16 + r,
+/// |r| <= ln 2 / 32, e^r - 1 by its Taylor polynomial of degree 7, in pairs of terms that do not wait for each other.
 inline Pack exp(Pack x) {
   const double round_magic = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to an integer
   x = smaller(larger(x, Pack(-700.0)), Pack(700.0));
-  const Lanes shifted = x.v * 1.4426950408889634 + round_magic;
+  const Lanes shifted = x.v * (16 * 1.4426950408889634) + round_magic;
   const Pack n(shifted - round_magic);
-  const Pack r = (x - n * Pack(6.93145751953125e-1)) - n * Pack(1.42860682030941723212e-6);
-  const auto pair = [&](double c, double next) { return Pack(c) + Pack(next) * r; };
-  const Pack r2 = r * r, r4 = r2 * r2, r8 = r4 * r4;
-  const Pack low = (pair(1.0, 1.0) + r2 * pair(0.5, 1.0 / 6)) + r4 * (pair(1.0 / 24, 1.0 / 120) + r2 * pair(1.0 / 720, 1.0 / 5040));
-  const Pack high = (pair(1.0 / 40320, 1.0 / 362880) + r2 * pair(1.0 / 3628800, 1.0 / 39916800)) + r4 * pair(1.0 / 479001600, 1.0 / 6227020800.0);
-  const Pack e = low + r8 * high;
-  return Pack((Lanes)(((Bits)shifted << 52) + (Bits)e.v));  // the low bits of `shifted` hold n
+  const Pack r = (x - n * Pack(0.04332169875851832)) - n * Pack(2.64782585363080249318e-11);
+  const Pack r2 = r * r;
+  const Pack beyond_one = r + r2 * ((Pack(0.5) + Pack(1.0 / 6) * r) + r2 * (Pack(1.0 / 24) + Pack(1.0 / 120) * r + r2 * (Pack(1.0 / 720) + Pack(1.0 / 5040) * r)));
+  const Bits power = (Bits)shifted;  // the low bits hold n
+  const Pack start = sixteenth_power(power);
+  return Pack((Lanes)((Bits)(((Whole)power >> 4) << 52) + (Bits)(start + start * beyond_one).v));
 }
 
 }  // namespace FORMING_SIM_ISA

@@ -126,42 +126,45 @@ constexpr double kTwoPi = 6.28318530717958647692;
 /// x^3 = e_3 / r as up[2] = (1/r, 0); V = 2 pi r A, the whole circle.
 template <class T, int D, bool Ring = false> struct Edges {
   Vector<T, D> x[kEdges<D, Ring>];   ///< x_m
-  Vector<T, D> area[kEdges<D, Ring>];  ///< V x^m
+  Vector<T, D> normal[kEdges<D, Ring>];  ///< det x^m
+  T det;                             ///< x_1 . (x_2 x x_3), of a plane simplex with x_3 = e_3
   Vector<T, D> up[kEdges<D, Ring>];  ///< x^m, only where find_reciprocal was asked
-  T volume;
+  T volume;                          ///< likewise
 };
+
+/// V over det.
+template <int D, bool Ring> constexpr double kVolumePart = D == 3 ? 1.0 / 6 : Ring ? 0.5 * kTwoPi : 0.5;
 
 /// V alone.
 template <class T, int D, bool Ring = false> T simplex_volume(const Vector<T, D>* x) {
-  if constexpr (Ring) return T(0.5 * kTwoPi) * x[2][0] * (x[0][0] * x[1][1] - x[0][1] * x[1][0]);
-  else if constexpr (D == 2) return T(0.5) * (x[0][0] * x[1][1] - x[0][1] * x[1][0]);
-  else return T(1.0 / 6) * dot(x[0], cross(x[1], x[2]));
+  const T part(kVolumePart<D, Ring>);
+  if constexpr (Ring) return part * x[2][0] * (x[0][0] * x[1][1] - x[0][1] * x[1][0]);
+  else if constexpr (D == 2) return part * (x[0][0] * x[1][1] - x[0][1] * x[1][0]);
+  else return part * dot(x[0], cross(x[1], x[2]));
 }
 
-/// V and V x^m, products of the edges without a division.
-template <class T, int D, bool Ring> void find_areas(Edges<T, D, Ring>& e) {
-  if constexpr (D == 2) {
-    T half(0.5);
-    if constexpr (Ring) {
-      const T section = T(0.5) * (e.x[0][0] * e.x[1][1] - e.x[0][1] * e.x[1][0]);
-      e.area[2] = {{T(kTwoPi) * section, T(0)}};
-      half = T(0.5 * kTwoPi) * e.x[2][0];
-    }
-    e.area[0] = {{half * e.x[1][1], -(half * e.x[1][0])}};
-    e.area[1] = {{-(half * e.x[0][1]), half * e.x[0][0]}};
+/// det and det x^m, products of the edges without a division.
+template <class T, int D, bool Ring> void find_normals(Edges<T, D, Ring>& e) {
+  if constexpr (D == 3) {
+    e.normal[0] = cross(e.x[1], e.x[2]);
+    e.normal[1] = cross(e.x[2], e.x[0]);
+    e.normal[2] = cross(e.x[0], e.x[1]);
   } else {
-    const Vector<T, 3> x_1 = T(1.0 / 6) * e.x[1], x_2 = T(1.0 / 6) * e.x[2];
-    e.area[0] = cross(e.x[1], x_2);
-    e.area[1] = cross(x_2, e.x[0]);
-    e.area[2] = cross(e.x[0], x_1);
+    e.normal[0] = {{e.x[1][1], -e.x[1][0]}};
+    e.normal[1] = {{-e.x[0][1], e.x[0][0]}};
+    if constexpr (Ring) {
+      e.normal[2] = {{dot(e.x[0], e.normal[0]), T(0)}};
+      for (int m = 0; m < 2; ++m) e.normal[m] = e.x[2][0] * e.normal[m];
+    }
   }
-  e.volume = dot(e.x[0], e.area[0]);
+  e.det = dot(e.x[0], e.normal[0]);
 }
 
 template <class T, int D, bool Ring> void find_reciprocal(Edges<T, D, Ring>& e) {
-  find_areas(e);
-  const T inverse = T(1) / e.volume;
-  repeat<kEdges<D, Ring>>([&](auto m) { e.up[m] = inverse * e.area[m]; });
+  find_normals(e);
+  const T inverse = T(1) / e.det;
+  repeat<kEdges<D, Ring>>([&](auto m) { e.up[m] = inverse * e.normal[m]; });
+  e.volume = T(kVolumePart<D, Ring>) * e.det;
 }
 
 /// What the length of an element follows from: its volume; in a ring, too, the area of its section.
@@ -170,31 +173,40 @@ template <class T, int D, bool Ring> T extent(const Edges<T, D, Ring>& e) {
   else return e.volume;
 }
 
-/// B = x_m x_k G^mk (3.36); plane strain: B_33 = G^33, ring: r^2 G^33.
-template <class T, int D, bool Ring> [[gnu::always_inline]] inline Symmetric<T, D> push(const Symmetric<T, D>& G, const Edges<T, D, Ring>& e) {
-  // y^m = G^mk x_k, B = x_m y^m
-  Symmetric<T, D> B;
-  if constexpr (D == 2) {
-    const Vector<T, 2> y0 = {{G[0] * e.x[0][0] + G[3] * e.x[1][0], G[0] * e.x[0][1] + G[3] * e.x[1][1]}};
-    const Vector<T, 2> y1 = {{G[3] * e.x[0][0] + G[1] * e.x[1][0], G[3] * e.x[0][1] + G[1] * e.x[1][1]}};
-    B[0] = e.x[0][0] * y0[0] + e.x[1][0] * y1[0];
-    B[1] = e.x[0][1] * y0[1] + e.x[1][1] * y1[1];
-    B[2] = G[2];
-    if constexpr (Ring) B[2] *= e.x[2][0] * e.x[2][0];
-    B[3] = e.x[0][0] * y0[1] + e.x[1][0] * y1[1];
-  } else {
-    Vector<T, 3> y[3];
-    repeat<3>([&](auto i) {
+/// y^m = G^mk x_k.
+template <class T, int D, bool Ring> [[gnu::always_inline]] inline void raise(const Symmetric<T, D>& G, const Edges<T, D, Ring>& e, Vector<T, D>* y) {
+  repeat<D>([&](auto i) {
+    if constexpr (D == 2) {
+      y[0][i] = G[0] * e.x[0][i] + G[3] * e.x[1][i];
+      y[1][i] = G[3] * e.x[0][i] + G[1] * e.x[1][i];
+    } else {
       y[0][i] = G[0] * e.x[0][i] + G[3] * e.x[1][i] + G[5] * e.x[2][i];
       y[1][i] = G[3] * e.x[0][i] + G[1] * e.x[1][i] + G[4] * e.x[2][i];
       y[2][i] = G[5] * e.x[0][i] + G[4] * e.x[1][i] + G[2] * e.x[2][i];
-    });
+    }
+  });
+}
+/// B = x_m x_k G^mk (3.36) = x_m y^m; plane strain: B_33 = G^33, ring: r^2 G^33.
+template <class T, int D, bool Ring> [[gnu::always_inline]] inline Symmetric<T, D> push(const Symmetric<T, D>& G, const Edges<T, D, Ring>& e, const Vector<T, D>* y) {
+  Symmetric<T, D> B;
+  if constexpr (D == 2) {
+    B[0] = e.x[0][0] * y[0][0] + e.x[1][0] * y[1][0];
+    B[1] = e.x[0][1] * y[0][1] + e.x[1][1] * y[1][1];
+    B[2] = G[2];
+    if constexpr (Ring) B[2] *= e.x[2][0] * e.x[2][0];
+    B[3] = e.x[0][0] * y[0][1] + e.x[1][0] * y[1][1];
+  } else {
     repeat<6>([&](auto k) {
       constexpr int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
       B[k] = e.x[0][row[k]] * y[0][column[k]] + e.x[1][row[k]] * y[1][column[k]] + e.x[2][row[k]] * y[2][column[k]];
     });
   }
   return B;
+}
+template <class T, int D, bool Ring> [[gnu::always_inline]] inline Symmetric<T, D> push(const Symmetric<T, D>& G, const Edges<T, D, Ring>& e) {
+  Vector<T, D> y[D];
+  raise(G, e, y);
+  return push(G, e, y);
 }
 
 /// s^2 G^x from the s x^m, G^x the components x^m . x^k; plane strain: G^33 = 1, ring: 1/r^2.
@@ -213,7 +225,7 @@ template <int D, bool Ring, class T> [[gnu::always_inline]] inline Symmetric<T, 
   }
   return A;
 }
-/// V^2 G^x.
-template <class T, int D, bool Ring> Symmetric<T, D> area_metric(const Edges<T, D, Ring>& e) { return metric_of<D, Ring>(e.area, e.volume); }
+/// det^2 G^x.
+template <class T, int D, bool Ring> Symmetric<T, D> metric_of_normals(const Edges<T, D, Ring>& e) { return metric_of<D, Ring>(e.normal, e.det); }
 
 }  // namespace forming_sim
