@@ -145,12 +145,20 @@ template <class Cell> void balance_apex(const Pack& hoops, Vector<Pack, kD<Cell>
 template <class Cell> double* memory_of(const CellGroup& g, long block, int s) {
   return g.memory + (block * Cell::simplices + s) * g.items * kLanes;
 }
-/// Fetches the memory of the simplex so many behind this one: what the processor fetches ahead by itself ends with a page, which
-/// a few simplices fill. Behind the last there is nothing to fetch, which does no harm. (Where it is not inlined at once the compiler
-/// takes it for a function that does nothing, and leaves it out.)
-[[gnu::always_inline]] inline void fetch_ahead(const CellGroup& g, const double* memory, int simplices) {
-  const std::uintptr_t ahead = reinterpret_cast<std::uintptr_t>(memory) + static_cast<std::uintptr_t>(simplices) * g.items * sizeof(Lane);
-  for (int i = 0; i < g.items; ++i) __builtin_prefetch(reinterpret_cast<const void*>(ahead + i * sizeof(Lane)), 1);
+/// Fetches so many lines of what is needed soon into the second cache: what the processor fetches ahead by itself ends with a
+/// page. The first cache is too small for it: what comes too early there drives out what is in use. Behind the end of an array there is nothing to fetch, which does no harm. (Where it is not inlined at
+/// once the compiler takes it for a function that does nothing, and leaves it out.)
+[[gnu::always_inline]] inline void fetch_ahead(const void* from, long bytes_ahead, long lines) {
+  const std::uintptr_t ahead = reinterpret_cast<std::uintptr_t>(from) + static_cast<std::uintptr_t>(bytes_ahead);
+  for (long i = 0; i < lines; ++i) __builtin_prefetch(reinterpret_cast<const void*>(ahead + static_cast<std::uintptr_t>(i) * sizeof(Lane)), 0, 2);
+}
+/// The memory of the simplex so many behind this one.
+[[gnu::always_inline]] inline void fetch_memory(const CellGroup& g, const double* memory, int simplices) {
+  fetch_ahead(memory, static_cast<long>(simplices) * g.items * static_cast<long>(sizeof(Lane)), g.items);
+}
+/// V0 of the simplex so many behind this one.
+[[gnu::always_inline]] inline void fetch_initial_volume(const CellGroup& g, const double* memory, int simplices) {
+  fetch_ahead(memory, (static_cast<long>(simplices) * g.items + g.items - 1) * static_cast<long>(sizeof(Lane)), 1);
 }
 /// Lanes of a block that are not copies.
 inline int lanes_in_use(const CellGroup& g, long block) { return block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes; }

@@ -52,6 +52,9 @@ template <int D, bool Ring, int N> struct BlocksOfPoints {
 
   BlocksOfPoints(const CellGroup& g, const NodalView& view, long block) : g(g), block(block) {
     for (int i = 0; i < N; ++i) {
+      fetch_memory(g, memory(i), 8);
+      const long weights = static_cast<long>(g.cell_nodes) * edge_weights(D, Ring);
+      fetch_ahead(weights_of<D, Ring>(g, block + i), 8 * weights * static_cast<long>(sizeof(Lane)), weights);
       const Edges<Pack, D, Ring> e = edges_of_point<D, Ring>(g, view, block + i);
       for (int m = 0; m < kEdges<D, Ring>; ++m) x[i][m] = e.x[m];
       dissipated[i] = Pack(0.0);

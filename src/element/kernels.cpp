@@ -120,13 +120,16 @@ template <class Cell, int n> struct BlockPoints {
   [[gnu::always_inline]] void edges(int i, CellEdges<Cell>& e) const { law_edges<Cell>(constants, x, drawn, simplex(i), e.x); }
   /// J that the law sees.
   [[gnu::always_inline]] Pack ratio(int i, const CellEdges<Cell>& e) {
-    fetch_ahead(g, memory(i), 4);
+    fetch_memory(g, memory(i), 16);
     const Pack of_law = Cell::drawn ? simplex_volume<Pack, D, Cell::ring>(e.x) / initial_volume(g, memory(i)) : J[simplex(i)];
     upright = upright & (J[simplex(i)] > Pack(0.0)) & (of_law > Pack(0.0));
     return of_law;
   }
   [[gnu::always_inline]] void dissipate(int i, const Pack& what) { dissipated += what * initial_volume(g, memory(i)); }
-  template <class Pull> [[gnu::always_inline]] void respond(int i, const CellEdges<Cell>& e, const Pull& pull, BlockForces<Cell>& forces) const { forces.add(simplex(i), e, pull, p[simplex(i)]); }
+  template <class Pull> [[gnu::always_inline]] void respond(int i, const CellEdges<Cell>& e, const Pull& pull, BlockForces<Cell>& forces) const {
+    fetch_initial_volume(g, memory(i), Cell::simplices);  // for the pressures of the next block
+    forces.add(simplex(i), e, pull, p[simplex(i)]);
+  }
 };
 
 template <class Cell, Made made>

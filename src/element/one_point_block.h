@@ -55,6 +55,8 @@ template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_block
   const double* constants = constants_of<Cell>(g, block);
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   double* memory = memory_of<Cell>(g, block, 0);
+  fetch_memory(g, memory, 2);
+  fetch_ahead(hourglass_of<Cell>(g, block), 2L * g.hourglass_items * static_cast<long>(sizeof(Lane)), g.hourglass_items);
   CellEdges<Cell> e;
   Vector<Pack, D> sums[OnePoint<D>::modes];
   gather_one_point<Cell>(nodes, view.x, constants, e.x, sums);
