@@ -146,8 +146,8 @@ template <class Cell> double* memory_of(const CellGroup& g, long block, int s) {
   return g.memory + (block * Cell::simplices + s) * g.items * kLanes;
 }
 /// Fetches so many lines of what is needed soon into the second cache: what the processor fetches ahead by itself ends with a
-/// page. The first cache is too small for it: what comes too early there drives out what is in use. Behind the end of an array there is nothing to fetch, which does no harm. (Where it is not inlined at
-/// once the compiler takes it for a function that does nothing, and leaves it out.)
+/// page, and the first cache is too small for what comes early. Behind the end of an array there is nothing to fetch, which does
+/// no harm. (Where it is not inlined at once the compiler takes it for a function that does nothing, and leaves it out.)
 [[gnu::always_inline]] inline void fetch_ahead(const void* from, long bytes_ahead, long lines) {
   const std::uintptr_t ahead = reinterpret_cast<std::uintptr_t>(from) + static_cast<std::uintptr_t>(bytes_ahead);
   for (long i = 0; i < lines; ++i) __builtin_prefetch(reinterpret_cast<const void*>(ahead + static_cast<std::uintptr_t>(i) * sizeof(Lane)), 0, 2);

@@ -9,6 +9,9 @@ namespace forming_sim {
 template <class T, int D, bool Ring> struct StressPull {
   Symmetric<T, D> share;  ///< V/det sigma
 
+  void clear() {
+    repeat<Symmetric<T, D>::size>([&](auto c) { share[c] = T(0); });
+  }
   void add(const T& pressure) {
     const T part = T(kVolumePart<D, Ring>) * pressure;
     for (int c = 0; c < 3; ++c) share[c] += part;

@@ -11,24 +11,25 @@ namespace forming_sim {
 /// A layer of N points.
 template <class T, int D, int N> struct LayerOfPoints {
   Trial<T, D> trial[N];
-  T u[N];  ///< 1 - a of each
+  bool flows[N];  ///< which points have a lane that yields
+  T u[N];         ///< 1 - a of those
 
-  /// Of the single layer of a body.
+  /// What the single layer of a body pulls.
   template <bool Ring> StressPull<T, D, Ring> pull(int i) const {
     const T share = T(kVolumePart<D, Ring>) * trial[i].factor;
     StressPull<T, D, Ring> of_layer;
     repeat<Symmetric<T, D>::size>([&](auto c) { of_layer.share[c] = share * trial[i].deviator[c]; });
     return of_layer;
   }
-  /// Adds w times that of a layer.
-  template <bool Ring> void add(int i, const T& w, StressPull<T, D, Ring>& sum) const {
-    const T share = w * T(kVolumePart<D, Ring>) * trial[i].factor;
-    repeat<Symmetric<T, D>::size>([&](auto c) { sum.share[c] += share * trial[i].deviator[c]; });
-  }
-  /// Likewise of the single layer of a body in space. y: y^m.
+  /// The same in space. y: y^m.
   WayPull<T> pull_of_ways(int i, const Edges<T, 3>& e, const Vector<T, 3>* y) const {
     const T share = T(kVolumePart<3, false>) * trial[i].factor;
     return {y, share * e.det, -(share * trial[i].s)};
+  }
+  /// Adds what one of several layers pulls, w its weight.
+  template <bool Ring> void add_to(StressPull<T, D, Ring>& sum, int i, const T& w) const {
+    const T share = w * T(kVolumePart<D, Ring>) * trial[i].factor;
+    repeat<Symmetric<T, D>::size>([&](auto c) { sum.share[c] += share * trial[i].deviator[c]; });
   }
 
   /// After the trials are found: the corrections and the p of those that yield, and whether any does. memory(i): of this
@@ -37,7 +38,7 @@ template <class T, int D, int N> struct LayerOfPoints {
   [[gnu::always_inline]] bool correct_all(const HardeningCurve& hardening, const T* J, const Memory& memory, const Dissipated& dissipated) {
     constexpr int plastic_strain = Symmetric<T, D>::size;
     const auto none = [&] {
-      for (T& each : u) each = T(0);
+      for (bool& each : flows) each = false;
       return false;
     };
     if (hardening.kind == HardeningCurve::elastic) return none();
@@ -46,7 +47,7 @@ template <class T, int D, int N> struct LayerOfPoints {
     if (!may) return none();
     YieldStress<T> yield[N];
     Flow<T> flow[N];
-    bool flows[N], any_flows = false;
+    bool any_flows = false;
     for (int i = 0; i < N; ++i) {
       T p;
       load(memory(i), plastic_strain, p);
@@ -57,9 +58,7 @@ template <class T, int D, int N> struct LayerOfPoints {
         any_flows = true;
       }
     }
-    if (!any_flows) return none();
     for (int i = 0; i < N; ++i) {
-      u[i] = T(0);
       if (!flows[i]) continue;
       T p;
       load(memory(i), plastic_strain, p);
@@ -68,7 +67,7 @@ template <class T, int D, int N> struct LayerOfPoints {
       u[i] = c.u;
       dissipated(i, c.dissipation);
     }
-    return true;
+    return any_flows;
   }
 };
 
@@ -100,86 +99,95 @@ template <int N, class T, int D, bool Ring, class At, class Forces> [[gnu::alway
     raise(G, e, way);
     find_trial(push(G, e, way), stress_factor(m, J[i]), layer.trial[i]);
   }
-  const bool flows = layer.correct_all(m.layer[0].hardening, J, [&](int i) { return at.memory(i); }, [&](int i, const T& what) { at.dissipate(i, what); });
+  layer.correct_all(m.layer[0].hardening, J, [&](int i) { return at.memory(i); }, [&](int i, const T& what) { at.dissipate(i, what); });
   each_point<D, N>([&](auto i) __attribute__((always_inline)) {
     Edges<T, D, Ring> e;
     at.edges(i, e);
     find_normals(e);
     if constexpr (by_ways) at.respond(i, e, layer.pull_of_ways(i, e, y[i]), forces);
     else at.respond(i, e, layer.template pull<Ring>(i), forces);
-    if (flows) keep_flow(at.memory(i), layer.u[i], metric_from_normals(e));
+    if (layer.flows[i]) keep_flow(at.memory(i), layer.u[i], metric_from_normals(e));
   });
 }
 
-/// Likewise with several. In space the edges of a point are found again for each layer, since they would fill a cache; in the plane
-/// what is found of a point stays.
-template <int N, class T, int D, bool Ring, class At, class Forces> [[gnu::always_inline]] inline void layers_of_points(const SolidConstants& m, At& at, Forces& forces) {
-  LayerOfPoints<T, D, N> layer;
+/// Likewise with several, in the plane: what is found of a point stays.
+template <int N, class T, bool Ring, class At, class Forces> [[gnu::always_inline]] inline void layers_in_the_plane(const SolidConstants& m, At& at, Forces& forces) {
+  LayerOfPoints<T, 2, N> layer;
   T J[N], factor[N];
-  Metric<T, D> metric[N];
-  StressPull<T, D, Ring> sum[N];
-  if constexpr (D == 2) {
-    Edges<T, D, Ring> e[N];
-    each_point<D, N>([&](auto i) __attribute__((always_inline)) {
-      at.edges(i, e[i]);
-      J[i] = at.ratio(i, e[i]);
-      factor[i] = stress_factor(m, J[i]);
-      find_normals(e[i]);
-      metric[i] = metric_from_normals(e[i]);
-      repeat<Symmetric<T, D>::size>([&](auto c) { sum[i].share[c] = T(0); });
-    });
-    for (int k = 0; k < m.layers; ++k) {
-      const auto memory = [&](int i) { return at.memory(i) + k * kLayerItems<D> * lanes_of<T>; };
-      const T w(m.layer[k].weight);
+  Edges<T, 2, Ring> e[N];
+  Metric<T, 2> metric[N];
+  StressPull<T, 2, Ring> pull[N];
+  each_point<2, N>([&](auto i) __attribute__((always_inline)) {
+    at.edges(i, e[i]);
+    J[i] = at.ratio(i, e[i]);
+    factor[i] = stress_factor(m, J[i]);
+    find_normals(e[i]);
+    metric[i] = metric_from_normals(e[i]);
+    pull[i].clear();
+  });
+  for (int k = 0; k < m.layers; ++k) {
+    const auto memory = [&](int i) { return at.memory(i) + k * kLayerItems<2> * lanes_of<T>; };
+    const T w(m.layer[k].weight);
 #pragma GCC unroll 1
-      for (int i = 0; i < N; ++i) find_trial(push(load_memory<T, D>(memory(i)), e[i]), factor[i], layer.trial[i]);
-      const bool flows = layer.correct_all(m.layer[k].hardening, J, memory, [&](int i, const T& what) { at.dissipate(i, w * what); });
-      each_point<D, N>([&](auto i) __attribute__((always_inline)) {
-        layer.add(i, w, sum[i]);
-        if (flows) keep_flow(memory(i), layer.u[i], metric[i]);
-      });
+    for (int i = 0; i < N; ++i) find_trial(push(load_memory<T, 2>(memory(i)), e[i]), factor[i], layer.trial[i]);
+    layer.correct_all(m.layer[k].hardening, J, memory, [&](int i, const T& what) { at.dissipate(i, w * what); });
+    each_point<2, N>([&](auto i) __attribute__((always_inline)) {
+      layer.add_to(pull[i], i, w);
+      if (layer.flows[i]) keep_flow(memory(i), layer.u[i], metric[i]);
+    });
+  }
+  each_point<2, N>([&](auto i) __attribute__((always_inline)) { at.respond(i, e[i], pull[i], forces); });
+}
+
+/// In space the edges of a point are found again for each layer: kept, they and their normals would fill a cache.
+template <int N, class T, class At, class Forces> [[gnu::always_inline]] inline void layers_in_space(const SolidConstants& m, At& at, Forces& forces) {
+  LayerOfPoints<T, 3, N> layer;
+  T J[N], factor[N];
+  Metric<T, 3> metric[N];
+  StressPull<T, 3, false> sum[N];
+  bool knows_metrics = false;
+  for (int k = 0; k < m.layers; ++k) {
+    const auto memory = [&](int i) { return at.memory(i) + k * kLayerItems<3> * lanes_of<T>; };
+    const T w(m.layer[k].weight);
+    for (int i = 0; i < N; ++i) {
+      Edges<T, 3> e;
+      at.edges(i, e);
+      if (k == 0) {
+        J[i] = at.ratio(i, e);
+        factor[i] = stress_factor(m, J[i]);
+        sum[i].clear();
+      }
+      find_trial(push(load_memory<T, 3>(memory(i)), e), factor[i], layer.trial[i]);
     }
-    each_point<D, N>([&](auto i) __attribute__((always_inline)) { at.respond(i, e[i], sum[i], forces); });
-  } else {
-    bool knows_metrics = false;
-    for (int k = 0; k < m.layers; ++k) {
-      const auto memory = [&](int i) { return at.memory(i) + k * kLayerItems<D> * lanes_of<T>; };
-      const T w(m.layer[k].weight);
+    const bool flows = layer.correct_all(m.layer[k].hardening, J, memory, [&](int i, const T& what) { at.dissipate(i, w * what); });
+    if (flows && !knows_metrics) {
       for (int i = 0; i < N; ++i) {
-        Edges<T, D, Ring> e;
-        at.edges(i, e);
-        if (k == 0) {
-          J[i] = at.ratio(i, e);
-          factor[i] = stress_factor(m, J[i]);
-          repeat<Symmetric<T, D>::size>([&](auto c) { sum[i].share[c] = T(0); });
-        }
-        find_trial(push(load_memory<T, D>(memory(i)), e), factor[i], layer.trial[i]);
-      }
-      const bool flows = layer.correct_all(m.layer[k].hardening, J, memory, [&](int i, const T& what) { at.dissipate(i, w * what); });
-      if (flows && !knows_metrics) {
-        for (int i = 0; i < N; ++i) {
-          Edges<T, D, Ring> e;
-          at.edges(i, e);
-          find_normals(e);
-          metric[i] = metric_from_normals(e);
-        }
-        knows_metrics = true;
-      }
-      for (int i = 0; i < N; ++i) {
-        if (flows) keep_flow(memory(i), layer.u[i], metric[i]);
-        StressPull<T, D, Ring> pull = sum[i];
-        layer.add(i, w, pull);
-        if (k + 1 < m.layers) {
-          sum[i] = pull;
-          continue;
-        }
-        Edges<T, D, Ring> e;
+        Edges<T, 3> e;
         at.edges(i, e);
         find_normals(e);
-        at.respond(i, e, pull, forces);
+        metric[i] = metric_from_normals(e);
       }
+      knows_metrics = true;
+    }
+    for (int i = 0; i < N; ++i) {
+      if (layer.flows[i]) keep_flow(memory(i), layer.u[i], metric[i]);
+      StressPull<T, 3, false> pull = sum[i];
+      layer.add_to(pull, i, w);
+      if (k + 1 < m.layers) {
+        sum[i] = pull;
+        continue;
+      }
+      Edges<T, 3> e;
+      at.edges(i, e);
+      find_normals(e);
+      at.respond(i, e, pull, forces);
     }
   }
+}
+
+template <int N, class T, int D, bool Ring, class At, class Forces> [[gnu::always_inline]] inline void layers_of_points(const SolidConstants& m, At& at, Forces& forces) {
+  if constexpr (D == 2) layers_in_the_plane<N, T, Ring>(m, at, forces);
+  else layers_in_space<N, T>(m, at, forces);
 }
 
 /// A step of N points of a body of either.
