@@ -145,12 +145,6 @@ inline std::unique_ptr<Simulation> settled(const Block& block, double* wall_time
   return sim;
 }
 
-inline double mass_of(const Simulation& sim) {
-  double mass = 0;
-  for (double m : sim.nodal_mass()) mass += m;
-  return mass;
-}
-
 inline Found rest_or_slide(const Block& block) {
   const Vec3 down = down_slope(block.dimension), normal = off_slope(block.dimension);
   double settling_time = 0;

@@ -7,19 +7,17 @@
 //   friction ends its slip, by no more than mu j;  u += dt v
 #include <chrono>
 
-#include "support/dense_limit.h"
-#include "support/incline.h"
+#include "support/level_block.h"
 
 namespace forming_sim::incline {
 
 /// x: down the slope, y: off it. steps: dt over the longest stable one.
-inline Found by_impulses(const Block& block, double steps) {
-  const BodyModel body = body_of(level_block(block), material_of_block());
-  const NodeField X = positions_of(body.mesh);
-  Elements elements({body}, 2, X, {}, 1);
+inline Found by_impulses(LevelBlock& level, const Block& block, double steps) {
+  const NodeField& X = level.X;
+  Elements& elements = level.elements;
   const std::vector<double>& mass = elements.nodal_mass();
   const int n = static_cast<int>(X.size());
-  const double dt = steps * dense_limit(elements, X, 2);
+  const double dt = steps * level.longest_step;
   Eigen::VectorXd root(2 * n), g(2 * n), u = Eigen::VectorXd::Zero(2 * n), v = u;  // root: of the mass
   double whole = 0;
   for (int c = 0; c < 2 * n; ++c) {
@@ -54,7 +52,7 @@ inline Found by_impulses(const Block& block, double steps) {
   }
   const double t = static_cast<double>(last - settling) * dt, change = mean(v) - v0, way = mean(u) - x0;
   const double wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return {(change + block.damping * way) / (kGravity * t), way / t, mean(v) + block.belt, rubbed / pressed, 0, 0, size_of(body.mesh, last, wall_time)};
+  return {(change + block.damping * way) / (kGravity * t), way / t, mean(v) + block.belt, rubbed / pressed, 0, 0, size_of(level.body.mesh, last, wall_time)};
 }
 
 struct BothWays {
@@ -62,11 +60,9 @@ struct BothWays {
 };
 /// Means over runs that start a little differently: where a swing has grown as far as it can, single runs scatter.
 inline BothWays both_ways(const Block& block, double steps, int starts) {
-  const BodyModel body = body_of(level_block(block), material_of_block());
-  const NodeField X = positions_of(body.mesh);
-  Elements elements({body}, 2, X, {}, 1);
+  LevelBlock level(block);
   Block one = block;
-  one.longest_step = steps * dense_limit(elements, X, 2);
+  one.longest_step = steps * level.longest_step;
   BothWays mean;
   const auto add = [&](const Found& found, Found& sum) {
     sum.acceleration += found.acceleration / starts;
@@ -82,7 +78,7 @@ inline BothWays both_ways(const Block& block, double steps, int starts) {
   for (int k = 0; k < starts; ++k) {
     one.settling = block.settling * (1 + 1e-4 * k);
     add(rest_or_slide(one), mean.found);
-    add(by_impulses(one, steps), mean.by_impulses);
+    add(by_impulses(level, one, steps), mean.by_impulses);
   }
   return mean;
 }

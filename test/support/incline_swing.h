@@ -4,7 +4,7 @@
 //
 // The block settles while it slides on the belt, under damping, in plane strain on a plane. Then the damping becomes another
 // one, or none: the nodes move a little within the layer, and from there on the swing is left to itself.
-#include "support/incline.h"
+#include "support/level_block.h"
 #include "support/slide_eigenvalues.h"
 
 namespace forming_sim::incline {
@@ -41,12 +41,12 @@ inline Swing of(slide::Complex s) { return {s.real(), std::abs(s.imag())}; }
 /// steps: dt, which stays the same, over the longest stable one. from, to: m/s, roots of the mean squares over the mass.
 inline Grown let_swing(const Block& block, double steps = 0.4, double from = 1e-7, double to = 1e-4) {
   Grown grown;
-  const BodyModel body = body_of(level_block(block), material_of_block());
-  const NodeField level = positions_of(body.mesh);
-  Elements elements({body}, 2, level, {}, 1);
+  LevelBlock whole(block);
+  const NodeField& level = whole.X;
+  Elements& elements = whole.elements;
 
   Block even = block;
-  even.longest_step = steps * dense_limit(elements, level, 2);
+  even.longest_step = steps * whole.longest_step;
   double settling_time = 0;
   const std::unique_ptr<Simulation> run = settled(even, &settling_time);
   Simulation& sim = *run;

@@ -27,6 +27,13 @@ struct OneBody {
   std::unique_ptr<Simulation> start(int threads = 1) const { return std::make_unique<Simulation>(plan, model, threads); }
 };
 
+/// kg
+inline double mass_of(const Simulation& sim) {
+  double mass = 0;
+  for (double m : sim.nodal_mass()) mass += m;
+  return mass;
+}
+
 inline BlankConfig strip_of(double length, double thickness, int along, int through) {
   BlankConfig blank;
   blank.shape = "strip";
