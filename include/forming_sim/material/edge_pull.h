@@ -21,6 +21,7 @@ template <class T, int D, bool Ring> struct StressPull {
   T on_hoop(const Edges<T, D, true>& e) const { return e.normal[2][0] * share[2]; }
 };
 
+/// Of a stress, Pa.
 template <int D, bool Ring, class T> StressPull<T, D, Ring> pull_of(const Symmetric<T, D>& stress) {
   StressPull<T, D, Ring> pull;
   repeat<Symmetric<T, D>::size>([&](auto c) { pull.share[c] = T(kVolumePart<D, Ring>) * stress[c]; });

@@ -67,8 +67,8 @@ template <class T> T solve_correction(const HardeningCurve& h, const T& q, const
 /// Coefficient n of the Taylor series of J^(-5/3) about J = 1.
 constexpr double series_of_power(int n) { return n == 0 ? 1.0 : series_of_power(n - 1) * (-5.0 / 3 - (n - 1)) / n; }
 
-/// J^(-5/3) for J > 0. For |J - 1| <= 0.02, where metals are, by its series to the ninth power, in pairs of terms that do
-/// not wait for each other: to round-off.
+/// J^(-5/3) for J > 0. For |J - 1| <= 0.02, where metals are, by its series to the ninth power, and to the sixth for
+/// |J - 1| <= 0.004, in pairs of terms that do not wait for each other: to round-off.
 template <class T> T power_minus_five_thirds(const T& J) {
   const T d = J - T(1), away = absolute(d);
   constexpr double c[10] = {series_of_power(0), series_of_power(1), series_of_power(2), series_of_power(3), series_of_power(4),
