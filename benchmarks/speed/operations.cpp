@@ -48,11 +48,10 @@ template <int D, bool Ring, bool OnePointCell> class CountedElement {
       for (int i = 0; i < D; ++i) x[a][i] = lambda[i] * X_[a][i], f[a][i] = 0;
     Counted::operations = 0;
     Edges<Counted, D, Ring> edges;
+    CornerSums<Counted, D> sums;
     if constexpr (OnePointCell) {
-      for (int m = 0; m < D; ++m) {
-        edges.x[m] = weight(0, m) * x[0];
-        for (int a = 1; a < corners; ++a) edges.x[m] += weight(a, m) * x[a];
-      }
+      sums.add_all(x);
+      sums.find_edges(constants_.data(), edges.x);
     } else {
       for (int m = 0; m < D; ++m) edges.x[m] = x[m + 1] - x[0];
       if constexpr (Ring) edges.x[2] = {{Counted(1.0 / 3) * (x[0][0] + x[1][0] + x[2][0]), Counted(0)}};
@@ -60,12 +59,11 @@ template <int D, bool Ring, bool OnePointCell> class CountedElement {
     find_reciprocal(edges);
     const Counted J = edges.volume / Counted(volume_);
     Counted p = Counted(solid_.K) * (J - Counted(1));
-    Vector<Counted, D> force[D], r[Cell::modes], sums[Cell::modes];
+    Vector<Counted, D> force[D], r[Cell::modes];
     PointResponse<Counted, D> point;
     if constexpr (OnePointCell) {
-      sum_modes<Counted, D>(x, sums);
       const PlaneModuli<Counted> moduli(solid_);
-      Hourglass<Counted, D> hourglass(moduli, constants_.data(), edges, sums, x);
+      Hourglass<Counted, D> hourglass(moduli, constants_.data(), edges, sums.mode, x);
       point = von_mises_with_hourglass<true>(solid_, edges, J, memory_.data(), hourglass, hourglass_.data());
       hourglass.gradient(Counted(volume_), r);
     } else {
@@ -75,12 +73,9 @@ template <int D, bool Ring, bool OnePointCell> class CountedElement {
     for (int m = 0; m < D; ++m) force[m] = -edges.volume * (point.S * edges.up[m]);
     if constexpr (OnePointCell) {
       for (int k = 0; k < Cell::modes; ++k)
-        for (int m = 0; m < D; ++m) force[m] += dot(edges.up[m], sums[k]) * r[k];
-      const AtCorners<Counted, D> at_corners(r);
-      repeat<corners>([&](auto a) {
-        f[a] -= at_corners.template at<a>();
-        for (int m = 0; m < D; ++m) f[a] += weight(a, m) * force[m];
-      });
+        for (int m = 0; m < D; ++m) force[m] += dot(edges.up[m], sums.mode[k]) * r[k];
+      const CornerForces<Counted, D> at_corners(constants_.data(), force, r);
+      repeat<corners / 2>([&](auto a) { at_corners.template at<a>(f[a], f[a + corners / 2]); });
     } else {
       for (int m = 0; m < D; ++m) f[m + 1] += force[m], f[0] += force[m];
       if constexpr (Ring) {
@@ -92,8 +87,6 @@ template <int D, bool Ring, bool OnePointCell> class CountedElement {
   }
 
  private:
-  Counted weight(int a, int m) const { return constants_[Cell::weights + a * D + m]; }
-
   const SpeedFamily& family_;
   CurveTables curves_;
   SolidConstants solid_;

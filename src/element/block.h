@@ -7,7 +7,7 @@
 #include "forming_sim/element/cell_types.h"
 #include "forming_sim/element/crossed.h"
 #include "forming_sim/element/guard.h"
-#include "forming_sim/element/one_point.h"
+#include "forming_sim/element/one_point_sums.h"
 #include "forming_sim/material/classical.h"
 #include "forming_sim/material/law.h"
 
@@ -66,22 +66,15 @@ template <class Cell> const double* constants_of(const CellGroup& g, long block)
 }
 template <class Cell> double* hourglass_of(const CellGroup& g, long block) { return g.hourglass + block * g.hourglass_items * kLanes; }
 
-/// w_ma of a one-point cell.
+/// One of the constants of a cell.
 inline Pack weight(const double* constants, int item) { return Pack::load(constants + item * kLanes); }
 
 /// Edges of simplex s from what gather_ways() gives.
 template <class Cell>
 void edges_of(const double* constants, const Vector<Pack, kD<Cell>>* x, int s, Vector<Pack, kD<Cell>>* edge) {
   constexpr int D = kD<Cell>;
-  if constexpr (Cell::one_point) {  // x_m = sum_a w_ma x_a
-    repeat<D>([&](auto m) {
-      edge[m] = weight(constants, m) * x[0];
-      repeat<Cell::nodes - 1>([&](auto a) { edge[m] += weight(constants, (a + 1) * D + m) * x[a + 1]; });
-    });
-    if constexpr (Cell::ring) {  // x_3 = sum_a o_a r_a
-      edge[2] = {{Pack(0.0), Pack(0.0)}};
-      for (int a = 0; a < Cell::nodes; ++a) edge[2][0] += weight(constants, OnePoint<D, true>::hoop + a) * x[a][0];
-    }
+  if constexpr (Cell::one_point) {
+    find_one_point_edges<D, Cell::ring>(constants, x, edge);
   } else {
     repeat<D>([&](auto m) { edge[m] = x[Cell::table[s][m + 1]]; });
     if constexpr (Cell::ring) edge[2] = {{x[kApex<Cell>][0] + Pack(1.0 / 3) * (edge[0][0] + edge[1][0]), Pack(0.0)}};

@@ -11,17 +11,12 @@ namespace {
 template <int D, bool Ring> struct LeastCorner {
   int corner = 0;
   double q = 1;
-  LeastCorner(const Vec3* at, const double* constants) {
-    constexpr int N = OnePoint<D, Ring>::nodes;
-    Vector<double, D> x[N];
-    for (int a = 0; a < N; ++a)
-      for (int i = 0; i < D; ++i) x[a][i] = at[a][i];
-    Edges<double, D> e = {};
-    for (int a = 0; a < N; ++a)
-      for (int m = 0; m < D; ++m) e.x[m] += constants[a * D + m] * x[a];
+  LeastCorner(const double* constants, const Vector<double, D>* x) {
+    Edges<double, D> e;
+    find_one_point_edges<D, false>(constants, x, e.x);
     find_reciprocal(e);
     const CornerGuard<double, D, Ring> guard(constants, x, e.x, e.up);
-    for (int a = 0; a < N; ++a)
+    for (int a = 0; a < OnePoint<D>::nodes; ++a)
       if (guard.q[a] < q) q = guard.q[a], corner = a;
   }
 };
@@ -37,25 +32,25 @@ bool Elements::corners_pressed() const {
 void Elements::report_corner_inversion(const NodeField& x) const {
   for (const Group& g : groups_) {
     if (!is_one_point(static_cast<CellKind>(g.kind))) continue;
-    std::vector<double> constants(one_point_items(dimension_, g.ring));
     for (int cell = 0; cell < g.cells; ++cell) {
-      const int block = cell / kLanes, l = cell % kLanes;
-      for (std::size_t i = 0; i < constants.size(); ++i) constants[i] = g.constant(block, static_cast<int>(i), l);
-      const auto node = [&](int a) { return g.node_storage[(static_cast<std::size_t>(block) * g.cell_nodes + a) * kLanes + l]; };
-      Vec3 at[8];
-      for (int a = 0; a < g.cell_nodes; ++a) at[a] = vec3(x[node(a)]);
       const auto report = [&](const auto& least) {
         if (least.q > 0) return;
+        const int n = g.node(cell, least.corner);
         std::ostringstream what;
         what << "one-point cell " << cell << " of body " << g.body << " (elements " << g.first_element + cell * g.parts << " to "
-             << g.first_element + (cell + 1) * g.parts - 1 << ") turned inside out at its corner at node " << node(least.corner) << " at ("
-             << at[least.corner].transpose() << ") m: the corner has " << least.q << " of its first share in the " << (dimension_ == 2 ? "area" : "volume")
+             << g.first_element + (cell + 1) * g.parts - 1 << ") turned inside out at its corner at node " << n << " at ("
+             << vec3(x[n]).transpose() << ") m: the corner has " << least.q << " of its first share in the " << (dimension_ == 2 ? "area" : "volume")
              << " of the cell; a finer mesh there, larger tool radii, slower tools or pattern fine avoid it";
         throw Error(Code::mesh_error, what.str());
       };
-      if (g.ring) report(LeastCorner<2, true>(at, constants.data()));
-      else if (dimension_ == 2) report(LeastCorner<2, false>(at, constants.data()));
-      else report(LeastCorner<3, false>(at, constants.data()));
+      const auto look = [&](auto d, auto ring) {
+        const StandingCell<d> at(g, x, cell);
+        report(LeastCorner<d, ring>(at.constants.data(), at.x));
+      };
+      constexpr std::integral_constant<int, 2> flat;
+      if (g.ring) look(flat, std::true_type());
+      else if (dimension_ == 2) look(flat, std::false_type());
+      else look(std::integral_constant<int, 3>(), std::false_type());
     }
   }
 }

@@ -348,28 +348,22 @@ double Elements::volume_ratio(const NodeField& x, int element) const {
     const SimplexShape shape(x, simplices_[element], dimension_, axisymmetric_);
     const double own = shape.volume / V0;
     if (g.constants_storage.empty()) return own;
-    const auto node = [&](int a) { return vec3(x[g.node_storage[(static_cast<std::size_t>(block) * g.cell_nodes + a) * kLanes + l]]); };
+    const auto node = [&](int a) { return vec3(x[g.node(where.cell, a)]); };
     const auto item = [&](int i) { return g.constants_storage[static_cast<std::size_t>(g.constant_sets[block]) * kCrossedItems + i][l]; };
     Vec3 way[4], y[2];  // the edges of the law, the hoop of a ring its own
     for (int b = 0; b < 4; ++b) way[b] = node(b) - node(4);
     for (int m = 0; m < 2; ++m) y[m] = crossed_mix(item, kCrossed[point][m + 1] * 4, way) + item(kCrossedFreed + point) * crossed_mix(item, kCrossedApex, way);
     return std::min(own, own * y[0].cross(y[1]).z() / shape.edges.col(0).cross(shape.edges.col(1)).z());
   }
-  const int D = dimension_;
-  Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
-  edges.topLeftCorner(D, D).setZero();
-  for (int a = 0; a < g.cell_nodes; ++a)
-    for (int m = 0; m < D; ++m)
-      edges.col(m) += g.constant(block, a * D + m, l) *
-                      vec3(x[g.node_storage[(static_cast<std::size_t>(block) * g.cell_nodes + a) * kLanes + l]]);
-  double circle = 1;
-  if (axisymmetric_) {
-    circle = 0;
-    for (int a = 0; a < g.cell_nodes; ++a)
-      circle += kTwoPi * g.constant(block, OnePoint<2, true>::hoop + a, l) *
-                x[g.node_storage[(static_cast<std::size_t>(block) * g.cell_nodes + a) * kLanes + l]][0];
-  }
-  return circle * edges.determinant() / (D == 2 ? 2 : 6) / V0;
+  const auto volume = [&](auto d, auto ring) {
+    const StandingCell<d> cell(g, x, where.cell);
+    Vector<double, d> edge[kEdges<d, ring>];
+    find_one_point_edges<d, ring>(cell.constants.data(), cell.x, edge);
+    return simplex_volume<double, d, ring>(edge);
+  };
+  constexpr std::integral_constant<int, 2> flat;
+  if (dimension_ == 3) return volume(std::integral_constant<int, 3>(), std::false_type()) / V0;
+  return (axisymmetric_ ? volume(flat, std::true_type()) : volume(flat, std::false_type())) / V0;
 }
 
 void Elements::report_inversion(const NodeField& x) const {

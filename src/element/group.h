@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "forming_sim/element/elements.h"
-#include "forming_sim/element/one_point.h"
+#include "forming_sim/element/one_point_sums.h"
 #include "forming_sim/material/law.h"
 
 namespace forming_sim {
@@ -57,8 +57,22 @@ struct Elements::Group : CellGroup {
   }
   /// A constant of a one-point cell.
   double constant(int block, int item, int lane) const { return constants_storage[static_cast<std::size_t>(constant_sets[block]) * one_point_items(dimension, ring) + item][lane]; }
+  /// Node a of a cell.
+  int node(int cell, int a) const { return node_storage[(static_cast<std::size_t>(cell / kLanes) * cell_nodes + a) * kLanes + cell % kLanes]; }
   int first_block(long t) const { return static_cast<int>(t) * tile; }
   int last_block(long t) const { return blocks < first_block(t + 1) ? blocks : first_block(t + 1); }
+};
+
+/// A one-point cell of a group where it stands.
+template <int D> struct Elements::StandingCell {
+  std::vector<double> constants;
+  Vector<double, D> x[OnePoint<D>::nodes];
+
+  StandingCell(const Group& g, const NodeField& field, int cell) : constants(one_point_items(D, g.ring)) {
+    for (std::size_t i = 0; i < constants.size(); ++i) constants[i] = g.constant(cell / kLanes, static_cast<int>(i), cell % kLanes);
+    for (int a = 0; a < OnePoint<D>::nodes; ++a)
+      for (int i = 0; i < D; ++i) x[a][i] = field[g.node(cell, a)][i];
+  }
 };
 
 }  // namespace forming_sim

@@ -26,6 +26,8 @@ template <int D> double shape_function(int a, const double* xi, double* gradient
   return value;
 }
 
+constexpr double kRoundOff = 1e-14;
+
 template <int D, bool Ring = false> class Start {
   using Cell = OnePoint<D, Ring>;
   static constexpr int N = Cell::nodes, M = Cell::modes;
@@ -41,7 +43,7 @@ template <int D, bool Ring = false> class Start {
     if (!integrate()) return;
     find_frame();
     if constexpr (Ring) put_hoop();
-    for (int a = 0; a < N; ++a) put(Cell::weights + a * D, Eigen::Matrix<double, D, 1>(w_.col(a)));
+    put_weights();
     Eigen::Matrix<double, M, D> start = h_ * X_.transpose() * E_ / c_;
     for (int k = 0; k < M; ++k) put(Cell::start + k * D, Eigen::Matrix<double, D, 1>(start.row(k)));
     put_strain(start);
@@ -123,6 +125,19 @@ template <int D, bool Ring = false> class Start {
         for (int k = 0; k < 4; ++k) result.constants[Cell::skew + 4 * d + k] = skew[k];
       }
     result.edges.template topLeftCorner<D, D>() = c_ * E_;
+  }
+
+  /// w_ma by the signs of sides and modes, which are orthogonal; what is round-off beside them is none.
+  void put_weights() {
+    Eigen::Matrix<double, D, N> sides;
+    for (int a = 0; a < N; ++a)
+      for (int i = 0; i < D; ++i) sides(i, a) = kCornerSides[a][i];
+    const Square linear = sides * w_.transpose() / N;
+    Eigen::Matrix<double, M, D> twist = h_ * w_.transpose() / N;
+    twist = (twist.array().abs() > kRoundOff * linear.norm()).select(twist, 0.0);
+    for (int i = 0; i < D; ++i) put(Cell::linear + i * D, Eigen::Matrix<double, D, 1>(linear.row(i)));
+    for (int k = 0; k < M; ++k) put(Cell::twist + k * D, Eigen::Matrix<double, D, 1>(twist.row(k)));
+    result.constants[Cell::twisted] = twist.cwiseAbs().maxCoeff();
   }
 
   /// The fibres that take z.

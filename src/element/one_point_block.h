@@ -14,37 +14,30 @@
 namespace forming_sim {
 namespace FORMING_SIM_ISA {
 
-/// Edges of one-point cells and the sums of their modes.
-template <class Cell> void gather_one_point(const int* nodes, const double* field, const double* constants, Vector<Pack, kD<Cell>>* edge, Vector<Pack, kD<Cell>>* sums) {
+/// Edges of one-point cells and the sums of their corners.
+template <class Cell> void gather_one_point(const int* nodes, const double* field, const double* constants, Vector<Pack, kD<Cell>>* edge, CornerSums<Pack, kD<Cell>>& sums) {
   constexpr int D = kD<Cell>, half = Cell::nodes / 2;
   if constexpr (Cell::ring) edge[2] = {{Pack(0.0), Pack(0.0)}};
-  const auto add_to_edges = [&](auto a, const Vector<Pack, D>& x) {
-    repeat<D>([&](auto m) {
-      if constexpr (a == 0) edge[m] = weight(constants, m) * x;
-      else edge[m] += weight(constants, a * D + m) * x;
-    });
-    if constexpr (Cell::ring) edge[2][0] += weight(constants, OnePoint<D, true>::hoop + a) * x[0];
-  };
   repeat<half>([&](auto a) {
     const Vector<Pack, D> low = gather_vectors<D>(nodes + a * kLanes, field), high = gather_vectors<D>(nodes + (a + half) * kLanes, field);
-    add_to_edges(a, low);
-    add_to_edges(std::integral_constant<int, a + half>(), high);
-    add_to_modes<Pack, D, a>(low, high, sums);
+    sums.template add<a>(low, high);
+    if constexpr (Cell::ring) edge[2][0] += weight(constants, OnePoint<D, true>::hoop + a) * low[0] + weight(constants, OnePoint<D, true>::hoop + a + half) * high[0];
   });
+  sums.find_edges(constants, edge);
 }
 
 /// What varies across the cells of a block whose nodes are gathered.
 template <class Cell> class Variation {
  public:
-  Variation(const CellGroup& g, const double* constants, const CellEdges<Cell>& e, const Vector<Pack, kD<Cell>>* x) : moduli_(g.solid), hourglass(moduli_, constants, e, sums_, x) {
-    sum_modes<Pack, kD<Cell>>(x, sums_);
+  Variation(const CellGroup& g, const double* constants, const CellEdges<Cell>& e, const Vector<Pack, kD<Cell>>* x) : moduli_(g.solid), hourglass(moduli_, constants, e, sums_.mode, x) {
+    sums_.add_all(x);
     hourglass.find_strains();
   }
   Variation(const Variation&) = delete;
 
  private:
   PlaneModuli<Pack> moduli_;
-  Vector<Pack, kD<Cell>> sums_[OnePoint<kD<Cell>>::modes];
+  CornerSums<Pack, kD<Cell>> sums_;
 
  public:
   Hourglass<Pack, kD<Cell>, Cell::ring> hourglass;
@@ -58,7 +51,7 @@ template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_block
   fetch_memory(g, memory, 2);
   fetch_ahead(hourglass_of<Cell>(g, block), 2L * g.hourglass_items * static_cast<long>(sizeof(Lane)), g.hourglass_items);
   CellEdges<Cell> e;
-  Vector<Pack, D> sums[OnePoint<D>::modes];
+  CornerSums<Pack, D> sums;
   gather_one_point<Cell>(nodes, view.x, constants, e.x, sums);
   find_reciprocal(e);
   const Pack V0 = initial_volume(g, memory), J = e.volume / V0;
@@ -67,7 +60,7 @@ template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_block
 
   Vector<Pack, D> x[Cell::ring ? Cell::nodes : 1];
   if constexpr (Cell::ring) gather<Cell>(nodes, view.x, x);
-  Hourglass<Pack, D, Cell::ring> hourglass(moduli, constants, e, sums, x);
+  Hourglass<Pack, D, Cell::ring> hourglass(moduli, constants, e, sums.mode, x);
   PointResponse<Pack, D> point;
   Pack p = Pack(g.solid.K) * (J - Pack(1.0));
   if constexpr (made == Made::any) {
@@ -89,20 +82,25 @@ template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_block
   hourglass.gradient(V0, r);
   for (int c = 0; c < 3; ++c) point.S[c] += p;  // sigma = p I + S (3.4)
   repeat<D>([&](auto i) {
-    repeat<D>([&](auto j) { M[i][j] = r[0][i] * sums[0][j] - e.volume * point.S[kFull[i][j]]; });
-    repeat<OnePoint<D>::modes - 1>([&](auto k) { M[i] += r[k + 1][i] * sums[k + 1]; });
+    repeat<D>([&](auto j) { M[i][j] = r[0][i] * sums.mode[0][j] - e.volume * point.S[kFull[i][j]]; });
+    repeat<OnePoint<D>::modes - 1>([&](auto k) { M[i] += r[k + 1][i] * sums.mode[k + 1]; });
   });
   repeat<D>([&](auto m) { repeat<D>([&](auto i) { force[m][i] = dot(M[i], e.up[m]); }); });
   Pack hoop;  // of a ring, through the weights of x_3
   if constexpr (Cell::ring) hoop = e.volume * e.up[2][0] * point.S[2];
 
-  const AtCorners<Pack, D> corners(r);
+  const CornerForces<Pack, D> corners(constants, force, r);
   const int* slots = g.slots + block * Cell::nodes * kLanes;
-  repeat<Cell::nodes>([&](auto a) {
-    Vector<Pack, D> f = weight(constants, a * D) * force[0] - corners.template at<a>();
-    repeat<D - 1>([&](auto m) { f += weight(constants, a * D + m + 1) * force[m + 1]; });
-    if constexpr (Cell::ring) f[0] -= weight(constants, OnePoint<D, true>::hoop + a) * hoop + hourglass.hoop_force(V0, a);
-    add_vectors(f, slots + a * kLanes, g.sums);
+  repeat<Cell::nodes / 2>([&](auto a) {
+    constexpr int opposite = a + Cell::nodes / 2;
+    Vector<Pack, D> low, high;
+    corners.template at<a>(low, high);
+    if constexpr (Cell::ring) {
+      low[0] -= weight(constants, OnePoint<D, true>::hoop + a) * hoop + hourglass.hoop_force(V0, a);
+      high[0] -= weight(constants, OnePoint<D, true>::hoop + opposite) * hoop + hourglass.hoop_force(V0, opposite);
+    }
+    add_vectors(low, slots + a * kLanes, g.sums);
+    add_vectors(high, slots + opposite * kLanes, g.sums);
   });
   g.pressed[block] = false;
   if (hourglass.far()) guard_corners<Cell>(g, view, block);

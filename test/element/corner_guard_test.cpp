@@ -39,18 +39,17 @@ template <int D, bool Ring = false> struct Alone {
   CornerGuard<double, D, Ring> guard() {
     const double* constants = start.constants.data();
     edges = {};
-    for (int a = 0; a < N; ++a)
-      for (int m = 0; m < D; ++m) edges.x[m] += constants[a * D + m] * x[a];
+    find_one_point_edges<D, false>(constants, x, edges.x);
     find_reciprocal(edges);
     return {constants, x, edges.x, edges.up};
   }
   /// The square of the strains that vary.
   double strain() {
     guard();
-    Vector<double, D> sums[OnePoint<D>::modes];
-    sum_modes<double, D>(x, sums);
+    CornerSums<double, D> sums;
+    sums.add_all(x);
     HourglassStrain<double, D> e;
-    e.from(sums, Fibres<double, D>(start.constants.data(), edges.up), start.constants.data());
+    e.from(sums.mode, Fibres<double, D>(start.constants.data(), edges.up), start.constants.data());
     const double* first = start.constants.data() + OnePoint<D>::strain;
     for (int d = 0; d < D; ++d) {
       e.plane[d].a -= first[D == 2 ? d : 3 * d];

@@ -25,7 +25,7 @@
 //
 // `near` of one_point.h: up to that square of the strains that vary across the cell no q can be below q_0, and nobody
 // asks for it (src/element/corner_reach.h).
-#include "forming_sim/element/one_point.h"
+#include "forming_sim/element/one_point_sums.h"
 #include "forming_sim/tensor/tensor.h"
 
 namespace forming_sim {
@@ -141,11 +141,7 @@ template <class T, int D, bool Ring> class CornerGuard {
   /// g_b = sum_m w_mb x^m, d ln J/d x_b.
   Vector<T, D> mean_gradient(int b) const {
     Vector<T, D> g = T(0) * up_[0];
-    for (int m = 0; m < D; ++m) {
-      T w;
-      load(constants_, Cell::weights + b * D + m, w);
-      g += w * up_[m];
-    }
+    for (int m = 0; m < D; ++m) g += corner_weight<T, D>(constants_, b, m) * up_[m];
     return g;
   }
   /// factor times the part of dq_a that the edges of the corner make.

@@ -103,6 +103,7 @@ class Elements {
 
  private:
   struct Group;
+  template <int D> struct StandingCell;
   struct Location { int group, cell, simplex; };
   Location locate(int element) const;
   double volume_ratio(const NodeField& x, int element) const;

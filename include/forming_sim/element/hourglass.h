@@ -48,7 +48,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
   using Cell = OnePoint<D, Ring>;
 
  public:
-  /// constants: of the cell; e: its edges, with their reciprocal vectors; sums: sum_a h_alpha,a x_a of its corners, sum_modes(); x: of a
+  /// constants: of the cell; e: its edges, with their reciprocal vectors; sums: sum_a h_alpha,a x_a of its corners, CornerSums; x: of a
   /// ring, the corners. Nothing is found yet: that is work to do while the law of the mean waits for its roots.
   Hourglass(const PlaneModuli<T>& moduli, const double* constants, const Edges<T, D, Ring>& e, const Vector<T, D>* sums, const Vector<T, D>* x)
       : moduli_(moduli), edges_(e), sums_(sums), x_(x), constants_(constants) {}
@@ -135,11 +135,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
   /// Of a ring: d of the fibre strain e_d, and of the hoop strain that varies with coordinate i, by x_a (r_a).
   Vector<T, D> fibre_rate(int d, int a) const {
     T gamma(kHourglass<D>[0][a]);
-    for (int m = 0; m < D; ++m) {
-      T w;
-      load(constants_, Cell::weights + a * D + m, w);
-      gamma -= dot(edges_.up[m], sums_[0]) * w;
-    }
+    for (int m = 0; m < D; ++m) gamma -= dot(edges_.up[m], sums_[0]) * corner_weight<T, D>(constants_, a, m);
     return gamma * fibres_.along[d];
   }
   T hoop_rate(int i, int a) const { return hoop_.rate(i, a); }
@@ -248,7 +244,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
       limit = point.yield.value;
       left = point.kept;
       if (may_yield(point, s, hourglass_memory)) {
-        const Flowed after = flow(m, constants_, edges_, strain_, factor, J, point, memory, hourglass_memory);
+        const Flowed after = flow(m, constants_, Outside(edges_, strain_, point), factor, J, memory, hourglass_memory);
         point.S = after.S;
         point.dissipation = after.dissipation;
         limit = after.limit;
@@ -272,10 +268,28 @@ template <class T, int D, bool Ring = false> class Hourglass {
     Symmetric<T, D> S;
     T dissipation, limit, left;
   };
-  /// All coordinates, one after the other. Out of line, with all it needs by value: what a step without such a flow has in
-  /// registers stays there.
-  [[gnu::noinline]] static Flowed flow(const SolidConstants& m, const double* constants, Edges<T, D, Ring> edges, Strain strain, T factor,
-                                        T J, PointResponse<T, D> point, double* memory, double* hourglass_memory) {
+  /// What it starts from, copied number by number: what is passed as a whole has to lie in memory from its beginning on, also
+  /// where nothing flows.
+  struct Outside {
+    Edges<T, D, Ring> edges;  ///< their vectors only
+    Strain strain;
+    PointResponse<T, D> point;
+
+    [[gnu::always_inline]] Outside(const Edges<T, D, Ring>& e, const Strain& s, const PointResponse<T, D>& p) {
+      repeat<kEdges<D, Ring>>([&](auto m) { repeat<D>([&](auto i) { edges.x[m][i] = e.x[m][i]; }); });
+      repeat<D>([&](auto d) { strain.plane[d] = {s.plane[d].a, s.plane[d].b, s.plane[d].shear}; });
+      repeat<Symmetric<T, D>::size>([&](auto i) { point.S[i] = p.S[i]; });
+      point.dissipation = p.dissipation;
+      point.kept = p.kept;
+      point.yield = {p.yield.value, p.yield.slope, p.yield.bend};
+    }
+  };
+  /// All coordinates, one after the other. Out of line: what a step without such a flow has in registers stays there.
+  [[gnu::noinline]] static Flowed flow(const SolidConstants& m, const double* constants, Outside outside, T factor, T J, double* memory, double* hourglass_memory) {
+    const Strain& strain = outside.strain;
+    PointResponse<T, D>& point = outside.point;
+    Edges<T, D, Ring>& edges = outside.edges;
+    find_reciprocal(edges);
     constexpr int size = Symmetric<T, D>::size;
     const PlaneModuli<T> moduli(m);
     const Axes axes(edges);

@@ -47,6 +47,7 @@ template <class T, int D> struct Normal {
   T excess;                     ///< Q_n + mu - 1
   Symmetric<T, D> mean, varied;  ///< d(Q_n + mu) by S and by s, 1/Pa
   T along;                      ///< varied : S
+  T edge;                       ///< |Q_nm| - Q_m/2: above 0 the surface has an edge ahead, where Q_nm changes its sign
 };
 
 /// The plane in which s lies, of the unit vectors t_1 and t_2 (in 2D t_2 = e_3): where a body has turned, they have
@@ -112,11 +113,13 @@ template <class T, int D> Normal<T, D> normal(const MeanFlow<T, D>& mean, const 
     r.mean[i] = T(2) * scale * mean.S[i] + cross * m[i] - back * r.varied[i];
   }
   r.along = contract(r.varied, mean.S);
+  r.edge = absolute(Qnm) - T(0.5) * Qm;
   return r;
 }
 
 /// One coordinate flows where share is 1: mean, ep and p' (rise) follow; what the variation dissipates per initial volume.
-/// At the edge where the whole cell flows one way and m comes to lie across S, it goes no further.
+/// At the edge where the whole cell flows one way and m comes to lie across S, it goes no further; where m is more than that,
+/// the surface is smooth there, and S, however small, is no reason to stop.
 template <class T, int D>
 T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli<T>& moduli, const Plane<T>& strain, const T& share, Plane<T>& ep, T& rise, const PlaneOf<T, D>& at) {
   constexpr int size = Symmetric<T, D>::size;
@@ -133,7 +136,7 @@ T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli<T>& moduli, const Plan
   const T three = T(3) * L;
   const T before = contract(mean.S, own_part<T, D>(mean, mean.S, s, rise, at));
   const T after = contract(S, own_part<T, D>(mean, S, s - Plane<T>{three * softer.a, three * softer.b, three * softer.shear}, rise, at));
-  const auto turned = before * after < T(0);
+  const auto turned = (before * after < T(0)) & (n.edge > T(0));
   L *= select(turned, before / select(turned, before - after, T(1)), T(1));
   const Plane<T> rate{T(3) * L * direction.a, T(3) * L * direction.b, T(3) * L * direction.shear};
   ep = {ep.a + rate.a, ep.b + rate.b, ep.shear + rate.shear};

@@ -1,7 +1,7 @@
 #pragma once
 // The strains that vary across a one-point cell, from the amplitudes z of its modes, and back
 // from stresses to the gradient of the energy; element/hourglass.h says what they mean.
-#include "forming_sim/element/one_point.h"
+#include "forming_sim/element/one_point_sums.h"
 #include "forming_sim/tensor/tensor.h"
 
 namespace forming_sim {
@@ -133,42 +133,5 @@ template <int D> void hourglass_stiffness(const SolidConstants& m, const Fibres<
   s.gradient(fibres, constants, g);
   for (int k = 0; k < OnePoint<D>::modes; ++k) g[k] = 1.0 / 3 * g[k];
 }
-
-/// Adds the pair of corners a and a + N/2, N all of them, to the sums sum_a h_alpha,a x_a of all modes; the first pair sets them.
-template <class T, int D, int a> [[gnu::always_inline]] inline void add_to_modes(const Vector<T, D>& low, const Vector<T, D>& high, Vector<T, D>* sum) {
-  constexpr int opposite = a + OnePoint<D>::nodes / 2;
-  const Vector<T, D> both = low + high, between = low - high;
-  repeat<OnePoint<D>::modes>([&](auto k) {
-    constexpr bool even = kHourglass<D>[k][a] == kHourglass<D>[k][opposite], plus = kHourglass<D>[k][a] > 0;
-    const Vector<T, D>& x = even ? both : between;
-    if constexpr (a == 0) repeat<D>([&](auto i) { sum[k][i] = plus ? x[i] : -x[i]; });
-    else if constexpr (plus) sum[k] += x;
-    else sum[k] -= x;
-  });
-}
-template <class T, int D> void sum_modes(const Vector<T, D>* x, Vector<T, D>* sum) {
-  constexpr int half = OnePoint<D>::nodes / 2;
-  repeat<half>([&](auto a) { add_to_modes<T, D, a>(x[a], x[a + half], sum); });
-}
-/// sum_alpha h_alpha,a r_alpha of every corner a, from sums and differences of pairs of modes.
-template <class T, int D> struct AtCorners {
-  static constexpr int pairs = D == 2 ? 1 : 2;
-  Vector<T, D> both[pairs], between[pairs];
-
-  explicit AtCorners(const Vector<T, D>* r) {
-    if constexpr (D == 2) both[0] = r[0];
-    else repeat<2>([&](auto k) { both[k] = r[2 * k] + r[2 * k + 1], between[k] = r[2 * k] - r[2 * k + 1]; });
-  }
-  template <int a> Vector<T, D> at() const {
-    constexpr auto& h = kHourglass<D>;
-    if constexpr (D == 2) {
-      return h[0][a] > 0 ? both[0] : -both[0];
-    } else {
-      const Vector<T, 3>&first = h[0][a] == h[1][a] ? both[0] : between[0], &second = h[2][a] == h[3][a] ? both[1] : between[1];
-      if constexpr (h[0][a] > 0) return h[2][a] > 0 ? first + second : first - second;
-      else return h[2][a] > 0 ? second - first : -(first + second);
-    }
-  }
-};
 
 }  // namespace forming_sim

@@ -29,8 +29,10 @@ namespace forming_sim {
 /// The constants of a cell, numbers one after the other. Ring: turned about the y axis, element/one_point_ring.h.
 template <int D, bool Ring = false> struct OnePoint {
   static constexpr int nodes = D == 2 ? 4 : 8, modes = D == 2 ? 1 : 4, pairs = D * (D + 1) / 2;
-  static constexpr int weights = 0;                     ///< [node][m]
-  static constexpr int fibres = weights + nodes * D;    ///< [i][m] a_i u_i . E_m, u_i = g_i/|g_i|, g_i = dX/dxi_i at the centre
+  static constexpr int linear = 0;                      ///< [i][m] of the weights w_ma: element/one_point_sums.h
+  static constexpr int twist = linear + D * D;          ///< [mode][m] likewise, 0 for a parallelepiped
+  static constexpr int twisted = twist + modes * D;     ///< the largest of them
+  static constexpr int fibres = twisted + 1;            ///< [i][m] a_i u_i . E_m, u_i = g_i/|g_i|, g_i = dX/dxi_i at the centre
   static constexpr int skew = fibres + D * D;           ///< 3D: [d] with the angle from u_i to u_j, d, i, j cyclic: its cotangent, 1/sin^2, a_j/a_i over its sine, a_i/a_j over it
   static constexpr int strain = skew + (D == 2 ? 0 : 4 * D);           ///< of `start`: 2D [d] e_d; 3D [d] three of e_d, then the three of xi eta zeta
   static constexpr int slopes = strain + (D == 2 ? D : 4 * D);         ///< [i] a_i = c/2^D/|g_i|

@@ -67,7 +67,7 @@ template <class T> class OnePointRingBound {
       T mass, w[2];
       load(constants, Cell::share + a, mass);
       const T axial = T(1) / mass, radial = select(x[a][0] > T(0), axial, T(0));
-      for (int m = 0; m < 2; ++m) load(constants, Cell::weights + 2 * a + m, w[m]);
+      for (int m = 0; m < 2; ++m) w[m] = corner_weight<T, 2>(constants, a, m);
       const T gr = w[0] * e.up[0][0] + w[1] * e.up[1][0], gz = w[0] * e.up[0][1] + w[1] * e.up[1][1];
       T share;
       load(constants, Cell::hoop + a, share);
