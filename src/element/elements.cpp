@@ -373,8 +373,12 @@ void Elements::report_inversion(const NodeField& x) const {
     std::ostringstream what;
     what << "element " << e << " of body " << groups_[locate(static_cast<int>(e)).group].body << " (nodes";
     for (int a = 0; a <= dimension_; ++a) what << ' ' << simplices_[e][a];
-    what << ") turned inside out at (" << vec3(x[simplices_[e][0]]).transpose() << ") m: V/V0 = " << ratio
-         << "; a finer mesh there, larger tool radii or slower tools avoid it";
+    if (std::isfinite(ratio))
+      what << ") turned inside out at (" << vec3(x[simplices_[e][0]]).transpose() << ") m: V/V0 = " << ratio
+           << "; a finer mesh there, larger tool radii or slower tools avoid it";
+    else
+      what << ") has no volume that is a number at (" << vec3(x[simplices_[e][0]]).transpose()
+           << ") m: it was pushed or driven farther in a step than numbers reach; look for a boundary, a pressure, gravity or an initial velocity in other units than m, s, Pa";
     throw Error(Code::mesh_error, what.str());
   }
   report_corner_inversion(x);

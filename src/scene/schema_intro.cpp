@@ -106,7 +106,7 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | `scene`, `dimension`, `axisymmetric`, `nodes`, `elements`, `steps` | what was run; elements are triangles or tetrahedra |
 | `sim_time_s`, `wall_time_s`, `ns_per_element_step` | simulated time, time it took, speed |
 | `time_step_s` | `first`, `min`, `limited_by` |
-| `energy_J` | `kinetic`, `elastic`, `plastic`, `contact`, `friction`, `damping`, `work`, `initial`; `balance_error`: the residual of the ledger over the largest work + initial (and no less than the energy of a strain of 1e-12), a fraction; `kinetic_over_internal_forming`: the largest of kinetic over elastic and plastic energy in the form stages, a guard for mass scaling and tool speed |
+| `energy_J` | `kinetic`, `elastic`, `plastic`, `contact`, `friction`, `damping`, `work`, `initial`; `balance_error`: the residual of the ledger over the largest work + initial (and no less than the energy of a strain of 1e-12), a fraction; where it is above .05 at the end of a stage, `warnings` say so; `kinetic_over_internal_forming`: the largest of kinetic over elastic and plastic energy in the form stages, a guard for mass scaling and tool speed |
 | `options` | what viscosity, damping, settling and mass scaling took or added; `time_step`: the limit and its cost; `raised_step`: mass added by `time_step.raise_to`, in kg, as a fraction, by body, and where most |
 | `contact` | `crossings` (must be 0), `halvings`, `min_gap_over_h0`, `h0_m`; with `contact.method: explicit` `explicit_stable_dt_s`, the smallest step up to which its layer was stable |
 | `plastic_strain` | the largest equivalent plastic strain and where it is |

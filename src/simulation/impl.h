@@ -41,6 +41,7 @@ struct Simulation::Impl {
   bool pressed = false;                                ///< some contact pressure is not zero
   std::vector<ToolStatus> tools;
   std::vector<std::string> warnings;
+  bool ledger_told = false;
   std::vector<Observer*> observers;
 
   double time = 0, dt = 0, previous_dt = 0;
@@ -123,6 +124,8 @@ struct Simulation::Impl {
   /// True when the running stage has come to its end.
   bool stage_over();
   void check_crossings();
+  /// Warns, once, of energies that do not add up at the end of a stage; residual, J, and error: of Simulation.
+  void check_ledger(double residual, double error);
 
   // checkpoint.cpp
   template <class Archive> void exchange(Archive& a);

@@ -11,6 +11,7 @@
 namespace forming_sim {
 
 namespace {
+constexpr double kOpenLedger = 0.05;  ///< balance error at the end of a stage from which on the run warns
 constexpr int kCrossingChecks = 200;  ///< independent crossing checks over a run
 }
 
@@ -27,6 +28,17 @@ void Simulation::Impl::begin_stage() {
     speed = std::min(speed, std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling));
   }
   settle = Settle(time, size * size / (thin * speed), stages.stage().kinetic_fraction);
+}
+
+void Simulation::Impl::check_ledger(double residual, double error) {
+  if (ledger_told || !(error > kOpenLedger)) return;
+  ledger_told = true;
+  std::ostringstream text;
+  text.precision(3);
+  text << "the energies do not add up: at the end of stage " << stages.stage().title() << ", " << time << " s, " << std::fabs(residual) << (model.per_width() ? " J/m, " : " J, ") << 100 * error
+       << " % of what was put in, " << (residual > 0 ? "came from nowhere" : "were lost") << ". Forces and strains may be wrong by as much. Shorter steps (time_step.safety)"
+       << (contact ? ", contact.method implicit and more contact.max_sweeps" : "") << " or a finer mesh where it deforms most close the ledger";
+  warnings.push_back(text.str());
 }
 
 bool Simulation::Impl::stage_over() {
@@ -58,6 +70,7 @@ bool Simulation::step() {
   const bool over = s.stage_over();
   s.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (over || s.stages.progress(s.time) >= s.next_crossing_check) s.check_crossings();
+  if (over) s.check_ledger(energies().residual(), balance_error());
   for (Observer* o : s.observers) o->on_step(*this);
   if (over) {
     const int ended = s.stages.index();

@@ -124,8 +124,9 @@ void Simulation::Impl::raise_step() {
 
 void Simulation::Impl::collapse(double stable, int element) const {
   std::ostringstream text;
-  text << "at time " << time << " s the stable step of element " << element << " has fallen to " << stable << " s, from " << first_element_dt
-       << " s at the start: the element is squeezed flat. Refine the mesh there, lower the speed or the stroke of what presses on it, or check the material";
+  text << "at time " << time << " s the stable step of element " << element << " has fallen to " << stable << " s, from " << first_element_dt;
+  if (stable > 0) text << " s at the start: the element is squeezed flat. Refine the mesh there, lower the speed or the stroke of what presses on it, or check the material";
+  else text << " s at the start: what drives it is beyond what a step can follow. Look for a boundary, a pressure, gravity or an initial velocity in other units than m, s, Pa";
   throw Error(Code::mesh_error, text.str());
 }
 

@@ -73,6 +73,23 @@ TEST(ContactScenes, TiltedBlocksKeepTheirMomenta) {
     }
 }
 
+// A contact that gives energy, or takes it without saying where to, is told at the end of the stage, once; the implicit one has nothing to tell.
+TEST(ContactScenes, AnOpenLedgerIsTold) {
+  Blocks blocks(2, 20, 23, .1, 50, 1e-3, 2e-3);
+  const StageConfig stage = blocks.plan.stages[0];
+  blocks.plan.stages.assign(2, stage);
+  for (StageConfig& half : blocks.plan.stages) half.duration /= 2;
+  for (const char* method : {"implicit", "geometric"}) {
+    blocks.plan.contact.method = method;
+    Simulation sim(blocks.plan, blocks.model, 1);
+    while (sim.step()) continue;
+    std::printf("  %s: balance error %.3g\n", method, sim.balance_error());
+    long told = 0;
+    for (const std::string& warning : sim.warnings()) told += warning.find("the energies do not add up") != std::string::npos;
+    EXPECT_EQ(told, method == std::string("geometric") ? 1 : 0);
+  }
+}
+
 // h0 a millionth of a cell, far less than the way of a step: some steps are halved, those after them are short too, and the run gets through.
 TEST(ContactScenes, LayersOfAMillionthAtHighSpeed) {
   struct Case {

@@ -21,10 +21,11 @@ template <class T, int D, bool Ring> struct StressPull {
   T on_hoop(const Edges<T, D, true>& e) const { return e.normal[2][0] * share[2]; }
 };
 
-/// Of a stress, Pa.
-template <int D, bool Ring, class T> StressPull<T, D, Ring> pull_of(const Symmetric<T, D>& stress) {
+/// Of the stress factor A, Pa.
+template <int D, bool Ring, class T> [[gnu::always_inline]] inline StressPull<T, D, Ring> pull_of(const Symmetric<T, D>& A, const T& factor = T(1)) {
+  const T part = T(kVolumePart<D, Ring>) * factor;
   StressPull<T, D, Ring> pull;
-  repeat<Symmetric<T, D>::size>([&](auto c) { pull.share[c] = T(kVolumePart<D, Ring>) * stress[c]; });
+  repeat<Symmetric<T, D>::size>([&](auto c) { pull.share[c] = part * A[c]; });
   return pull;
 }
 

@@ -14,14 +14,9 @@ template <class T, int D, int N> struct LayerOfPoints {
   bool flows[N];  ///< which points have a lane that yields
   T u[N];         ///< 1 - a of those
 
-  /// What the single layer of a body pulls.
-  template <bool Ring> StressPull<T, D, Ring> pull(int i) const {
-    const T share = T(kVolumePart<D, Ring>) * trial[i].factor;
-    StressPull<T, D, Ring> of_layer;
-    repeat<Symmetric<T, D>::size>([&](auto c) { of_layer.share[c] = share * trial[i].deviator[c]; });
-    return of_layer;
-  }
-  /// The same in space. y: y^m.
+  /// What the single layer of a body pulls in the plane.
+  template <bool Ring> StressPull<T, D, Ring> pull(int i) const { return pull_of<D, Ring>(trial[i].deviator, trial[i].factor); }
+  /// In space. y: y^m.
   WayPull<T> pull_of_ways(int i, const Edges<T, 3>& e, const Vector<T, 3>* y) const {
     const T share = T(kVolumePart<3, false>) * trial[i].factor;
     return {y, share * e.det, -(share * trial[i].s)};
