@@ -26,7 +26,7 @@ template <int D> double shape_function(int a, const double* xi, double* gradient
   return value;
 }
 
-constexpr double kRoundOff = 1e-14;
+constexpr double kNoTwist = 1e-11;  ///< twist, over the size of the sides' shares, that is none: cells of one block may differ by as much (element/alike.h)
 
 template <int D, bool Ring = false> class Start {
   using Cell = OnePoint<D, Ring>;
@@ -127,14 +127,14 @@ template <int D, bool Ring = false> class Start {
     result.edges.template topLeftCorner<D, D>() = c_ * E_;
   }
 
-  /// w_ma by the signs of sides and modes, which are orthogonal; what is round-off beside them is none.
+  /// w_ma by the signs of sides and modes, which are orthogonal.
   void put_weights() {
     Eigen::Matrix<double, D, N> sides;
     for (int a = 0; a < N; ++a)
       for (int i = 0; i < D; ++i) sides(i, a) = kCornerSides[a][i];
     const Square linear = sides * w_.transpose() / N;
     Eigen::Matrix<double, M, D> twist = h_ * w_.transpose() / N;
-    twist = (twist.array().abs() > kRoundOff * linear.norm()).select(twist, 0.0);
+    twist = (twist.array().abs() > kNoTwist * linear.norm()).select(twist, 0.0);
     for (int i = 0; i < D; ++i) put(Cell::linear + i * D, Eigen::Matrix<double, D, 1>(linear.row(i)));
     for (int k = 0; k < M; ++k) put(Cell::twist + k * D, Eigen::Matrix<double, D, 1>(twist.row(k)));
     result.constants[Cell::twisted] = twist.cwiseAbs().maxCoeff();

@@ -115,5 +115,13 @@ TEST(OnePointSums, OnlyHexahedraThatAreNoParallelepipedsHaveTwist) {
   }
 }
 
+// Neither has a brick of a tenth of a millimetre a metre from the origin, whose corners are rounded there.
+TEST(OnePointSums, ASmallBrickFarAwayHasNoTwist) {
+  Started<3> cell(0, 1);
+  for (Vec3& X : cell.X) X = Vec3(1.1, 0.7, -1.3) + 1e-4 * X;
+  cell.start = cell.started();
+  EXPECT_FALSE((is_twisted<double, 3>(cell.constants())));
+}
+
 }  // namespace
 }  // namespace forming_sim
