@@ -202,7 +202,8 @@ TEST(OnePoint, ABentCellCarriesNoMoreThanThePlasticMoment) {
         for (int i = 0; i < body.body.mesh.dimension; ++i)
           for (int j = 0; j < body.body.mesh.dimension; ++j) strain(i, j) = size * share(random);
         for (int step = 1; step <= 400; ++step) {
-          const double along = step / 400.0, k = 0.05 * along, besides = path < 3 ? along : 1;  // with the bending, or before it
+          const double along = step / 400.0, k = 0.05 * (path % 2 ? along : std::sin(10 * along));  // on and on, or to and fro
+          const double besides = path < 3 ? along : 1;                                              // with the bending, or before it
           body.place([&](const Vec3& X) { return Vec3(X + (X.x() - 1) * (X[t] - 0.5) * -k * Vec3::UnitX() + besides * strain * X); });
           body.forces();
           most = std::max(most, moment(body, t, 0.5, flat ? 1 : 1.5) / exact);
