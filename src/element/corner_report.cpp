@@ -43,14 +43,10 @@ void Elements::report_corner_inversion(const NodeField& x) const {
              << " of the cell; a finer mesh there, larger tool radii, slower tools or pattern fine avoid it";
         throw Error(Code::mesh_error, what.str());
       };
-      const auto look = [&](auto d, auto ring) {
+      with_dimension(dimension_, g.ring, [&](auto d, auto ring) {
         const StandingCell<d> at(g, x, cell);
         report(LeastCorner<d, ring>(at.constants.data(), at.x));
-      };
-      constexpr std::integral_constant<int, 2> flat;
-      if (g.ring) look(flat, std::true_type());
-      else if (dimension_ == 2) look(flat, std::false_type());
-      else look(std::integral_constant<int, 3>(), std::false_type());
+      });
     }
   }
 }

@@ -355,15 +355,12 @@ double Elements::volume_ratio(const NodeField& x, int element) const {
     for (int m = 0; m < 2; ++m) y[m] = crossed_mix(item, kCrossed[point][m + 1] * 4, way) + item(kCrossedFreed + point) * crossed_mix(item, kCrossedApex, way);
     return std::min(own, own * y[0].cross(y[1]).z() / shape.edges.col(0).cross(shape.edges.col(1)).z());
   }
-  const auto volume = [&](auto d, auto ring) {
+  return with_dimension(dimension_, axisymmetric_, [&](auto d, auto ring) {
     const StandingCell<d> cell(g, x, where.cell);
     Vector<double, d> edge[kEdges<d, ring>];
     find_one_point_edges<d, ring>(cell.constants.data(), cell.x, edge);
-    return simplex_volume<double, d, ring>(edge);
-  };
-  constexpr std::integral_constant<int, 2> flat;
-  if (dimension_ == 3) return volume(std::integral_constant<int, 3>(), std::false_type()) / V0;
-  return (axisymmetric_ ? volume(flat, std::true_type()) : volume(flat, std::false_type())) / V0;
+    return simplex_volume<double, d, ring>(edge) / V0;
+  });
 }
 
 void Elements::report_inversion(const NodeField& x) const {

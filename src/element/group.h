@@ -63,6 +63,13 @@ struct Elements::Group : CellGroup {
   int last_block(long t) const { return blocks < first_block(t + 1) ? blocks : first_block(t + 1); }
 };
 
+/// work(D, ring) with both as constants of the compiler.
+template <class Work> auto with_dimension(int dimension, bool ring, Work&& work) {
+  constexpr std::integral_constant<int, 2> flat;
+  if (dimension == 3) return work(std::integral_constant<int, 3>(), std::false_type());
+  return ring ? work(flat, std::true_type()) : work(flat, std::false_type());
+}
+
 /// A one-point cell of a group where it stands.
 template <int D> struct Elements::StandingCell {
   std::vector<double> constants;
