@@ -30,6 +30,7 @@ def main():
         ("largest plastic strain", number(s["plastic_strain"]["max"])),
         ("largest surface strain", number(s["surface_strain"]["max"]) + " (principal, logarithmic)"),
         ("thickness", f"{number(s['thickness_m']['initial'], 1e3)} mm at first, {number(s['thickness_m']['min'], 1e3)} mm at least"),
+        ("largest thinning", number(s["thinning"]["max"], 100) + " %"),
     ]
     for tool in s["tools"]:
         force = tool["peak_force"]

@@ -5,20 +5,26 @@ import numpy as np
 
 COMPONENTS = {3: ("x", "y", "z"), 6: ("xx", "yy", "zz", "xy", "yz", "zx")}
 NAMES = {"plastic_strain": "equivalent plastic strain", "mises": "von Mises stress", "volume_ratio": "volume ratio V/V0",
-         "surface_strain": "largest principal strain of the surface"}
+         "surface_strain": "largest principal strain of the surface",
+         "surface_strain_minor": "smallest principal strain in the surface"}
+ON_SURFACE_FACETS = ("surface_strain", "surface_strain_minor")
 ON_SURFACE_NODES = ("contact_pressure", "contact_gap", "contact_slip")
-ON_NODES = ("positions", "velocities", *ON_SURFACE_NODES)  # the others: on elements
+ON_NODES = ("positions", "velocities", "thickness", "thinning", *ON_SURFACE_NODES)  # the others: on elements
 SHOWN_IN = {"Pa": ("MPa", 1e-6), "m": ("mm", 1e3)}
 
 
-def add_options(parser):
+def add_frame_options(parser):
     parser.add_argument("result", help="result.h5 of a run")
     parser.add_argument("--frame", type=int, default=-1, help="number of the frame, negative: from the end; default: the last")
     parser.add_argument("--time", type=float, help="instead of --frame: the frame nearest to this time, in seconds")
+    parser.add_argument("--output", help="PNG to write; default: beside the result")
+
+
+def add_options(parser):
+    add_frame_options(parser)
     parser.add_argument("--field", default="plastic_strain",
                         help="any field of the frame: plastic_strain, mises, contact_gap, stress.xx, velocities.z ...")
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"), help="ends of the colours, in the unit of the legend")
-    parser.add_argument("--output", help="PNG to write; default: beside the result")
 
 
 def pick_frame(result, options):
@@ -55,10 +61,10 @@ def read_field(frame, wanted):
 def read_on(frame, topology, wanted, cells, cell_element):
     """(the field's value on each of `cells`, rows of nodes; its label). cell_element: the element
     that each cell is or belongs to. What lives on nodes is the mean of the cell's nodes, and of
-    contact that of its surface nodes: nan inside the body."""
+    contact that of its surface nodes: nan inside the body, and of thickness outside of sheets."""
     values, label = read_field(frame, wanted)
     name = wanted.partition(".")[0]
-    if name == "surface_strain":
+    if name in ON_SURFACE_FACETS:
         if len(cells[0]) != topology["surface"].shape[1]:
             sys.exit(f"--field: given {wanted}, a field of the surface: scripts/plot_surface.py shows it in 3D")
         return values, label

@@ -179,11 +179,6 @@ void BoundarySet::check(const Group& group, const std::vector<int>& members, con
   }
 }
 
-int BoundarySet::find(int node) const {
-  const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), node);
-  return place != nodes_.end() && *place == node ? static_cast<int>(place - nodes_.begin()) : -1;
-}
-
 Vec3 BoundarySet::prescribed(const Group& group, double t, double dt, const Vec3& x) const {
   Vec3 u = Vec3::Zero();
   for (const Direction& fixed : group.directions)

@@ -25,25 +25,39 @@ Peak greatest_plastic_strain(const Simulation& simulation) {
 }
 
 Peak greatest_surface_strain(const Simulation& simulation) {
-  const std::vector<double> strain = simulation.surface_strain();
+  const std::vector<SurfaceStrain> strain = simulation.surface_strain();
   Peak peak;
   peak.time = simulation.time();
   if (strain.empty()) return peak;
-  const auto index = std::max_element(strain.begin(), strain.end()) - strain.begin();
+  const auto index = std::max_element(strain.begin(), strain.end(), [](const SurfaceStrain& a, const SurfaceStrain& b) { return a.major < b.major; }) - strain.begin();
   const Facet& facet = simulation.surface()[index];
-  peak.value = strain[index];
+  peak.value = strain[index].major;
   peak.element = facet.element;
   peak.position = centre(facet.nodes, simulation.model().dimension, simulation.positions());
+  return peak;
+}
+
+/// thinning: per node, NaN on what is no sheet.
+Peak greatest_thinning(const Simulation& simulation, const std::vector<double>& thinning) {
+  Peak peak;
+  peak.time = simulation.time();
+  int node = -1;
+  for (int n = 0; n < static_cast<int>(thinning.size()); ++n)
+    if (thinning[n] > (node < 0 ? -std::numeric_limits<double>::infinity() : thinning[node])) node = n;
+  if (node < 0) return peak;
+  const auto& elements = simulation.elements();
+  const auto has_node = [&](const std::array<int, 4>& corners) { return std::find(corners.begin(), corners.end(), node) != corners.end(); };
+  peak.value = thinning[node];
+  peak.element = static_cast<int>(std::find_if(elements.begin(), elements.end(), has_node) - elements.begin());
+  peak.position = vec3(simulation.positions()[node]);
   return peak;
 }
 
 }  // namespace
 
 Gauge::Gauge(const Simulation& simulation, const std::vector<ProbeConfig>& probes)
-    : probes_(find_probes(probes, simulation.model(), simulation.elements())) {
+    : probes_(find_probes(probes, simulation.model(), simulation.elements())), sheets_(simulation.model()) {
   for (Probe& probe : probes_) probe.held = std::any_of(probe.nodes.begin(), probe.nodes.end(), [&](int n) { return simulation.once_held(n); });
-  for (const BodyModel& body : simulation.model().bodies)
-    if (auto sheet = Thickness::of(body.mesh, body.first_node)) sheets_.push_back(std::move(*sheet));
 }
 
 const Measures& Gauge::at(const Simulation& simulation) {
@@ -51,10 +65,10 @@ const Measures& Gauge::at(const Simulation& simulation) {
   step_ = simulation.steps();
   measures_.plastic_strain = greatest_plastic_strain(simulation);
   measures_.surface_strain = greatest_surface_strain(simulation);
-  measures_.thickness.reset();
-  for (const Thickness& sheet : sheets_) {
-    const double thickness = sheet.smallest(simulation.positions());
-    measures_.thickness = std::min(measures_.thickness.value_or(thickness), thickness);
+  if (sheets_.any()) {
+    const std::vector<double> thickness = sheets_.at(simulation.positions());
+    measures_.thickness = smallest(thickness);
+    measures_.thinning = greatest_thinning(simulation, sheets_.thinning(thickness));
   }
   measures_.probes.clear();
   const std::vector<Sym> stress = probes_.empty() ? std::vector<Sym>() : simulation.stress();

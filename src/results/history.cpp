@@ -24,7 +24,7 @@ std::vector<std::string> history_columns(const Model& model, const std::vector<P
     for (const char* axis : kAxes) columns.push_back("tool_" + tool.name + "_force_" + axis + "_N" + per_width);
     for (const char* axis : kAxes) columns.push_back("tool_" + tool.name + "_position_" + axis + "_m");
   }
-  for (const char* name : {"max_plastic_strain", "max_surface_strain", "min_thickness_m", "min_gap_over_h0"})
+  for (const char* name : {"max_plastic_strain", "max_surface_strain", "min_thickness_m", "max_thinning", "min_gap_over_h0"})
     columns.push_back(name);
   for (const Probe& probe : probes) {
     for (const char* axis : kAxes) columns.push_back("probe_" + probe.name + "_position_" + axis + "_m");
@@ -89,6 +89,7 @@ void History::write(const Simulation& simulation) {
   values.push_back(csv_number(measures.plastic_strain.value));
   values.push_back(csv_number(measures.surface_strain.value));
   values.push_back(measures.thickness ? csv_number(*measures.thickness) : "");
+  values.push_back(measures.thickness ? csv_number(measures.thinning.value) : "");
   values.push_back(csv_number(simulation.contact_status().min_gap_over_layer));
   record_.history_reactions.resize(measures.probes.size());
   for (std::size_t i = 0; i < measures.probes.size(); ++i) {

@@ -50,9 +50,8 @@ void Recorder::look(const Simulation& simulation) {
     if (!record_.thickness_initial) record_.thickness_initial = now.thickness;
     record_.thickness_min = std::min(record_.thickness_min.value_or(*now.thickness), *now.thickness);
   }
-  const Peak& strain = now.surface_strain;
-  if (strain.element >= 0 && (record_.surface_strain.element < 0 || strain.value > record_.surface_strain.value))
-    record_.surface_strain = strain;
+  record_.surface_strain.rise_to(now.surface_strain);
+  record_.thinning.rise_to(now.thinning);
 }
 
 }  // namespace forming_sim

@@ -37,13 +37,17 @@ void write_fields(Hdf5Group& group, const Frame& frame) {
   group.write("mises", mises.data(), {elements}, "Pa");
   group.write("volume_ratio", frame.volume_ratio.data(), {frame.volume_ratio.size()}, "1");
   group.write("surface_strain", frame.surface_strain.data(), {frame.surface_strain.size()}, "1");
+  group.write("surface_strain_minor", frame.surface_strain_minor.data(), {frame.surface_strain_minor.size()}, "1");
+  if (frame.thickness.empty()) return;
+  group.write("thickness", frame.thickness.data(), {nodes}, "m");
+  group.write("thinning", frame.thinning.data(), {nodes}, "1");
 }
 
 /// At most what a frame takes in the file: its values as they are, and 4 KiB a data set and group for what describes them.
 std::uint64_t most_bytes(const Frame& frame, const ResultHeader& header) {
-  std::uint64_t bytes = 18 * 4096;
-  bytes += frame.positions.size() * (6 * sizeof(double) + 3 * sizeof(float)) + frame.stress.size() * 9 * sizeof(float) +
-           frame.surface_strain.size() * sizeof(float);
+  std::uint64_t bytes = 21 * 4096;
+  bytes += frame.positions.size() * (6 * sizeof(double) + 5 * sizeof(float)) + frame.stress.size() * 9 * sizeof(float) +
+           2 * frame.surface_strain.size() * sizeof(float);
   for (const ToolShape& tool : header.tools) bytes += 5 * 4096 + tool.points.size() * 3 * sizeof(double);
   return bytes;
 }
@@ -94,7 +98,7 @@ void ResultFile::write(const Frame& frame) {
   group.set("interrupted", std::int64_t{frame.interrupted});
   write_fields(group, frame);
   Hdf5Group tools = group.create("tools");
-  FrameEntry entry{name, frame.time, frame.step, frame.interrupted, {}, !frame.contact_gap.empty(), !frame.contact_slip.empty()};
+  FrameEntry entry{name, frame.time, frame.step, frame.interrupted, {}, !frame.contact_gap.empty(), !frame.contact_slip.empty(), !frame.thickness.empty()};
   for (std::size_t i = 0; i < frame.tools.size(); ++i) {
     write_tool(tools, frame, i);
     entry.tools_present.push_back(frame.tools[i].present);

@@ -77,7 +77,7 @@ std::vector<FrameEntry> read_entries(const Hdf5Group& root) {
   const Hdf5Group frames = root.group("frames");
   for (const std::string& name : frames.names()) {
     const Hdf5Group frame = frames.group(name), tools = frame.group("tools");
-    FrameEntry entry{name, frame.number("time"), frame.integer("step"), frame.integer("interrupted") != 0, {}, frame.has("contact_gap"), frame.has("contact_slip")};
+    FrameEntry entry{name, frame.number("time"), frame.integer("step"), frame.integer("interrupted") != 0, {}, frame.has("contact_gap"), frame.has("contact_slip"), frame.has("thickness")};
     for (std::size_t i = 0; i < member_count(tools); ++i)
       entry.tools_present.push_back(tools.group(std::to_string(i)).integer("present") != 0);
     entries.push_back(std::move(entry));
@@ -107,6 +107,11 @@ Frame ResultReader::frame(std::size_t index) const {
   if (entry.gap) frame.contact_gap = group.read<float>("contact_gap");
   if (entry.slip) frame.contact_slip = group.read<float>("contact_slip");
   frame.surface_strain = group.read<float>("surface_strain");
+  frame.surface_strain_minor = group.read<float>("surface_strain_minor");
+  if (entry.sheet) {
+    frame.thickness = group.read<float>("thickness");
+    frame.thinning = group.read<float>("thinning");
+  }
   const Hdf5Group tools = group.group("tools");
   for (std::size_t i = 0; i < member_count(tools); ++i) {
     const Hdf5Group tool = tools.group(std::to_string(i));

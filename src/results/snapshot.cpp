@@ -42,7 +42,7 @@ ResultHeader take_header(const Simulation& simulation, const Scene& scene) {
   return header;
 }
 
-Frame take_frame(const Simulation& simulation) {
+Frame take_frame(const Simulation& simulation, const Thickness& sheets) {
   Frame frame;
   frame.time = simulation.time();
   frame.step = simulation.steps();
@@ -52,7 +52,15 @@ Frame take_frame(const Simulation& simulation) {
   const auto single = [](const std::vector<double>& values) { return std::vector<float>(values.begin(), values.end()); };
   frame.plastic_strain = single(simulation.plastic_strain());
   frame.volume_ratio = single(simulation.volume_ratio());
-  frame.surface_strain = single(simulation.surface_strain());
+  for (const SurfaceStrain& strain : simulation.surface_strain()) {
+    frame.surface_strain.push_back(static_cast<float>(strain.major));
+    frame.surface_strain_minor.push_back(static_cast<float>(strain.minor));
+  }
+  if (sheets.any()) {
+    const std::vector<double> thickness = sheets.at(simulation.positions());
+    frame.thickness = single(thickness);
+    frame.thinning = single(sheets.thinning(thickness));
+  }
   frame.contact_pressure = single(simulation.contact_pressure());
   frame.contact_gap = single(simulation.contact_gap());
   frame.contact_slip = single(simulation.contact_slip());

@@ -174,13 +174,17 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
                   {"h0_m", number(contact.layer)},
                   {"explicit_stable_dt_s", contact.explicit_stable_dt > 0 ? number(contact.explicit_stable_dt) : Json(nullptr)}};
   j["plastic_strain"] = maximum(now.plastic_strain, model);
-  const bool higher_now = record.surface_strain.element < 0 || now.surface_strain.value > record.surface_strain.value;
-  j["surface_strain"] = maximum(higher_now ? now.surface_strain : record.surface_strain, model);
+  Peak strain = record.surface_strain, thinning = record.thinning;
+  strain.rise_to(now.surface_strain);
+  thinning.rise_to(now.thinning);
+  j["surface_strain"] = maximum(strain, model);
   j["surface_strain"]["at_end_of_forming"] =
       record.surface_strain_formed ? maximum(*record.surface_strain_formed, model) : Json(nullptr);
   j["surface_strain"]["at_end"] = maximum(now.surface_strain, model);
   j["thickness_m"] = {{"initial", number(record.thickness_initial)},
                       {"min", number(smaller(record.thickness_min, now.thickness))}};
+  j["thinning"] = maximum(thinning, model);
+  j["thinning"]["at_end"] = maximum(now.thinning, model);
   j["bodies"] = bodies(simulation);
   j["tools"] = tools(simulation);
   j["springback"] = springback(simulation, scene, record, gauge, code);

@@ -48,6 +48,10 @@ class Writer {
     attribute("contact_pressure", "Scalar", "Node", nodes, 1, 4, path + "contact_pressure");
     if (frame.gap) attribute("contact_gap", "Scalar", "Node", nodes, 1, 4, path + "contact_gap");
     if (frame.slip) attribute("contact_slip", "Scalar", "Node", nodes, 1, 4, path + "contact_slip");
+    if (frame.sheet) {
+      attribute("thickness", "Scalar", "Node", nodes, 1, 4, path + "thickness");
+      attribute("thinning", "Scalar", "Node", nodes, 1, 4, path + "thinning");
+    }
     attribute("plastic_strain", "Scalar", "Cell", elements, 1, 4, path + "plastic_strain");
     attribute("stress", "Matrix", "Cell", elements, 6, 4, path + "stress");
     attribute("mises", "Scalar", "Cell", elements, 1, 4, path + "mises");

@@ -53,6 +53,7 @@ void print_summary(const SimulateFormingResult& result) {
   row("wall time", s.wall_time_s, 1, "s");
   row("largest plastic strain", s.max_plastic_strain, 1, "");
   row("smallest thickness", s.min_thickness_m, 1e3, "mm");
+  row("largest thinning", s.max_thinning, 100, "%");
   row("springback", s.springback_deg, 1, "deg");
   row("energy balance error", s.energies.balance_error, 100, "%");
   row("crossings", static_cast<double>(s.crossings), 1, "");

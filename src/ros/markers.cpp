@@ -1,6 +1,7 @@
 #include "forming_sim/ros/markers.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "forming_sim/ros/colour.h"
 #include "geometry.h"
@@ -11,7 +12,7 @@ using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
 const std::vector<std::string>& MarkerOptions::colours() {
-  static const std::vector<std::string> words{"plastic_strain", "contact_pressure", "contact_gap", "contact_slip"};
+  static const std::vector<std::string> words{"plastic_strain", "contact_pressure", "contact_gap", "contact_slip", "thinning"};
   return words;
 }
 
@@ -101,9 +102,10 @@ std::vector<double> RunMarkers::values(const RunFrame& frame) const {
   if (options_.colour_by == "plastic_strain") return sheet_.node_means(frame.plastic_strain);
   const std::vector<double>& field = options_.colour_by == "contact_pressure" ? frame.contact_pressure
                                      : options_.colour_by == "contact_gap"    ? frame.contact_gap
-                                                                              : frame.contact_slip;
+                                     : options_.colour_by == "contact_slip"   ? frame.contact_slip
+                                                                              : frame.thinning;
   std::vector<double> drawn;
-  for (const int n : sheet_.drawn_nodes()) drawn.push_back(field.empty() ? 0 : field[n]);
+  for (const int n : sheet_.drawn_nodes()) drawn.push_back(field.empty() || std::isnan(field[n]) ? 0 : field[n]);
   return drawn;
 }
 

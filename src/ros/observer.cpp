@@ -18,10 +18,7 @@ RosObserver::RosObserver(RunPublisher& publisher, std::string scene, Feedback fe
 
 void RosObserver::on_start(const Simulation& simulation) {
   clock_.start(simulation.progress(), now_s());
-  thickness_.clear();
-  for (const BodyModel& body : simulation.model().bodies) {
-    if (auto thickness = Thickness::of(body.mesh, body.first_node)) thickness_.push_back(std::move(*thickness));
-  }
+  sheets_ = Thickness(simulation.model());
   publisher_.start(shape_of(simulation, scene_));
   tell(simulation, true, Code::none, "running");
 }
@@ -38,19 +35,15 @@ void RosObserver::on_end(const Simulation& simulation, Code code, const std::str
   tell(simulation, true, code, message);
 }
 
-double RosObserver::min_thickness(const Simulation& simulation) const {
-  double smallest = -1;
-  for (const Thickness& thickness : thickness_) {
-    const double here = thickness.smallest(simulation.positions());
-    smallest = smallest < 0 ? here : std::min(smallest, here);
-  }
-  return smallest;
-}
-
 void RosObserver::tell(const Simulation& simulation, bool always, Code code, const std::string& message) {
-  const RunFrame frame = frame_of(simulation, always || publisher_.wants_contact());
-  RunStatus status = status_of(simulation, frame, scene_, clock_.left(simulation.progress(), now_s()),
-                               min_thickness(simulation));
+  RunFrame frame = frame_of(simulation, always || publisher_.wants_contact());
+  double thinnest = -1;
+  if (sheets_.any()) {
+    const std::vector<double> thickness = sheets_.at(simulation.positions());
+    thinnest = smallest(thickness).value_or(-1);
+    if (publisher_.wants_thinning()) frame.thinning = sheets_.thinning(thickness);
+  }
+  RunStatus status = status_of(simulation, frame, scene_, clock_.left(simulation.progress(), now_s()), thinnest);
   status.running = code == Code::none;
   status.code = static_cast<int>(code);
   status.message = message;

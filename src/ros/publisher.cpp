@@ -113,7 +113,8 @@ void RunPublisher::publish_strain(const RunFrame& frame, const ros::Time& stamp)
   strain_.publish(message);
 }
 
-bool RunPublisher::wants_contact() const { return contact_.getNumSubscribers() > 0 || options_.markers.colour_by != "plastic_strain"; }
+bool RunPublisher::wants_contact() const { return contact_.getNumSubscribers() > 0 || options_.markers.colour_by.rfind("contact_", 0) == 0; }
+bool RunPublisher::wants_thinning() const { return options_.markers.colour_by == "thinning"; }
 
 void RunPublisher::publish_contact(const RunFrame& frame, const ros::Time& stamp, bool always) {
   if ((!always && contact_.getNumSubscribers() == 0) || frame.contact_gap.empty()) return;

@@ -5,6 +5,7 @@
 #include "forming_sim/ros/signals.h"
 #include "forming_sim/ros/status.h"
 #include "forming_sim/results/result_reader.h"
+#include "forming_sim/results/thickness.h"
 
 namespace forming_sim {
 namespace {
@@ -44,6 +45,7 @@ RunFrame run_frame(const Frame& stored) {
   if (!stored.contact_gap.empty()) frame.contact_pressure.assign(stored.contact_pressure.begin(), stored.contact_pressure.end());
   frame.contact_gap.assign(stored.contact_gap.begin(), stored.contact_gap.end());
   frame.contact_slip.assign(stored.contact_slip.begin(), stored.contact_slip.end());
+  frame.thinning.assign(stored.thinning.begin(), stored.thinning.end());
   for (const FrameTool& pose : stored.tools) {
     ToolStatus status;
     status.position = pose.position;
@@ -55,7 +57,7 @@ RunFrame run_frame(const Frame& stored) {
   return frame;
 }
 
-RunStatus status_of(const RunShape& shape, const RunFrame& frame, double progress) {
+RunStatus status_of(const RunShape& shape, const RunFrame& frame, const std::vector<float>& thickness, double progress) {
   RunStatus status;
   status.scene = shape.scene;
   status.message = "replay of a result";
@@ -68,7 +70,7 @@ RunStatus status_of(const RunShape& shape, const RunFrame& frame, double progres
     status.tools.push_back(tool_message(shape.tools[k].name, frame.tools[k]));
   }
   for (const double p : frame.plastic_strain) status.max_plastic_strain = std::max(status.max_plastic_strain, p);
-  status.min_thickness_m = -1;
+  status.min_thickness_m = smallest({thickness.begin(), thickness.end()}).value_or(-1);
   return status;
 }
 
@@ -92,8 +94,9 @@ void replay(RunPublisher& publisher, const ReplayOptions& options) {
     for (std::size_t i = 0; i < entries.size(); ++i) {
       const double progress = span > 0 ? (entries[i].time - first) / span : 1;
       if (!wait_until(begin + ros::WallDuration(progress * options.duration_s))) return;
-      const RunFrame frame = run_frame(reader.frame(i));
-      publisher.publish(frame, status_of(shape, frame, progress), true);
+      const Frame stored = reader.frame(i);
+      const RunFrame frame = run_frame(stored);
+      publisher.publish(frame, status_of(shape, frame, stored.thickness, progress), true);
     }
   } while (options.loop);
 }

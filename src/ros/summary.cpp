@@ -71,6 +71,7 @@ RunSummary read_summary(const std::string& directory) {
   summary.max_surface_strain = number(root, "/surface_strain/max");
   summary.initial_thickness_m = number(root, "/thickness_m/initial");
   summary.min_thickness_m = number(root, "/thickness_m/min");
+  summary.max_thinning = number(root, "/thinning/max");
   summary.angle_formed_deg = number(root, "/springback/angle_deg_formed");
   summary.angle_released_deg = number(root, "/springback/angle_deg_released");
   summary.springback_deg = number(root, "/springback/change_deg");

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "forming_sim/loads/rotation.h"
+#include "forming_sim/loads/velocity_field.h"
 #include "forming_sim/mesh/axis.h"
 #include "forming_sim/mesh/generate.h"
 #include "forming_sim/mesh/import.h"
@@ -91,6 +92,13 @@ void check_used_sets(const BodyConfig& body, const std::string& path, const Mesh
     if (!exists(set, here) || mesh.sets.at(set).empty() || covers_a_face(mesh, mesh.sets.at(set))) continue;
     list.add(here + ".set", given_text(set), "give a set that holds all nodes of at least one surface face: on none of this one can a pressure act");
   }
+}
+
+void check_velocity_field(const BodyConfig& body, const std::string& path, const Mesh& mesh, std::vector<Fault>& faults) {
+  attempt(path, "formulas", faults, [&] {
+    const VelocityField field(body.initial_velocity_field);
+    for (const Vec3& X : mesh.nodes) field.at(X);
+  });
 }
 
 bool make_body(const Scene& scene, std::size_t i, const std::vector<Fault>& known, Mesh& mesh, std::vector<Fault>& faults) {
@@ -185,6 +193,8 @@ Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known) {
       add_sets(scene.bodies[i], body_path(i), bodies[i], geometry.faults);
       check_used_sets(scene.bodies[i], body_path(i), bodies[i], geometry.faults);
     }
+    const std::string field = body_path(i) + ".initial_velocity_field";
+    if (!has_faults(known, field)) check_velocity_field(scene.bodies[i], field, bodies[i], geometry.faults);
   }
   for (std::size_t i = 0; i < tools.size(); ++i) {
     if (!make_tool(scene, i, known, tools[i], geometry)) tools[i] = Mesh{};

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "forming_sim/loads/velocity_field.h"
 #include "forming_sim/material/constants.h"
 #include "forming_sim/simulation/release.h"
 
@@ -108,6 +109,20 @@ void check_material(const BodyConfig& body, const std::string& path, FaultList& 
   if (std::abs(sum - 1) > 1e-3) faults.add(here + ".layers", "weights with the sum " + number_text(sum), "let the weights sum to 1: they are the shares of the shear modulus");
 }
 
+void check_velocity_field(const BodyConfig& body, const std::string& path, int dimension, FaultList& faults) {
+  const std::vector<std::string>& formulas = body.initial_velocity_field;
+  const std::string here = path + ".initial_velocity_field";
+  if (!formulas.empty() && static_cast<int>(formulas.size()) != dimension && (dimension == 2 || dimension == 3))
+    faults.add(here, std::to_string(formulas.size()) + " formulas", "give " + std::to_string(dimension) + ", one for each coordinate; \"0\" where nothing moves");
+  faults.each(formulas, [&](std::size_t i) {
+    try {
+      const VelocityField alone({formulas[i]});
+    } catch (const Error& error) {
+      faults.add(join_path(here, i), given_text(formulas[i]), error.what());
+    }
+  });
+}
+
 }  // namespace
 
 void check_bodies(const Scene& scene, FaultList& faults) {
@@ -117,6 +132,7 @@ void check_bodies(const Scene& scene, FaultList& faults) {
     check_source(body, path, scene.dimension, faults);
     check_material(body, path, faults);
     check_one_point(body, path, faults);
+    check_velocity_field(body, path, scene.dimension, faults);
     const auto sets = known_sets(body);
     const auto check_set = [&](const std::string& set, const std::string& here) {
       if (!sets || set.empty() || std::find(sets->begin(), sets->end(), set) != sets->end()) return;

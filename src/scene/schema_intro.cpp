@@ -49,7 +49,7 @@ pressures and probes name sets of its nodes:
 | `.msh` file | its physical groups by their names |
 
 More sets are chosen by a plane, a box, a cylinder or a sphere under `sets`. In a mesh file, name two sets `bottom` and `top` to have the
-thickness of the sheet in the results.
+thickness of the sheet and its thinning in the results.
 
 A boundary of kind `velocity` moves a set as a rigid body would: with `velocities`, about a `centre` with `spins_deg_s`, or
 both, and only along its `axes`. A bar is twisted by an end with `spins_deg_s: [[0, 0, w], ...]` and `axes: [x, y]`, so
@@ -112,6 +112,7 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | `plastic_strain` | the largest equivalent plastic strain and where it is |
 | `surface_strain` | the largest principal logarithmic strain on the surface, extrapolated to it |
 | `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom` |
+| `thinning` | the largest 1 - t/t0 of a node of `top`, t its thickness, t0 that of the start; where and when it is |
 | `bodies` | for each body: name, mass, centre, momentum, angular momentum, `bounding_box` (`min`, `max`) |
 | `tools` | for each tool: name and the vector of its peak force |
 | `springback` | `angle_deg_formed`, `angle_deg_released`, `change_deg`, `probe`, `kinetic_over_internal` |

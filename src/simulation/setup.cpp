@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "forming_sim/loads/velocity_field.h"
 #include "forming_sim/config/words.h"
 #include "forming_sim/mesh/axis.h"
 #include "forming_sim/simulation/release.h"
@@ -95,8 +96,9 @@ void Simulation::Impl::set_up_loads() {
     const BodyModel& body = model.bodies[b];
     const BodyLoads& loads = plan.bodies[b];
     const Vec3 spin = loads.initial_spin_deg_s * (M_PI / 180);
+    const VelocityField field(loads.initial_velocity_field);
     for (int i = body.first_node; i < body.first_node + body.node_count; ++i)
-      v[i] = node(loads.initial_velocity + spin.cross(vec3(X[i]) - loads.spin_centre));
+      v[i] = node(loads.initial_velocity + spin.cross(vec3(X[i]) - loads.spin_centre) + field.at(vec3(X[i])));
     for (const BoundaryConfig& c : loads.boundaries) held.push_back(resolve(c, body.name, body.mesh, body.first_node));
     if (model.axisymmetric) hold_at_axis(body, held);
     for (const PressureConfig& c : loads.pressures) pressed.push_back(resolve(c, body.name, body.mesh, body.first_node));

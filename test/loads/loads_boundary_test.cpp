@@ -51,12 +51,8 @@ std::string refusal(const std::vector<ResolvedBoundary>& boundaries, int dimensi
 TEST(BoundarySet, fixes_axes_and_leaves_the_others) {
   const BoundarySet set({fixed({"y"}, {3, 1}), fixed({}, {5})}, 3);
   EXPECT_EQ(set.nodes(), (std::vector<int>{1, 3, 5}));
-  EXPECT_EQ(set.find(3), 1);
-  EXPECT_EQ(set.find(2), -1);
-  EXPECT_EQ(set.find(9), -1);
-  EXPECT_EQ(set.find(0), -1);
-  EXPECT_EQ(set.projector(set.find(1)) * Vec3(1, 2, 3), Vec3(1, 0, 3));
-  EXPECT_EQ(set.projector(set.find(5)) * Vec3(1, 2, 3), Vec3(0, 0, 0));
+  EXPECT_EQ(set.projector(0) * Vec3(1, 2, 3), Vec3(1, 0, 3));
+  EXPECT_EQ(set.projector(2) * Vec3(1, 2, 3), Vec3(0, 0, 0));
 }
 
 TEST(BoundarySet, all_axes_in_plane_strain_are_x_and_y) {

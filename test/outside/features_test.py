@@ -132,6 +132,62 @@ class Features(unittest.TestCase):
             pull = 2710 * math.radians(turns)**2 * 0.005**2 / 2
             self.assertLess(numpy.abs(last['stress'][:]).max(), 4 * pull)
 
+    def half_swing(self, cells, third, period, name):
+        """The time after which a corner of the swinging cube is back in its place, and how far it was, over that of the shape."""
+        speed, wave = 0.02, {a: {'s': f'sin(pi/2*{a})', 'c': f'cos(pi/2*{a})'} for a in 'xyz'}
+        blank = {'shape': 'plate', 'length': 1.0, 'width': 1.0, 'thickness': 1.0, 'cells_along': cells, 'cells_across': cells, 'cells_through': cells, 'pattern': 'one_point'}
+        faces = {'left': 'x', 'right': 'x', 'front': 'y', 'back': 'y', 'bottom': 'z', 'top': 'z'}
+        held = [{'set': face, 'kind': 'fixed', 'axes': [axis] if face in ('left', 'front', 'bottom') else [a for a in 'xyz' if a != axis]} for face, axis in faces.items()]
+        field = [f'{factor * speed}*' + '*'.join(wave[b]['s' if a == b else 'c'] for b in 'xyz') for a, factor in zip('xyz', (1, 1, third))]
+        cube = {'name': 'cube', 'blank': blank, 'material': {'density': 1100.0, 'youngs_modulus': 17e6, 'poissons_ratio': 0.3},
+                'initial_velocity_field': field, 'boundaries': held}
+        self.run_scene(scene(cube, dimension=3, duration=0.6 * period, output={'frames': 2, 'history_interval': period / 400, 'probes': [
+            {'name': 'corner', 'point': [1, 0, 0]}]}), name)
+        rows = self.history(name)
+        times, moved = [float(row['time_s']) for row in rows], [float(row['probe_corner_position_x_m']) - 1 for row in rows]
+        back = next(i for i in range(2, len(moved)) if moved[i] <= 0)
+        return times[back] - (times[back] - times[back - 1]) * moved[back] / (moved[back] - moved[back - 1]), max(moved) / (speed * period / (2 * math.pi))
+
+    def test_a_cube_swings_as_its_formulas_start_it(self):
+        """The swinging cube with the velocity of its shape, A = B = 1: periods of 29.954 ms (C = -2) and 16.011 ms (C = 1), of second order."""
+        for third, period in ((-2, 29.954e-3), (1, 16.011e-3)):
+            errors = []
+            for cells in (6, 12):
+                half, reach = self.half_swing(cells, third, period, f'out{third}_{cells}')
+                errors.append(2 * half / period - 1)
+            self.assertAlmostEqual(reach, 1, delta=0.01)
+            self.assertLess(abs(errors[1]), 0.005)
+            self.assertAlmostEqual(errors[0] / errors[1], 4, delta=0.4)
+
+    def test_a_stretched_sheet_thins_by_what_it_is_stretched(self):
+        """In plane strain, nearly without volume change: 1 - exp(-e) is gone of the thickness, and the strain of the surface is e along, 0 across."""
+        strip = {'name': 'strip', 'blank': {'shape': 'strip', 'length': 0.02, 'thickness': 0.001, 'cells_along': 20, 'cells_through': 2},
+                 'material': dict(ALUMINIUM, hardening={'curve': 'swift', 'strength': 500e6, 'prestrain': 0.01, 'exponent': 0.25}),
+                 'boundaries': [{'set': 'left', 'kind': 'fixed', 'axes': ['x']}, {'set': 'bottom', 'kind': 'symmetric', 'normal': [0, 1]},
+                                {'set': 'right', 'kind': 'velocity', 'axes': ['x'], 'times': [0, 2e-4, 4e-4], 'profile': 'smooth', 'velocities': [[0, 0], [10, 0], [0, 0]]}]}
+        table = {'name': 'table', 'normal': [0, 1], 'point': [0, -0.01]}
+        block = {'name': 'no_sheet', 'mesh': {'points': [[1, 0, 0], [1.01, 0, 0], [1, 0.01, 0]], 'cells': [0, 1, 2], 'cell_type': 'triangle', 'unit_scale': 1}, 'material': ALUMINIUM}
+        summary = self.run_scene(scene(strip, block, duration=4.5e-4, tools=[table], time_step={'damping': 2e4}))
+        strain = math.log(1.1)
+        thinning = 1 - math.exp(-strain)
+        self.assertAlmostEqual(summary['thinning']['max'] / thinning, 1, delta=0.05)
+        self.assertAlmostEqual(summary['thinning']['max'], 1 - summary['thickness_m']['min'] / summary['thickness_m']['initial'], delta=1e-9)
+        self.assertEqual(summary['thinning']['where']['body'], 'strip')
+        self.assertAlmostEqual(float(self.history()[-1]['max_thinning']), summary['thinning']['at_end']['max'], delta=1e-9)
+        with h5py.File(self.path('out/result.h5')) as result:
+            last = result['frames'][sorted(result['frames'])[-1]]
+            sheet = slice(0, len(last['thinning']) - 3)
+            self.assertTrue(numpy.isnan(last['thinning'][-3:]).all())
+            self.assertAlmostEqual(last['thinning'][sheet].mean() / thinning, 1, delta=0.05)
+            x = last['positions'][sheet]
+            top = result['bodies/0/sets']
+            nodes = next(group['nodes'][:] for group in top.values() if group.attrs['name'] == 'top')
+            self.assertTrue(numpy.allclose(last['thickness'][:][nodes], x[nodes, 1], rtol=1e-5))
+            owner = result['topology/body'][:][result['topology/surface_element'][:]]
+            along = numpy.isin(result['topology/surface'][:], nodes).all(axis=1) & (owner == 0)
+            self.assertTrue(numpy.allclose(last['surface_strain'][:][along], strain, rtol=0.05))
+            self.assertTrue((last['surface_strain_minor'][:][along] == 0).all())
+
     def test_a_pressure_pulse(self):
         data = scene(body('plate', pressures=[{'set': 'top', 'times': [0.0, 1e-5, 2e-5], 'values': [0.0, 1e6, 0.0]}]), dimension=3)
         plate = self.run_scene(data)['bodies'][0]

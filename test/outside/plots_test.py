@@ -54,11 +54,26 @@ class Plots(unittest.TestCase):
 
     def test_fields_of_nodes_elements_and_components(self):
         for script in ('plot_section.py', 'plot_surface.py'):
-            for field in ('plastic_strain', 'mises', 'stress.zz', 'velocities.z', 'contact_gap', 'contact_pressure', 'contact_slip'):
+            for field in ('plastic_strain', 'mises', 'stress.zz', 'velocities.z', 'contact_gap', 'contact_pressure', 'contact_slip', 'thinning'):
                 run = self.plot(script, '--field', field)
                 self.assertEqual(run.returncode, 0, f'{script} {field}: {run.stderr}')
         run = self.plot('plot_surface.py', '--field', 'surface_strain', '--body', 'plate', '--range', '0', '0.1')
         self.assertEqual(run.returncode, 0, run.stderr)
+
+    def test_the_forming_limit_diagram(self):
+        curve = os.path.join(self.directory, 'limit.csv')
+        with open(curve, 'w') as file:
+            file.write('minor,major\n-0.5,1e-9\n0.5,1e-9\n')
+        run = self.plot('plot_forming_limit.py', '--limit', curve)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        # Pressed from above it grows sideways, all over.
+        self.assertIn('beyond the limit: 100 % of the sheet', run.stdout)
+        run = self.plot('plot_forming_limit.py', '--set', 'side')
+        self.assertEqual(run.returncode, 1)
+        self.assertIn('back, bottom, front, left, right, top', run.stderr)
+        with open(curve, 'w') as file:
+            file.write('minor,major\n0,many\n')
+        self.assertIn('not two numbers', self.plot('plot_forming_limit.py', '--limit', curve).stderr)
 
     def test_what_is_not_there_is_named(self):
         for script, words, said in (('plot_section.py', ('--field', 'strain'), 'plastic_strain'),

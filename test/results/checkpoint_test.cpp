@@ -22,6 +22,7 @@ Checkpoint example_checkpoint() {
   record.thickness_min = 0.9e-3;
   record.angle_formed_deg = -89.5;
   record.surface_strain = {0.3, 12, Vec3(1, 2, 3), 1e-3};
+  record.thinning = {0.2, 7, Vec3(4, 5, 6), 2e-3};
   record.stages.push_back({"form", "form", 1e-3, 1, 2, 3});
   record.history_impulses = {Vec3(0, -1, 0)};
   checkpoint.record = record.to_json();
@@ -55,6 +56,8 @@ TEST(Checkpoint, IsLoadedAsSaved) {
   EXPECT_FALSE(record.thickness_initial);
   EXPECT_EQ(record.angle_formed_deg, -89.5);
   EXPECT_EQ(record.surface_strain.position, Vec3(1, 2, 3));
+  EXPECT_EQ(record.thinning.value, 0.2);
+  EXPECT_EQ(record.thinning.position, Vec3(4, 5, 6));
   EXPECT_EQ(record.stages[0].kinetic_over_internal(), 0.2);
   EXPECT_EQ(record.history_impulses[0], Vec3(0, -1, 0));
   EXPECT_NO_THROW(require_same_run(loaded, small_scene(), "checkpoint.h5"));

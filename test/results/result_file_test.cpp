@@ -31,6 +31,9 @@ void expect_frame(const Frame& frame, const ResultHeader& header, int index) {
   EXPECT_EQ(frame.contact_gap, expected.contact_gap);
   EXPECT_EQ(frame.contact_slip, expected.contact_slip);
   EXPECT_EQ(frame.surface_strain, expected.surface_strain);
+  EXPECT_EQ(frame.surface_strain_minor, expected.surface_strain_minor);
+  EXPECT_EQ(frame.thickness, expected.thickness);
+  EXPECT_EQ(frame.thinning, expected.thinning);
   ASSERT_EQ(frame.tools.size(), 2u);
   EXPECT_EQ(frame.tools[0].position, expected.tools[0].position);
   EXPECT_EQ(frame.tools[0].force, expected.tools[0].force);

@@ -34,36 +34,81 @@ Mesh strip(int cells, double t) {
   return mesh;
 }
 
+/// A model of a body of `before` nodes that is no sheet, and of the sheet.
+Model model_of(const Mesh& sheet, int before = 0) {
+  Model model;
+  model.dimension = sheet.dimension;
+  Mesh other;
+  other.nodes.assign(before, Vec3(7, 7, 7));
+  for (const Mesh& mesh : {other, sheet}) {
+    BodyModel body;
+    body.first_node = model.node_count();
+    body.node_count = static_cast<int>(mesh.nodes.size());
+    body.mesh = mesh;
+    model.bodies.push_back(body);
+  }
+  return model;
+}
+
 TEST(Thickness, OfABentSheetIsItsRadialDistance) {
   const int cells = 40, offset = 3;
   const double t = 0.1;
   const Mesh mesh = strip(cells, t);
-  const auto thickness = Thickness::of(mesh, offset);
-  ASSERT_TRUE(thickness);
+  const Thickness thickness(model_of(mesh, offset));
+  ASSERT_TRUE(thickness.any());
   NodeField flat(offset + mesh.nodes.size()), bent = flat;
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     const Vec3& x = mesh.nodes[i];
     flat[offset + i] = node(x);
     bent[offset + i] = Node((1 + x.y()) * std::sin(x.x()), (1 + x.y()) * std::cos(x.x()), 0, 0);
   }
-  EXPECT_DOUBLE_EQ(thickness->smallest(flat), t);
+  EXPECT_DOUBLE_EQ(smallest(thickness.at(flat)).value(), t);
   // The bottom's chords lie within a chord's height of the arc.
   const double chord = 1 - std::cos(M_PI / 4 / cells);
-  EXPECT_GE(thickness->smallest(bent), t - 1e-12);
-  EXPECT_LE(thickness->smallest(bent), t + chord);
+  EXPECT_GE(smallest(thickness.at(bent)).value(), t - 1e-12);
+  EXPECT_LE(smallest(thickness.at(bent)).value(), t + chord);
 
   bent[offset + cells + 1 + 7].head<3>() *= 1.05 / 1.1;  // one dent
   const double expected = 0.05;
-  EXPECT_NEAR(thickness->smallest(bent), expected, chord);
+  EXPECT_NEAR(smallest(thickness.at(bent)).value(), expected, chord);
+  const std::vector<double> thinning = thickness.thinning(thickness.at(bent));
+  for (int i = 0; i <= cells; ++i) {  // what lies below a node of the top is as thin as the sheet there
+    EXPECT_NEAR(thinning[offset + cells + 1 + i], i == 7 ? 0.5 : 0, chord / t) << i;
+    EXPECT_EQ(thinning[offset + i], thinning[offset + cells + 1 + i]) << i;
+  }
+  for (int i = 0; i < offset; ++i) EXPECT_TRUE(std::isnan(thinning[i]));
+}
+
+/// Against the distance of all nodes of the top, in a sheet of several layers of uneven columns.
+TEST(Thickness, BelowTheTopIsThatOfTheNearestNodeThere) {
+  const int cells = 9, layers = 3;
+  Mesh mesh;
+  mesh.dimension = 2;
+  for (int row = 0; row <= layers; ++row)
+    for (int i = 0; i <= cells; ++i) mesh.nodes.push_back(Vec3(i + 0.2 * std::sin(3.0 * i + row), 0.5 * row / layers, 0));
+  for (int i = 0; i <= cells; ++i) {
+    mesh.sets["bottom"].push_back(i);
+    mesh.sets["top"].push_back(layers * (cells + 1) + i);
+  }
+  for (int i = 0; i < cells; ++i) mesh.surface.push_back({{i, i + 1, -1}, 0});
+  NodeField x;
+  for (const Vec3& X : mesh.nodes) x.push_back(Node(X.x(), X.y() * (1 + 0.1 * std::sin(X.x())), 0, 0));
+  const std::vector<double> values = Thickness(model_of(mesh)).at(x);
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    int nearest = mesh.sets["top"][0];
+    for (int top : mesh.sets["top"])
+      if ((mesh.nodes[top] - mesh.nodes[n]).norm() < (mesh.nodes[nearest] - mesh.nodes[n]).norm()) nearest = top;
+    EXPECT_NEAR(values[n], x[nearest].y(), 1e-12) << n;
+  }
 }
 
 TEST(Thickness, NeedsBothSetsAndFacetsOfTheBottom) {
   Mesh mesh = strip(4, 0.1);
   mesh.surface.resize(0);
-  EXPECT_FALSE(Thickness::of(mesh, 0));
+  EXPECT_FALSE(Thickness(model_of(mesh)).any());
   mesh = strip(4, 0.1);
   mesh.sets.erase("top");
-  EXPECT_FALSE(Thickness::of(mesh, 0));
+  EXPECT_FALSE(Thickness(model_of(mesh)).any());
 }
 
 TEST(Thickness, FindsTheNearestTriangleAsASearchOfAllDoes) {
@@ -91,7 +136,7 @@ TEST(Thickness, FindsTheNearestTriangleAsASearchOfAllDoes) {
     for (const Facet& f : mesh.surface)
       expected = std::min(expected, distance_to_facet(mesh.nodes[top], mesh.nodes[f.nodes[0]], mesh.nodes[f.nodes[1]],
                                                       mesh.nodes[f.nodes[2]]));
-  EXPECT_EQ(Thickness::of(mesh, 0)->smallest(positions), expected);
+  EXPECT_EQ(smallest(Thickness(model_of(mesh)).at(positions)), expected);
 }
 
 }  // namespace

@@ -148,6 +148,27 @@ TEST(RosMarkers, ContactCanColour) {
   EXPECT_TRUE(std::any_of(sheet.colors.begin(), sheet.colors.end(), [&](const auto& c) { return c.r == most.r; }));
 }
 
+TEST(RosMarkers, ThinningColoursTheSheetsAndNothingElse) {
+  const RunShape shape = section(2, 2);
+  RunFrame frame = at_rest(shape);
+  frame.thinning.assign(frame.positions.size(), std::nan(""));
+  frame.thinning[4] = 0.25;
+  frame.thinning[5] = -0.1;
+  MarkerOptions options;
+  options.colour_by = "thinning";
+  RunMarkers markers(shape, options);
+  const auto array = markers.at(frame, ros::Time(1));
+  EXPECT_EQ(find(array, "legend", 1).text, "thinning");
+  EXPECT_EQ(find(array, "legend", 3).text, "0.25");
+  const auto most = scale_colour(1), none = scale_colour(0);
+  const auto& sheet = find(array, "sheet", 0);
+  for (std::size_t i = 0; i < sheet.points.size(); ++i) {
+    const Vec3 thinned = vec3(frame.positions[4]);
+    const bool there = sheet.points[i].x == thinned.x() && sheet.points[i].y == thinned.y();
+    EXPECT_EQ(sheet.colors[i].r, there ? most.r : none.r) << i;
+  }
+}
+
 TEST(RosMarkers, FramesWithoutNumbersAreKnown) {
   const RunShape shape = section(2, 2);
   RunFrame frame = at_rest(shape);

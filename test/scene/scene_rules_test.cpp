@@ -122,6 +122,14 @@ TEST(SceneRules, Meshes) {
   expect_fault(with(points + "cell_type: triangle"), "bodies[0].mesh.cells", "corner indices");
 }
 
+TEST(SceneRules, VelocitiesFromFormulas) {
+  const auto with = [](const std::string& field) { return replaced(minimal_example(), "    material:", "    initial_velocity_field: [" + field + "]\n    material:"); };
+  EXPECT_TRUE(faults_of(with("\"sin(pi*x/0.02)\", \"0\"")).empty());
+  expect_fault(with("\"x\""), "bodies[0].initial_velocity_field", "give 2, one for each coordinate");
+  expect_fault(with("\"x\", \"2*sin(y\""), "bodies[0].initial_velocity_field[1]", "'2*sin(y' is none");
+  expect_fault(with("\"1/x\", \"0\""), "bodies[0].initial_velocity_field", "'1/x' is inf at (0, 0, 0) m");
+}
+
 TEST(SceneRules, OnePointCells) {
   const std::string text = replaced(minimal_example(), "cells_through: 2", "cells_through: 2\n      pattern: one_point");
   EXPECT_TRUE(faults_of(text).empty());

@@ -38,8 +38,6 @@ class BoundarySet {
   /// P of nodes()[k]: identity minus its fixed directions, symmetric, P P = P.
   /// The inverse mass that contact sees is P / m.
   const Mat3& projector(int k) const { return groups_[group_[k]].projector; }
-  /// Place of a node in nodes(), -1 where it is free.
-  int find(int node) const;
 
   /// u of nodes()[k], which is at x at the time t: the prescribed velocity of the step to t + dt,
   /// zero along free directions.

@@ -7,6 +7,7 @@
 #include "forming_sim/results/result_file.h"
 #include "forming_sim/results/run_record.h"
 #include "forming_sim/results/schedule.h"
+#include "forming_sim/results/thickness.h"
 #include "forming_sim/simulation/observer.h"
 
 namespace forming_sim {
@@ -30,6 +31,7 @@ class Fields : public Observer {
   Schedule schedule_;
   bool resumed_;
   RunRecord& record_;
+  Thickness sheets_;
   std::optional<ResultFile> file_;
   long last_step_ = -1;
   std::size_t frames_in_xdmf_ = 0;

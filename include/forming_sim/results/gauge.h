@@ -14,7 +14,8 @@ namespace forming_sim {
 struct Measures {
   Peak plastic_strain;                ///< greatest equivalent plastic strain, now
   Peak surface_strain;                ///< greatest principal log strain on the surface, now
-  std::optional<double> thickness;    ///< smallest, m
+  std::optional<double> thickness;    ///< smallest of the sheets, m
+  Peak thinning;                      ///< greatest of the sheets, now
   std::vector<ProbeValue> probes;     ///< in the order of Gauge::probes()
 };
 
@@ -27,7 +28,7 @@ class Gauge {
 
  private:
   std::vector<Probe> probes_;
-  std::vector<Thickness> sheets_;     ///< bodies with sets top and bottom
+  Thickness sheets_;
   Measures measures_;
   long step_ = -1;
 };

@@ -18,6 +18,10 @@ struct Peak {
   int element = -1;                 ///< -1: nothing found yet
   Vec3 position = Vec3::Zero();     ///< centre of the element or facet, m
   double time = 0;                  ///< s
+  /// The greater of this and another, of two that are equal the one that was there.
+  void rise_to(const Peak& other) {
+    if (other.element >= 0 && (element < 0 || other.value > value)) *this = other;
+  }
 };
 
 /// The largest kinetic over internal energy of a stage, of the times at which the internal energy
@@ -44,7 +48,7 @@ struct StageRecord {
 
 struct RunRecord {
   std::optional<double> thickness_initial, thickness_min;  ///< m; absent without sets top and bottom
-  Peak surface_strain;                                     ///< over all times of the history
+  Peak surface_strain, thinning;                           ///< over all times of the history
   std::optional<Peak> surface_strain_formed;               ///< at the end of the last form stage so far
   std::optional<double> angle_formed_deg;                  ///< likewise
   std::optional<double> kinetic_over_internal_formed;      ///< likewise

@@ -18,6 +18,7 @@
 //   surface_strain {max, where, at_end_of_forming {max, where}, at_end {max, where}}
 //                   max: over all rows of the history; forming ends with the last form stage
 //   thickness_m {initial, min}                       smallest at the start, smallest over the history
+//   thinning {max, where, at_end {max, where}}       1 - thickness over that of the start; max: over the history
 //   bodies [{name, mass, centre, momentum, angular_momentum, bounding_box {min, max}}]
 //   tools [{name, peak_force, unit, position, present}]
 //   springback {angle_deg_formed, angle_deg_released, change_deg, probe {from, to}, kinetic_over_internal}

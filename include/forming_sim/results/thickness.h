@@ -1,11 +1,11 @@
 #pragma once
-// Thickness of a sheet: distance of the nodes of set `top` from the surface
-// whose facets have all their nodes in set `bottom`.
+// Thickness of the sheets of a model, of the bodies with the sets `top` and `bottom`: distance of the nodes of
+// `top` from the surface whose facets have all their nodes in `bottom`.
 #include <array>
 #include <optional>
 #include <vector>
 
-#include "forming_sim/mesh/mesh.h"
+#include "forming_sim/simulation/model.h"
 #include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
@@ -15,15 +15,28 @@ double distance_to_facet(const Vec3& point, const Vec3& a, const Vec3& b, const 
 
 class Thickness {
  public:
-  /// first_node: number of the mesh's node 0 in the joined numbering.
-  /// nullopt where the mesh has no sets top and bottom, or no facet in bottom.
-  static std::optional<Thickness> of(const Mesh& mesh, int first_node);
-  /// Smallest over the nodes of `top`, m; positions in the joined numbering.
-  double smallest(const NodeField& positions) const;
+  Thickness() = default;
+  explicit Thickness(const Model& model);
+  bool any() const { return !sheets_.empty(); }
+
+  /// Per node of the model, m: that of a node of `top`, and below it that of the nearest node of `top` at the start.
+  /// NaN on bodies that are no sheets. Positions in the joined numbering.
+  std::vector<double> at(const NodeField& positions) const;
+  /// 1 - t/t0 of what at() gave, t0 at the start: 0.2 where a fifth is gone, below 0 where the sheet is thicker.
+  std::vector<double> thinning(const std::vector<double>& thickness) const;
 
  private:
-  std::vector<int> top_;
-  std::vector<std::array<int, 3>> bottom_;  ///< a segment repeats its second node
+  struct Sheet {
+    int first_node = 0;
+    std::vector<int> top;
+    std::vector<std::array<int, 3>> bottom;  ///< a segment repeats its second node
+    std::vector<int> above;                  ///< per node of the body: place in top
+  };
+  std::vector<Sheet> sheets_;
+  std::vector<double> start_;  ///< at() of the start
 };
+
+/// The smallest of the numbers that are not NaN; none: nullopt.
+std::optional<double> smallest(const std::vector<double>& values);
 
 }  // namespace forming_sim

@@ -1,5 +1,5 @@
 #pragma once
-// A run as rviz markers: the sheet coloured by plastic strain or a field of contact, tools, a legend.
+// A run as rviz markers: the sheet coloured by plastic strain, thinning or a field of contact, tools, a legend.
 // Namespaces and ids are fixed: sheet 0; tools k, tool_edges k for tool k;
 // legend 0 to 6.
 #include <string>

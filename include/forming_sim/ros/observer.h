@@ -26,13 +26,11 @@ class RosObserver : public Observer {
  private:
   void tell(const Simulation& simulation, bool always, Code code, const std::string& message);
 
-  double min_thickness(const Simulation& simulation) const;
-
   RunPublisher& publisher_;
   std::string scene_;
   Feedback feedback_;
   EtaClock clock_;
-  std::vector<Thickness> thickness_;  ///< of the bodies with sets top and bottom
+  Thickness sheets_;
 };
 
 }  // namespace forming_sim

@@ -31,6 +31,8 @@ class RunPublisher {
   bool is_due() const { return std::chrono::steady_clock::now() >= next_; }
   /// Does anybody look at the fields of contact?
   bool wants_contact() const;
+  /// Is the sheet coloured by its thinning?
+  bool wants_thinning() const;
   /// Sends what somebody listens to; `always`: also to the latched topics that
   /// nobody listens to yet.
   /// Messages are built only here; nothing waits for a subscriber.

@@ -54,6 +54,12 @@ struct GlobalLimitCost {
   double share = 0;                  ///< of the steps, those that were longer than time_step.limit node allows
 };
 
+/// Principal logarithmic strains in the surface, of one of its facets. Plane strain: the one along the section and 0;
+/// axisymmetric: those along the section and around the circle.
+struct SurfaceStrain {
+  double major = 0, minor = 0;
+};
+
 struct ContactStatus {
   long halvings = 0;      ///< steps halved by the continuous check so far
   long crossings = 0;     ///< found by the independent check of all pairs, 200 times in a run and at the end of each stage; must be 0

@@ -80,10 +80,8 @@ class Simulation {
   std::vector<double> plastic_strain() const;
   std::vector<Sym> stress() const;              ///< Cauchy, Pa
   std::vector<double> volume_ratio() const;     ///< V / V0
-  /// Largest principal log strain in each surface facet's own plane (same order as
-  /// surface()): the stretch of the facet itself, hence on the surface. Axisymmetric: the
-  /// larger of those along the section and around the circle.
-  std::vector<double> surface_strain() const;
+  /// Of each surface facet (same order as surface()): the stretch of the facet itself, hence on the surface.
+  std::vector<SurfaceStrain> surface_strain() const;
 
   /// Normal contact pressure on the surface per node, Pa: force over the area that the
   /// node stood for at the start, a running mean as the tool forces are. 0 inside, below 0 where a tie pulls.

@@ -1,0 +1,54 @@
+#include "forming_sim/loads/velocity_field.h"
+
+#include <muParser.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "forming_sim/config/fault.h"
+
+namespace forming_sim {
+
+struct VelocityField::Formulas {
+  std::vector<std::string> texts;
+  std::vector<mu::Parser> parsers;
+  Vec3 X = Vec3::Zero();  ///< what x, y, z stand for
+};
+
+VelocityField::~VelocityField() = default;
+
+VelocityField::VelocityField(const std::vector<std::string>& formulas) : formulas_(std::make_unique<Formulas>()) {
+  formulas_->texts = formulas;
+  Vec3& X = formulas_->X;
+  for (const std::string& formula : formulas) {
+    try {
+      mu::Parser parser;
+      parser.DefineVar("x", &X.x());
+      parser.DefineVar("y", &X.y());
+      parser.DefineVar("z", &X.z());
+      parser.DefineConst("pi", M_PI);
+      parser.SetExpr(formula);
+      parser.Eval();  // it is read only now
+      if (parser.GetNumResults() != 1) throw mu::Parser::exception_type("it has several parts");
+      formulas_->parsers.push_back(parser);
+    } catch (const mu::Parser::exception_type& error) {
+      throw Error(Code::invalid_scene, "give a formula of x, y, z and pi: '" + formula + "' is none, " + error.GetMsg());
+    }
+  }
+}
+
+Vec3 VelocityField::at(const Vec3& X) const {
+  formulas_->X = X;
+  Vec3 v = Vec3::Zero();
+  for (std::size_t i = 0; i < formulas_->parsers.size(); ++i) {
+    v[i] = formulas_->parsers[i].Eval();
+    if (std::isfinite(v[i])) continue;
+    std::ostringstream text;
+    text << "give a formula that is a number everywhere on the body: '" << formulas_->texts[i] << "' is " << v[i] << " at (" << X.x() << ", "
+         << X.y() << ", " << X.z() << ") m";
+    throw Error(Code::invalid_scene, text.str());
+  }
+  return v;
+}
+
+}  // namespace forming_sim
