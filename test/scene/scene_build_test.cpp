@@ -154,6 +154,12 @@ TEST(SceneBuild, PressureNeedsAFace) {
   EXPECT_TRUE(validate(scene).empty());
 }
 
+TEST(SceneBuild, VelocitiesAreNumbersEverywhere) {
+  Scene scene = plate_scene();
+  scene.bodies[0].initial_velocity_field = {"0", "0", "1/(x - 0.01)"};
+  expect_geometry_fault(scene, "bodies[0].initial_velocity_field", "'1/(x - 0.01)' is inf at (0.01, 0, 0) m");
+}
+
 TEST(SceneBuild, InvertedCellsAndMissingFiles) {
   Scene scene = plate_scene();
   scene.bodies[0].blank.reset();
