@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+"""Opens rviz on a run: a node for launch files.
+
+usage: forming_view.py fit | VIEW  [options of rviz]
+
+VIEW is one of the shipped views, forming (a section in x-y) or forming_3d, shown at once. fit waits for the first
+run on the topics and frames its bodies, the legend beside them, in the one or the other by the run's dimension.
+"""
+import os
+import sys
+import tempfile
+
+import rospkg
+import rospy
+import yaml
+
+from forming_sim.msg import PlasticStrainTopology
+
+DISTANCE = 1.6  # of the camera, over the size of the bodies
+
+
+def framed(view, low, high):
+    """The view with its camera on the box from low to high and the legend, which stands at lesser x."""
+    size = max(h - l for l, h in zip(low, high))
+    camera = view['Visualization Manager']['Views']['Current']
+    centre = [(l + h) / 2 for l, h in zip(low, high)]
+    centre[0] -= 0.15 * size
+    camera['Focal Point'] = dict(zip('XYZ', centre))
+    camera['Focal Shape Size'] = 0.02 * size
+    camera['Distance'] = DISTANCE * size
+    camera['Near Clip Distance'] = 0.02 * size
+    return view
+
+
+def main():
+    name = sys.argv[1] if len(sys.argv) > 1 else ''
+    views = os.path.join(rospkg.RosPack().get_path('forming_sim'), 'rviz')
+    path = os.path.join(views, name + '.rviz')
+    if name == 'fit':
+        rospy.init_node('rviz', disable_signals=True)
+        print('rviz opens with the first run', flush=True)
+        run = rospy.wait_for_message('/forming_server/plastic_strain_topology', PlasticStrainTopology)
+        with open(os.path.join(views, 'forming.rviz' if run.dimension == 2 else 'forming_3d.rviz')) as file:
+            view = yaml.safe_load(file)
+        nodes = [(p.x, p.y, p.z) for p in run.nodes]
+        view = framed(view, [min(column) for column in zip(*nodes)], [max(column) for column in zip(*nodes)])
+        with tempfile.NamedTemporaryFile('w', prefix='forming_view_', suffix='.rviz', delete=False) as file:
+            yaml.safe_dump(view, file, sort_keys=False)
+            path = file.name
+        rospy.signal_shutdown('rviz takes its name')
+    elif not os.path.exists(path):
+        known = sorted(f[:-5] for f in os.listdir(views) if f.endswith('.rviz'))
+        sys.exit(f"forming_view.py: given '{name}'; give fit or one of the views {', '.join(known)}")
+    os.execvp('rviz', ['rviz', '-d', path] + sys.argv[2:])
+
+
+main()
