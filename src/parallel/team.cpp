@@ -33,25 +33,47 @@ template <class Done> bool watch(Done&& done) {
   }
 }
 
+constexpr int kParts = 4;  // of the loop's share of a thread, at most
+
+/// The number of the last loop in which a part was taken; one a cache line.
+struct alignas(64) Claim {
+  std::atomic<long> taken_in{0};
+};
+
 }  // namespace
 
 struct Team::Impl {
-  // The loop under way: written before `loop` counts up, read after.
+  // The loop under way: written before `loop` counts up, read by who has taken a part of it, which keeps the next one away.
   Call call = nullptr;
   void* work = nullptr;
   long count = 0;
-  int pieces = 0;
+  int pieces = 0, parts = 0;     // threads that have a share, and parts of each
 
   std::atomic<long> loop{0};
-  std::atomic<int> left{0};      // pieces of other threads that are not done
+  std::atomic<int> left{0};      // parts that are not done
   std::atomic<int> asleep{0};
   std::atomic<bool> ends{false};
   std::mutex mutex;
   std::condition_variable wake;
   std::vector<std::thread> others;
+  std::unique_ptr<Claim[]> claims;  // [thread][part]
 
-  void piece(int k) const { call(work, count * k / pieces, count * (k + 1) / pieces); }
+  int size() const { return static_cast<int>(others.size()) + 1; }
 
+  void try_part(long number, int thread, int part) {
+    std::atomic<long>& taken_in = claims[thread * kParts + part].taken_in;
+    long before = taken_in.load();
+    if (before >= number || !taken_in.compare_exchange_strong(before, number)) return;
+    const long all = static_cast<long>(pieces) * parts, at = static_cast<long>(thread) * parts + part;
+    call(work, count * at / all, count * (at + 1) / all);
+    --left;
+  }
+  /// The own share first, and then what others have not begun: who stands still holds up no more than the part that he is in.
+  void take_parts(long number, int me) {
+    for (int part = 0; part < kParts; ++part) try_part(number, me, part);
+    for (int k = 1; k < size(); ++k)
+      for (int part = kParts - 1; part >= 0; --part) try_part(number, (me + k) % size(), part);
+  }
   void serve(int me) {
     long seen = 0;
     for (;;) {
@@ -62,32 +84,39 @@ struct Team::Impl {
         wake.wait(lock, called);
         --asleep;
       }
-      ++seen;  // the next loop begins only when this one has been served
+      seen = loop.load();
       if (ends) return;
-      if (me < pieces) piece(me);
-      --left;
+      take_parts(seen, me);
     }
   }
-  void call_others() {
-    left = static_cast<int>(others.size());
-    ++loop;
-    if (asleep == 0) return;
+  /// The others begin with the parts that the next loop has.
+  long call_others() {
+    const long number = loop.load() + 1;
+    for (int k = 0; k < size() * kParts; ++k)
+      if (k / kParts >= pieces || k % kParts >= parts) claims[k].taken_in = number;
+    left = pieces * parts;
+    loop = number;
+    if (asleep == 0) return number;
     { const std::lock_guard<std::mutex> lock(mutex); }  // whoever is about to sleep sleeps now
     wake.notify_all();
+    return number;
   }
 };
 
 Team::Team(int threads) : impl_(std::make_unique<Impl>()) {
+  impl_->claims = std::make_unique<Claim[]>(static_cast<std::size_t>(threads) * kParts);
+  impl_->others.reserve(threads);
   for (int k = 1; k < threads; ++k) impl_->others.emplace_back([this, k] { impl_->serve(k); });
 }
 
 Team::~Team() {
   impl_->ends = true;
+  impl_->pieces = 0;
   impl_->call_others();
   for (std::thread& other : impl_->others) other.join();
 }
 
-int Team::size() const { return static_cast<int>(impl_->others.size()) + 1; }
+int Team::size() const { return impl_->size(); }
 
 void Team::run(long count, long least, Call call, void* work) {
   if (count <= 0) return;
@@ -98,8 +127,8 @@ void Team::run(long count, long least, Call call, void* work) {
   m.work = work;
   m.count = count;
   m.pieces = static_cast<int>(pieces);
-  m.call_others();
-  m.piece(0);
+  m.parts = static_cast<int>(std::clamp(count / (pieces * std::max(1L, least)), 1L, static_cast<long>(kParts)));
+  m.take_parts(m.call_others(), 0);
   const auto done = [&] { return m.left.load() == 0; };
   while (!watch(done)) std::this_thread::yield();
 }

@@ -33,6 +33,22 @@ TEST(Team, SleepersWake) {
   }
 }
 
+/// A thread that stands still in a part of its own is waited for, but what it has not begun is done by the other.
+TEST(Team, WhatOneDoesNotGetToTheOtherDoes) {
+  Team team(2);
+  const std::thread::id caller = std::this_thread::get_id();
+  for (int loop = 0; loop < 5; ++loop) {
+    std::atomic<int> of_caller{0}, of_other{0};
+    team.share(8, 1, [&](long, long) {
+      const bool mine = std::this_thread::get_id() == caller;
+      ++(mine ? of_caller : of_other);
+      if (!mine) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    });
+    EXPECT_EQ(of_caller + of_other, 8);
+    EXPECT_GE(of_caller, 7);
+  }
+}
+
 TEST(Team, SmallLoopsStayWhole) {
   Team team(4);
   std::atomic<int> pieces{0};
@@ -41,6 +57,9 @@ TEST(Team, SmallLoopsStayWhole) {
   pieces = 0;
   team.share(100, 50, [&](long first, long last) { ++pieces; EXPECT_EQ(last - first, 50); });
   EXPECT_EQ(pieces, 2);
+  pieces = 0;
+  team.share(12, 1, [&](long first, long last) { ++pieces; EXPECT_EQ(last - first, 1); });
+  EXPECT_EQ(pieces, 12);
   team.share(0, 1, [&](long, long) { FAIL(); });
 }
 

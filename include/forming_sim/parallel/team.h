@@ -1,9 +1,10 @@
 #pragma once
-// The threads of a run. They share out a loop in equal pieces and wait for each
+// The threads of a run. They share out a loop in equal parts and wait for each
 // other at its end. A thread without work watches for it for a tenth of a
-// millisecond, which spans the gap between two loops of a step, and then sleeps:
-// a machine that does other things as well is neither held up nor does it hold
-// up the run for longer than that.
+// millisecond, which spans the gap between two loops of a step, and then sleeps.
+// On a machine that does other things as well a thread may not be there when its
+// part is due: then another takes it, and the loop waits for no more than the part
+// in which a thread was stopped.
 #include <memory>
 #include <type_traits>
 
@@ -21,9 +22,10 @@ class Team {
 
   int size() const;
 
-  /// Calls work(first, last) over [0, count), in as many pieces as give each of
-  /// them at least `least`, at most one a thread. The pieces depend on nothing but
-  /// count, least and size(). Work must not throw. One loop at a time.
+  /// Calls work(first, last) over [0, count), in as many parts as give each of
+  /// them at least `least`, at most four a thread. The parts depend on nothing but
+  /// count, least and size(); which thread takes which is open. Work must not throw.
+  /// One loop at a time.
   template <class Work> void share(long count, long least, Work&& work) {
     run(count, least, [](void* w, long first, long last) { (*static_cast<std::remove_reference_t<Work>*>(w))(first, last); }, &work);
   }
