@@ -23,7 +23,7 @@ Checkpoint example_checkpoint() {
   record.angle_formed_deg = -89.5;
   record.surface_strain = {0.3, 12, Vec3(1, 2, 3), 1e-3};
   record.stages.push_back({"form", "form", 1e-3, 1, 2, 3});
-  record.history_impulses = {Vec3(0, -1, 0)};
+  record.history_tools = {{Vec3(0, -1, 0), Vec3(0, 0, 2)}};
   checkpoint.record = record.to_json();
   return checkpoint;
 }
@@ -56,7 +56,8 @@ TEST(Checkpoint, IsLoadedAsSaved) {
   EXPECT_EQ(record.angle_formed_deg, -89.5);
   EXPECT_EQ(record.surface_strain.position, Vec3(1, 2, 3));
   EXPECT_EQ(record.stages[0].kinetic_over_internal(), 0.2);
-  EXPECT_EQ(record.history_impulses[0], Vec3(0, -1, 0));
+  EXPECT_EQ(record.history_tools[0].impulse, Vec3(0, -1, 0));
+  EXPECT_EQ(record.history_tools[0].angular, Vec3(0, 0, 2));
   EXPECT_NO_THROW(require_same_run(loaded, small_scene(), "checkpoint.h5"));
 }
 
