@@ -25,7 +25,7 @@ void check_point(const std::string& where, const Vec3& x) {
 }
 
 // Appends the nodes of the arc after its start; positive radius: centre on the left.
-void append_arc(std::vector<Vec3>& nodes, const Vec3& to, double radius, double chord_error, const std::string& where) {
+void append_arc(std::vector<Vec3>& nodes, const Vec3& to, double radius, double chord_error, double longest, const std::string& where) {
   const Vec3 from = nodes.back(), chord = to - from;
   const double half = chord.norm() / 2, r = std::abs(radius);
   if (r < half * (1 - 1e-9)) {
@@ -41,7 +41,8 @@ void append_arc(std::vector<Vec3>& nodes, const Vec3& to, double radius, double 
   const double angle = 2 * std::atan2(half, height);
   // A segment over the angle a departs from the arc by r (1 - cos(a/2)).
   const double relative = std::min(chord_error > 0 ? chord_error / r : kChordError, kLargestChordError);
-  const double largest = 2 * std::acos(1 - relative);
+  double largest = 2 * std::acos(1 - relative);
+  if (chord_error == 0) largest = std::min(largest, longest / r);
   const int segments = std::max(1, static_cast<int>(std::ceil(angle / largest - 1e-9)));
   const Vec3 arm = from - centre;
   for (int k = 1; k < segments; ++k) {
@@ -53,7 +54,7 @@ void append_arc(std::vector<Vec3>& nodes, const Vec3& to, double radius, double 
 
 }  // namespace
 
-Mesh mesh_profile(const ProfileConfig& profile) {
+Mesh mesh_profile(const ProfileConfig& profile, double longest) {
   if (profile.pieces.empty()) refuse(".pieces", "given none; at least one line or arc is needed");
   if (!std::isfinite(profile.chord_error) || profile.chord_error < 0)
     refuse(".chord_error", "given " + std::to_string(profile.chord_error) + "; a length of at least 0 m is needed");
@@ -76,7 +77,7 @@ Mesh mesh_profile(const ProfileConfig& profile) {
     if (piece.radius == 0)
       mesh.nodes.push_back(piece.to);
     else
-      append_arc(mesh.nodes, piece.to, piece.radius, profile.chord_error, piece_name(i) + ".radius");
+      append_arc(mesh.nodes, piece.to, piece.radius, profile.chord_error, longest, piece_name(i) + ".radius");
   }
   // A way that returns to its start shares the node there.
   const bool returns = (mesh.nodes.back() - mesh.nodes.front()).norm() <= same;

@@ -23,6 +23,8 @@ std::vector<std::string> history_columns(const Model& model, const std::vector<P
   for (const ToolModel& tool : model.tools) {
     for (const char* axis : kAxes) columns.push_back("tool_" + tool.name + "_force_" + axis + "_N" + per_width);
     for (const char* axis : kAxes) columns.push_back("tool_" + tool.name + "_position_" + axis + "_m");
+    if (model.axisymmetric) continue;
+    for (const char* axis : kAxes) columns.push_back("tool_" + tool.name + "_moment_" + axis + "_N_m" + per_width);
   }
   for (const char* name : {"max_plastic_strain", "max_surface_strain", "min_thickness_m", "max_thinning", "min_gap_over_h0"})
     columns.push_back(name);
@@ -79,12 +81,16 @@ void History::write(const Simulation& simulation) {
   for (double energy : {e.kinetic, e.elastic, e.plastic, e.contact, e.friction, e.damping, e.work, e.initial})
     values.push_back(csv_number(energy));
   values.push_back(csv_number(simulation.balance_error()));
-  record_.history_impulses.resize(simulation.tools().size(), Vec3::Zero());
+  record_.history_tools.resize(simulation.tools().size());
   for (std::size_t i = 0; i < simulation.tools().size(); ++i) {
     const ToolStatus& tool = simulation.tools()[i];
-    add(values, elapsed > 0 ? Vec3((tool.impulse - record_.history_impulses[i]) / elapsed) : tool.force);
+    Reaction& before = record_.history_tools[i];
+    const Vec3 force = elapsed > 0 ? Vec3((tool.impulse - before.impulse) / elapsed) : tool.force;
+    add(values, force);
     add(values, tool.position);
-    record_.history_impulses[i] = tool.impulse;
+    if (!simulation.model().axisymmetric)
+      add(values, elapsed > 0 ? Vec3((tool.angular - before.angular) / elapsed - tool.position.cross(force)) : tool.moment);
+    before = {tool.impulse, tool.angular};
   }
   values.push_back(csv_number(measures.plastic_strain.value));
   values.push_back(csv_number(measures.surface_strain.value));

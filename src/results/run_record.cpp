@@ -73,11 +73,11 @@ std::string RunRecord::to_json() const {
             {"stages", json::array()},
             {"notes", notes},
             {"history_time", history_time},
-            {"history_impulses", json::array()},
+            {"history_tools", json::array()},
             {"history_reactions", json::array()}};
   for (const auto& [level, most] : kinetic_peak.levels) j["kinetic_peak"].push_back({level, most});
   for (const StageRecord& s : stages) j["stages"].push_back(of(s));
-  for (const Vec3& impulse : history_impulses) j["history_impulses"].push_back(of(impulse));
+  for (const Reaction& tool : history_tools) j["history_tools"].push_back({of(tool.impulse), of(tool.angular)});
   for (const Reaction& reaction : history_reactions) j["history_reactions"].push_back({of(reaction.impulse), of(reaction.angular)});
   return j.dump();
 }
@@ -98,7 +98,7 @@ RunRecord RunRecord::from_json(const std::string& text) {
     for (const json& s : j.at("stages")) record.stages.push_back(stage(s));
     record.notes = j.at("notes").get<std::vector<std::string>>();
     record.history_time = j.at("history_time");
-    for (const json& impulse : j.at("history_impulses")) record.history_impulses.push_back(vector(impulse));
+    for (const json& tool : j.at("history_tools")) record.history_tools.push_back({vector(tool.at(0)), vector(tool.at(1))});
     for (const json& reaction : j.at("history_reactions")) record.history_reactions.push_back({vector(reaction.at(0)), vector(reaction.at(1))});
     return record;
   } catch (const json::exception& error) {

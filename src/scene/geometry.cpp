@@ -132,7 +132,20 @@ void check_beside_axis(const ToolConfig& tool, const Mesh& mesh) {
   }
 }
 
-bool make_tool(const Scene& scene, std::size_t i, const std::vector<Fault>& known, Mesh& mesh, Geometry& geometry) {
+/// Mean edge of the surface of the body that has the smallest, m; in dimension 2.
+double finest_edge(const std::vector<Mesh>& bodies) {
+  double finest = std::numeric_limits<double>::infinity();
+  for (const Mesh& mesh : bodies) {
+    if (mesh.dimension != 2 || mesh.surface.empty()) continue;
+    double sum = 0;
+    for (const Facet& side : mesh.surface) sum += area_vector(mesh, side).norm();
+    finest = std::min(finest, sum / static_cast<double>(mesh.surface.size()));
+  }
+  return finest;
+}
+
+/// longest: of the segments that stand for an arc of a profile, m.
+bool make_tool(const Scene& scene, std::size_t i, const std::vector<Fault>& known, double longest, Mesh& mesh, Geometry& geometry) {
   std::vector<Fault>& faults = geometry.faults;
   const ToolConfig& tool = scene.tools[i];
   const std::string path = tool_path(i);
@@ -140,7 +153,7 @@ bool make_tool(const Scene& scene, std::size_t i, const std::vector<Fault>& know
   if (sources != 1 || has_faults(known, path + ".mesh") || has_faults(known, path + ".profile")) return false;
   if (tool.profile)
     return attempt(path + ".profile", "this profile", faults, [&] {
-      mesh = mesh_profile(*tool.profile);
+      mesh = mesh_profile(*tool.profile, longest);
       if (scene.axisymmetric) check_beside_axis(tool, mesh);
     });
   if (!tool.mesh) return true;  // a plane
@@ -196,8 +209,9 @@ Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known) {
     const std::string field = body_path(i) + ".initial_velocity_field";
     if (!has_faults(known, field)) check_velocity_field(scene.bodies[i], field, bodies[i], geometry.faults);
   }
+  const double longest = 2 * finest_edge(bodies);
   for (std::size_t i = 0; i < tools.size(); ++i) {
-    if (!make_tool(scene, i, known, tools[i], geometry)) tools[i] = Mesh{};
+    if (!make_tool(scene, i, known, longest, tools[i], geometry)) tools[i] = Mesh{};
   }
   for (std::size_t i = 0; i < scene.output.probes.size(); ++i) {
     const ProbeConfig& probe = scene.output.probes[i];

@@ -16,7 +16,7 @@ class Rules {
     if (value.x() != 0 && value.allFinite()) faults_.add(path, given_text(value), remedy);
   }
   void no_turn(const Vec3& value, const std::string& path) {
-    if (!value.isZero(0) && value.allFinite()) faults_.add(path, given_text(value), "leave it out: a section that turned would be no ring any more");
+    if (!value.isZero(0) && value.allFinite()) faults_.add(path, given_text(value), "leave it out: a section that turned would be no ring any more, and nothing spins about the axis y here; what spins takes dimension 3");
   }
   void motion(const MotionConfig& motion, const std::string& path) {
     const char* remedy = "give [0, y, 0]: a rigid ring moves along the axis y only";

@@ -15,17 +15,19 @@ void check_vector(const Vec3& value, const std::string& path, const Field& field
                    : "give z = 0: in dimension 2 everything lies in the x-y plane");
 }
 
-template <class Config> void check_plane(const Config& config, const std::string& path, FaultList& faults) {
+/// no_turns: others refuse whatever turns bodies or moves tools, as rules_axisymmetric.cpp does; how a tool is placed is left.
+template <class Config> void check_plane(const Config& config, const std::string& path, bool no_turns, FaultList& faults) {
   for_each_field(config, [&](const std::string& name, const auto& value, const Field& field) {
     using T = std::decay_t<decltype(value)>;
     const std::string here = join_path(path, name);
+    if (no_turns && (field.unit() == "deg" || field.unit() == "deg/s") && name != "rotation_deg") return;
     if constexpr (is_config<T>) {
-      check_plane(value, here, faults);
+      check_plane(value, here, no_turns, faults);
     } else if constexpr (is_optional<T>) {
-      if (value) check_plane(*value, here, faults);
+      if (value) check_plane(*value, here, no_turns, faults);
     } else if constexpr (is_vector<T>) {
       if constexpr (is_group<T>) {
-        for (std::size_t i = 0; i < value.size(); ++i) check_plane(value[i], join_path(here, i), faults);
+        for (std::size_t i = 0; i < value.size(); ++i) check_plane(value[i], join_path(here, i), no_turns, faults);
       } else if constexpr (std::is_same_v<typename T::value_type, Vec3>) {
         faults.each(value, [&](std::size_t i) { check_vector(value[i], join_path(here, i), field, faults); });
       }
@@ -40,7 +42,7 @@ template <class Config> void check_plane(const Config& config, const std::string
 
 void check_section(const Scene& scene, FaultList& faults) {
   if (scene.dimension != 2) return;
-  check_plane(scene, "", faults);
+  check_plane(scene, "", scene.axisymmetric, faults);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     for (std::size_t k = 0; k < scene.bodies[i].boundaries.size(); ++k) {
       const auto& axes = scene.bodies[i].boundaries[k].axes;

@@ -60,7 +60,7 @@ lets go: what was clamped in forming springs back when it is cut free. What boun
 ## Tools
 
 A tool is rigid. It is a surface mesh (dimension 3), a profile of lines and arcs (dimension 2; the material of the tool
-lies to the left of the way along the profile), or a plane given by `point` and `normal`, the normal towards the body.
+lies to the left of the way along the profile; arcs become segments, fine enough for the cells of the bodies unless `chord_error` says otherwise), or a plane given by `point` and `normal`, the normal towards the body.
 A tool that touches a body at the start is backed off by what the contact layer needs, and the run says by how much; a
 body that starts inside a tool is refused. The motion of a tool is a trajectory (where it is at given times, from
 where it stands at the start), a velocity, or a force. Without a motion it rests.
@@ -79,7 +79,8 @@ A run is a list of stages. Times of motions, boundaries and pressures count from
 - `form` runs for `duration`.
 - `withdraw` moves tools away from where they stand by `displacement`, smoothly, in `duration`; then they are gone.
 - `settle` takes motion out of the bodies until their kinetic energy stays below `kinetic_fraction` of the elastic one:
-  springback. It ends at `limit` at the latest, and the result then says so.
+  springback. It ends at `limit` at the latest, and the result then says so. Forces come to rest as the root of it: with
+the default of 1e-5 to some .3 %; who reads a static force from the end of a run gives 1e-8.
 
 Slow processes are simulated faster than they are: give the tools speeds of some m/s, or scale the mass, and judge
 what it costs by kinetic over internal energy in `summary.json`, which should stay below a few percent.
@@ -92,7 +93,7 @@ Into the directory of `--output`:
 |---|---|
 | `result.h5` | the mesh once, and the fields of every frame, with units as attributes and the text of the scene; readable up to the last complete frame, whatever ends the run |
 | `result.xdmf` | opens `result.h5` in ParaView and VTK |
-| `history.csv` | a row per `history_interval`: time, energies, forces of the tools, extremes, and for every probe its position, velocity and mean stress (xx yy zz xy yz zx), where boundaries hold or drive it the force and moment that they push with; the first line names the columns, with units |
+| `history.csv` | a row per `history_interval`: time, energies, for every tool its force, place and moment about its place, extremes, and for every probe its position, velocity and mean stress (xx yy zz xy yz zx), where boundaries hold or drive it the force and moment that they push with; the first line names the columns, with units |
 | `summary.json` | the result in figures |
 
 A checkpoint is written when a run is cancelled, and every `checkpoint_interval` if that is given;

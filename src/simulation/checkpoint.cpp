@@ -39,7 +39,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
     a.numbers(reaction.angular.data(), 3);
   }
   for (ToolStatus& tool : tools)
-    for (Vec3* value : {&tool.force, &tool.moment, &tool.impulse, &tool.peak_force}) a.numbers(value->data(), 3);
+    for (Vec3* value : {&tool.force, &tool.moment, &tool.impulse, &tool.angular, &tool.peak_force}) a.numbers(value->data(), 3);
 }
 
 std::vector<char> Simulation::save() const {

@@ -85,6 +85,7 @@ void Simulation::Impl::book(const ContactStep& done) {
       about.setZero();
     }
     tool.impulse += kick * over_kick * impulse;
+    if (!model.axisymmetric) tool.angular += kick * over_kick * done.tool_angular_impulse[k];
     if (ForceDrive* drive = stages.drive(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k], kick * over_kick * impulse.dot(drive->guide()));
     tool.force += (over_kick * impulse - tool.force) / kForceMeanSteps;
     tool.moment += (over_kick * about - tool.moment) / kForceMeanSteps;

@@ -86,6 +86,19 @@ TEST(MeshProfile, AClosedProfileSharesItsFirstNode) {
   }
 }
 
+// A cylinder of large radius has no corners that the cells on it would feel, unless its chord error is said.
+TEST(MeshProfile, SegmentsOfAnArcAreNoLongerThanTold) {
+  ProfileConfig p = way({50, 0, 0}, {{{-50, 0, 0}, 50}});
+  for (double longest : {1.0, 3.0}) {
+    const Mesh mesh = mesh_profile(p, longest);
+    for (const Facet& f : mesh.surface) EXPECT_LE(area_vector(mesh, f).norm(), longest);
+    EXPECT_EQ(mesh.surface.size(), static_cast<std::size_t>(std::ceil(50 * M_PI / longest)));
+  }
+  EXPECT_EQ(mesh_profile(p, 20).surface.size(), 36u);  // the chord error asks for more
+  p.chord_error = 1;
+  EXPECT_EQ(mesh_profile(p, 1).surface.size(), mesh_profile(p).surface.size());
+}
+
 TEST(MeshProfile, NonsenseIsRefusedByItsPiece) {
   EXPECT_TRUE(has(error_of([] { mesh_profile(way({0, 0, 0}, {})); }), "profile.pieces: given none"));
   EXPECT_TRUE(has(error_of([] { mesh_profile(way({0, 0, 0}, {{{1, 0, 0}, 0}, {{1, 0, 0}, 0}})); }),

@@ -132,6 +132,47 @@ TEST(RunScene, LeavesFilesThatAgreeWithEachOther) {
   column("min_gap_over_h0");
 }
 
+// A roller sinks into a strip and turns: its force and its moment about its place do the work of the run.
+TEST(RunScene, TheMomentOnAToolIsInItsHistory) {
+  const TemporaryDirectory directory;
+  Scene scene = small_scene();
+  const double sinks = -1, turns = 4000;  // m/s, rad/s
+  ToolConfig& roller = scene.tools[0];
+  roller.friction = 0.3;
+  roller.position = Vec3(5e-3, 4e-3, 0);
+  roller.profile->start = Vec3(2e-3, 0, 0);
+  roller.profile->pieces.resize(2);
+  roller.profile->pieces[0] = {Vec3(-2e-3, 0, 0), 2e-3};
+  roller.profile->pieces[1] = {Vec3(2e-3, 0, 0), 2e-3};
+  roller.motion->kind = "velocity";
+  roller.motion->positions.clear();
+  roller.motion->profile = "linear";
+  roller.motion->times = {0};
+  roller.motion->velocities = {Vec3(0, sinks, 0)};
+  roller.motion->spins_deg_s = {Vec3(0, 0, turns * 180 / M_PI)};
+  roller.motion->centre = roller.position;
+  scene.bodies[0].boundaries[0].set = "bottom";
+  scene.stages.resize(1);
+  const Outcome outcome = run_scene(scene, directory.path(), 1, "", kNever);
+  ASSERT_EQ(outcome.code, Code::success) << outcome.message;
+  const auto history = read_csv(directory.file("history.csv"));
+  const auto at = [&](std::size_t row, const std::string& name) {
+    const auto place = std::find(history[0].begin(), history[0].end(), name);
+    EXPECT_NE(place, history[0].end()) << name;
+    return std::stod(history[row][static_cast<std::size_t>(place - history[0].begin())]);
+  };
+  double by_force = 0, by_moment = 0;
+  for (std::size_t row = 2; row < history.size(); ++row) {
+    const double lapse = at(row, "time_s") - at(row - 1, "time_s");
+    by_force -= sinks * at(row, "tool_punch_force_y_N_per_m") * lapse;
+    by_moment -= turns * at(row, "tool_punch_moment_z_N_m_per_m") * lapse;
+  }
+  const double work = at(history.size() - 1, "work_J_per_m");
+  std::printf("  by force %g, by moment %g, in all %g J/m\n", by_force, by_moment, work);
+  EXPECT_GT(by_moment, 0.2 * work);
+  EXPECT_NEAR(by_force + by_moment, work, 0.01 * work);
+}
+
 TEST(RunScene, WritesTheSameNumbersWithTwoThreads) {
   const TemporaryDirectory one, two;
   run_scene(small_scene(), one.path(), 1, "", kNever);

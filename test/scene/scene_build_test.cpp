@@ -70,6 +70,27 @@ TEST(SceneBuild, ModelOfTheFlange) {
   EXPECT_EQ(model.tools[0].friction, 0.1348);
 }
 
+// A roll that is large beside the cells of the sheet is as round as they can feel.
+TEST(SceneBuild, ARollIsAsFineAsTheCellsThatMeetIt) {
+  const std::string text = flange_example();
+  const double edge = (2 * .04 + 2 * .93e-3) / (2 * 160 + 2 * 4);  // mean, of the surface of the sheet
+  const auto longest_side = [](const ToolModel& tool) {
+    double longest = 0;
+    for (const Facet& side : tool.mesh.surface) longest = std::max(longest, (tool.mesh.nodes[static_cast<std::size_t>(side.nodes[1])] - tool.mesh.nodes[static_cast<std::size_t>(side.nodes[0])]).norm());
+    return longest;
+  };
+  Scene scene = scene_of(text);
+  ProfileConfig roll;
+  roll.start = Vec3(0.2, 0, 0);
+  roll.pieces.resize(2);
+  roll.pieces[0] = {Vec3(-0.2, 0, 0), 0.2};
+  roll.pieces[1] = {Vec3(0.2, 0, 0), 0.2};
+  scene.tools[0].profile = roll;
+  EXPECT_LE(longest_side(build_model(scene).tools[0]), 2 * edge);
+  scene.tools[0].profile->chord_error = 1e-4;  // as it is said
+  EXPECT_GT(longest_side(build_model(scene).tools[0]), 0.01);
+}
+
 TEST(SceneBuild, BodiesAreNumberedOneAfterTheOther) {
   Scene scene = plate_scene();
   scene.bodies.push_back(scene.bodies[0]);

@@ -75,6 +75,7 @@ TEST(SceneRules, AnAxisymmetricSceneGoesAlongItsAxis) {
   expect_fault(with("axisymmetric: true", "axisymmetric: true\ngravity: [9.81, 0]"), "gravity", "[0, y, 0]");
   expect_fault(with("    blank:", "    initial_velocity: [1, 2]\n    blank:"), "bodies[0].initial_velocity", "along the axis");
   expect_fault(with("    blank:", "    initial_spin_deg_s: [0, 0, 1]\n    blank:"), "bodies[0].initial_spin_deg_s", "leave it out");
+  expect_fault(with("    blank:", "    initial_spin_deg_s: [0, 1, 0]\n    blank:"), "bodies[0].initial_spin_deg_s", "what spins takes dimension 3");
   expect_fault(with("{set: left, kind: fixed}", "{set: left, kind: velocity, times: [0], spins_deg_s: [[0, 0, 1]]}"), "bodies[0].boundaries[0].spins_deg_s[0]", "no ring");
   expect_fault(with("[0, -0.020]", "[0.001, -0.020]"), "tools[2].motion.positions[1]", "along the axis y only");
   expect_fault(with("positions:", "rotations_deg: [[0, 0, 0], [0, 0, 3]]\n      positions:"), "tools[2].motion.rotations_deg[1]", "no ring");

@@ -107,7 +107,7 @@ struct ProfileConfig {
     visit(FORMING_SIM_FIELD(start), Field().unit("m").doc("first point"));
     visit(FORMING_SIM_FIELD(pieces), Field().required().doc("lines and arcs, one after the other"));
     visit(FORMING_SIM_FIELD(closed), Field().doc("join the last point to the first by a line"));
-    visit(FORMING_SIM_FIELD(chord_error), Field().unit("m").at_least(0).computed("1e-3 of the arc's radius").doc("largest distance of an arc from the segments that stand for it"));
+    visit(FORMING_SIM_FIELD(chord_error), Field().unit("m").at_least(0).computed("1e-3 of the arc's radius, and no segment longer than two edges of the bodies' surfaces, in the mean of the finest body").doc("largest distance of an arc from the segments that stand for it"));
   }
 };
 

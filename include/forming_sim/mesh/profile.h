@@ -1,5 +1,7 @@
 #pragma once
 // The section of a tool in dimension 2.
+#include <limits>
+
 #include "forming_sim/mesh/config.h"
 #include "forming_sim/mesh/mesh.h"
 
@@ -9,9 +11,10 @@ namespace forming_sim {
 /// (element -1), in the order of the way, nodes shared. The material of the tool
 /// lies to the left of the way, so that normals (to the right) point out of it.
 /// Arcs are divided evenly so that no segment departs from its arc by more than
-/// the chord error (1e-3 of the radius unless given); their nodes lie on the arc.
+/// the chord error; their nodes lie on the arc. Where that is not given it is 1e-3 of the radius, and
+/// no segment is longer than `longest`, m: what meets a tool of large radius would feel its corners.
 /// Throws Error(mesh_error) naming the piece: a radius of less than half the
 /// chord, a piece of no length, a number that is not finite, no pieces.
-Mesh mesh_profile(const ProfileConfig& profile);
+Mesh mesh_profile(const ProfileConfig& profile, double longest = std::numeric_limits<double>::infinity());
 
 }  // namespace forming_sim

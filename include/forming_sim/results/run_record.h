@@ -57,7 +57,7 @@ struct RunRecord {
   std::vector<StageRecord> stages;
   std::vector<std::string> notes;                          ///< said in the summary's warnings
   double history_time = 0;                                 ///< of the last row, s
-  std::vector<Vec3> history_impulses;                      ///< of the tools then, N s
+  std::vector<Reaction> history_tools;                     ///< what the tools had felt then
   std::vector<Reaction> history_reactions;                 ///< on the probes then
 
   std::string to_json() const;

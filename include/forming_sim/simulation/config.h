@@ -32,7 +32,7 @@ struct TimeStepConfig {
     visit(FORMING_SIM_FIELD(linear_viscosity), Field().at_least(0).at_most(2).doc("coefficient b1 of the bulk viscosity q = rho b1 c l D in compression and tension, D the volume rate; 0.06 is usual for impacts, 0: none"));
     visit(FORMING_SIM_FIELD(quadratic_viscosity), Field().at_least(0).at_most(10).doc("coefficient b2 of the bulk viscosity q = rho (b2 l D)^2 in compression; 1.2 is usual for shocks, 0: none"));
     visit(FORMING_SIM_FIELD(damping), Field().unit("1/s").at_least(0).doc("mass-proportional damping alpha: dv/dt = f/m - alpha v; 0: none"));
-    visit(FORMING_SIM_FIELD(mass_scaling), Field().above(0).at_most(1e6).doc("factor on all masses: the step grows with its square root, inertia with the factor; judge it by kinetic over internal energy"));
+    visit(FORMING_SIM_FIELD(mass_scaling), Field().above(0).at_most(1e6).doc("factor on all masses: the step grows with its square root, inertia with the factor, weight not at all; judge it by kinetic over internal energy"));
   }
 };
 
