@@ -113,6 +113,9 @@ struct World {
             v_star[held[i].node] = node(held[i].projector * vec3(v_star[held[i].node]) + (Mat3::Identity() - held[i].projector) * vec3(held_velocity[i]));
           kicked = v_star;
         },
+        [](double h, const NodeField& with, NodeField& at) {
+          for (size_t i = 0; i < at.size(); ++i) at[i] += h * with[i];
+        },
         [&](double h) { return motion(time, time + h); });
     for (size_t i = 0; i < x.size(); ++i) {
       const Node j = mass[i] * (v[i] - kicked[i]);

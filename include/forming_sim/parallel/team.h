@@ -4,7 +4,9 @@
 // millisecond, which spans the gap between two loops of a step, and then sleeps:
 // a machine that does other things as well is neither held up nor does it hold
 // up the run for longer than that.
+#include <algorithm>
 #include <memory>
+#include <mutex>
 #include <type_traits>
 
 namespace forming_sim {
@@ -26,6 +28,18 @@ class Team {
   /// count, least and size(). Work must not throw. One loop at a time.
   template <class Work> void share(long count, long least, Work&& work) {
     run(count, least, [](void* w, long first, long last) { (*static_cast<std::remove_reference_t<Work>*>(w))(first, last); }, &work);
+  }
+
+  /// Likewise; the largest of the numbers that work returns, at least 0.
+  template <class Work> double largest(long count, long least, Work&& work) {
+    std::mutex one;
+    double most = 0;
+    share(count, least, [&](long first, long last) {
+      const double of_piece = work(first, last);
+      const std::lock_guard<std::mutex> lock(one);
+      most = std::max(most, of_piece);
+    });
+    return most;
   }
 
  private:
