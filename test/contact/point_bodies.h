@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "forming_sim/contact/contact.h"
+#include "forming_sim/element/nodes.h"
 
 namespace contact_test {
 using namespace forming_sim;
@@ -114,7 +115,8 @@ struct World {
           kicked = v_star;
         },
         [](double h, const NodeField& with, NodeField& at) {
-          for (size_t i = 0; i < at.size(); ++i) at[i] += h * with[i];
+          static Team alone(1);
+          move_nodes(alone, h, with, nullptr, at);
         },
         [&](double h) { return motion(time, time + h); });
     for (size_t i = 0; i < x.size(); ++i) {
