@@ -5,6 +5,7 @@
 
 #include "contact_costs.h"
 #include "forming_sim/contact/contact.h"
+#include "forming_sim/element/nodes.h"
 #include "support/runs.h"
 #include "timed_body.h"
 
@@ -60,7 +61,8 @@ class PlateOverTool {
   ContactStep step(double gap) {
     NodeField x = x_, v(x_.size(), Node(1, 0, 0, 0));
     for (Node& node : x) node[2] += gap * kLayer;
-    return contact_->advance(0, 1e-7, x, v, v_before_, [&](double, NodeField& v_star) { v_star = v; }, [](double) { return std::vector<ToolMotion>(1); });
+    return contact_->advance(0, 1e-7, x, v, v_before_, [&](double, NodeField& v_star) { v_star = v; },
+                             [&](double dt, const NodeField& with, NodeField& at) { move_nodes(team_, dt, with, nullptr, at); }, [](double) { return std::vector<ToolMotion>(1); });
   }
   const Contact& contact() const { return *contact_; }
 

@@ -77,8 +77,8 @@ class SpeedReport {
   }
 
   static void head() {
-    std::printf("| elements | motion | layers | number | threads | cells | sum by node | pressure of nodes | nodes | time step | whole | 1 thread over 2 | bytes "
-                "| of bandwidth | operations | of peak |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    std::printf("| elements | motion | layers | number | threads | cells | pressure of nodes | nodes | time step | whole | 1 thread over 2 | bytes "
+                "| of bandwidth | operations | of peak |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   }
 
   void add(const SpeedFamily& family, const SpeedMotion& motion, long elements, int threads, int layers) {
@@ -106,7 +106,6 @@ class SpeedReport {
     const std::string name = std::string(line.family->name) + ", " + line.motion->name + ", " + std::to_string(line.layers) + (line.layers == 1 ? " layer" : " layers") +
                              ", " + std::to_string(line.elements) + " elements, " + std::to_string(line.threads) + (line.threads == 1 ? " thread" : " threads");
     const std::pair<const char*, double> values[] = {{"cells, ns", per_element * line.times.cells},
-                                                     {"sum by node, ns", per_element * line.times.sum},
                                                      {"pressure of nodes, ns", per_element * line.times.pressure},
                                                      {"nodes, ns", per_element * line.times.nodes},
                                                      {"time step, ns", per_element * line.times.bound},
@@ -132,7 +131,7 @@ class SpeedReport {
   std::vector<Row> finish() {
     if (request_.directory.empty()) return rows_;
     replace_file(in_directory(request_.directory, "speed.csv"),
-                 "elements,motion,layers,number,threads,cells_ns,sum_ns,pressure_ns,nodes_ns,time_step_ns,whole_ns,one_thread_over_this,bytes,of_bandwidth,operations,of_peak\n" + csv_);
+                 "elements,motion,layers,number,threads,cells_ns,pressure_ns,nodes_ns,time_step_ns,whole_ns,one_thread_over_this,bytes,of_bandwidth,operations,of_peak\n" + csv_);
     Figure growth("speed_growth", "one step of growing blocks", "elements", "ns an element and step, 1 thread");
     growth.logarithmic();
     for (const Line& line : lines_)

@@ -36,7 +36,6 @@ SteppedBlock::SteppedBlock(const SpeedFamily& family, const SpeedMotion& motion,
   const int dimension = body.mesh.dimension;
   const NodeField X = positions_of(body.mesh);
   x_ = v_ = X;
-  f_.assign(X.size(), Node::Zero());
   mass_.assign(X.size(), std::numeric_limits<double>::infinity());
   ElementOptions options;
   options.axisymmetric = family.ring;
@@ -58,15 +57,14 @@ StepTimes SteppedBlock::turn(long steps) {
   int element;
   engine_->stable_step(x_, v_, dt, element);
   for (long step = 0; step < steps; ++step) {
-    engine_->forces(x_, v_, kDt, kDt, f_);
+    engine_->find_forces(x_, v_, kDt, kDt);
     StageClock clock(&times_);
     v_.swap(v_before_);
-    kick_nodes(engine_->team(), v_before_, f_, mass_, kDt, 0, v_);
-    move_nodes(engine_->team(), kDt, v_, x_);
+    kick_and_move_nodes(engine_->team(), Kick(kDt, 0), v_before_, engine_->nodal_forces(), mass_, [](long, long) {}, kDt, nullptr, v_, x_);
     clock.ends(&StepTimes::nodes);
   }
   const double share = 1 / static_cast<double>(steps);
-  return {times_.bound / kLongestBoundInterval, times_.pressure * share, times_.cells * share, times_.sum * share, times_.nodes * share};
+  return {times_.bound / kLongestBoundInterval, times_.pressure * share, times_.cells * share, times_.nodes * share};
 }
 
 StepTimes SteppedBlock::measure(int turns) {
@@ -88,8 +86,8 @@ double SteppedBlock::step_bytes() const {
     bytes += (g.memory_bytes + 0.5 * g.index_bytes) / kLongestBoundInterval;
     bytes += g.pressure_bytes;  // volumes, in the slots of the forces
   }
-  bytes += 2 * field + nodes * sizeof(int);                 // cells read x; the sum writes f
-  bytes += (3 * field + numbers) + 3 * field;               // kick: v, f, m to v; move: x, v to x
+  bytes += field;                                           // cells read x
+  bytes += (2 * field + numbers + nodes * sizeof(int)) + 2 * field;  // kick: where the slots of a node begin, v, m to v; move, with v still at hand: x to x
   bytes += field / kLongestBoundInterval;
   if (nodal_pressure_) bytes += field + 4 * numbers;        // x; initial volume, modulus, the pressure written and read
   return bytes;

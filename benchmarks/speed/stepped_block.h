@@ -19,7 +19,7 @@ class SteppedBlock {
   StepTimes measure(int turns);
 
   long elements() const { return elements_; }  ///< those that ask a law: points of one-point cells
-  /// Bytes that a step reads and writes, every array as often as a loop of the step passes over it.
+  /// Bytes that a step reads and writes, every array as often as a pass of the step goes over it.
   double step_bytes() const;
   const char* kernels() const { return engine_->kernel_name(); }
 
@@ -27,7 +27,7 @@ class SteppedBlock {
   StepTimes turn(long steps);
 
   const SpeedMotion motion_;
-  NodeField x_, v_, v_before_, f_;
+  NodeField x_, v_, v_before_;
   std::vector<double> mass_;
   std::unique_ptr<Elements> engine_;
   StepTimes times_;
@@ -36,6 +36,6 @@ class SteppedBlock {
 };
 
 /// The sum of the stages, s.
-inline double whole(const StepTimes& t) { return t.bound + t.pressure + t.cells + t.sum + t.nodes; }
+inline double whole(const StepTimes& t) { return t.bound + t.pressure + t.cells + t.nodes; }
 
 }  // namespace forming_sim::bench

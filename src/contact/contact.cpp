@@ -6,7 +6,6 @@
 #include "contact/impl.h"
 #include "forming_sim/contact/impulse.h"
 #include "forming_sim/contact/crossing.h"
-#include "forming_sim/element/nodes.h"
 
 namespace forming_sim {
 
@@ -60,14 +59,14 @@ void Contact::set_masses(const std::vector<double>& inverse_mass, const std::vec
   impl_->listed = false;
 }
 
-ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v, NodeField& v_before, const Predict& predict, const ToolsAt& tools_at, double full_dt) {
+ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v, NodeField& v_before, const Predict& predict, const Move& move, const ToolsAt& tools_at, double full_dt) {
   Impl& m = *impl_;
   v_before.resize(x.size());
   ContactStep step;
   switch (m.method) {
-    case Impl::Method::implicit: step = m.advance_implicit(time, dt, std::max(dt, full_dt), x, v, v_before, predict, tools_at); break;
-    case Impl::Method::explicit_mild: step = m.advance_explicit(time, dt, x, v, v_before, predict, tools_at); break;
-    case Impl::Method::geometric: step = m.advance_geometric(dt, x, v, v_before, predict, tools_at); break;
+    case Impl::Method::implicit: step = m.advance_implicit(time, dt, std::max(dt, full_dt), x, v, v_before, predict, move, tools_at); break;
+    case Impl::Method::explicit_mild: step = m.advance_explicit(time, dt, x, v, v_before, predict, move, tools_at); break;
+    case Impl::Method::geometric: step = m.advance_geometric(dt, x, v, v_before, predict, move, tools_at); break;
   }
   step.tool_push.resize(m.tools.names.size());
   m.previous_dt = step.dt;
@@ -75,12 +74,12 @@ ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v,
   return step;
 }
 
-void Contact::Impl::move(double dt, NodeField& x, NodeField& v, NodeField& v_star) {
+void Contact::Impl::end(double dt, const Move& move, NodeField& x, NodeField& v, NodeField& v_star) {
   if (!near.pairs.empty() || !tie_pairs.empty())
     for (int i = 0; i < work.body_entries; ++i) v_star[work.vertex[i]] = work.v[i];
   for (size_t i = 0; i < work.mean.size(); ++i) work.mean[i] = 0.5 * (work.before[i] + work.v[i]);
   v.swap(v_star);
-  move_nodes(team, dt, v, x);
+  move(dt, v, x);
 }
 
 Books Contact::Impl::open_books(ContactStep& step) {

@@ -72,7 +72,7 @@ double stable_step(const PowerLaw& law, const Workspace& work, const LargeArray<
 
 }  // namespace
 
-ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const ToolsAt& tools_at) {
+ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at) {
   const std::vector<ToolMotion> motion = tools_at(dt);
   predict(dt, v_star);
   const double tool_way = step_way(motion, x), predicted = both * fastest(v_star) * dt + tool_way;
@@ -129,7 +129,7 @@ ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x
     check(way);
   }
   moved_by(way);
-  move(dt, x, v, v_star);
+  end(dt, move, x, v, v_star);
 
   ContactStep step;
   step.dt = dt;

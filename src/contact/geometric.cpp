@@ -80,7 +80,7 @@ void Contact::Impl::put_back(ContactPair pair) {
   near.pairs.push_back(pair);
 }
 
-ContactStep Contact::Impl::advance_geometric(double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const ToolsAt& tools_at) {
+ContactStep Contact::Impl::advance_geometric(double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at) {
   std::vector<ToolMotion> motion = tools_at(dt);
   predict(dt, v_star);
   const double tool_way = step_way(motion, x), predicted = both * fastest(v_star) * dt + tool_way;
@@ -118,7 +118,7 @@ ContactStep Contact::Impl::advance_geometric(double dt, NodeField& x, NodeField&
     way = std::max(way, both * farthest + tool_way);
   }
   moved_by(way);
-  move(dt, x, v, v_star);
+  end(dt, move, x, v, v_star);
   if (!near.pairs.empty())
     for (int i = 0; i < work.body_entries; ++i) x[work.vertex[i]] = work.x[i];
 

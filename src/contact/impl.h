@@ -82,7 +82,7 @@ struct Contact::Impl {
 
   // contact.cpp
   /// Velocities back from the workspace, their means for the books, and x + dt v; v and v_star change places.
-  void move(double dt, NodeField& x, NodeField& v, NodeField& v_star);
+  void end(double dt, const Move& move, NodeField& x, NodeField& v, NodeField& v_star);
   /// Adds the slip of the step (step.dt: the step taken) to the nodes', and books the ties; the
   /// caller adds the pairs.
   Books open_books(ContactStep& step);
@@ -94,9 +94,9 @@ struct Contact::Impl {
   void add_slip(double dt);
 
   // One file each; v_star: memory for the velocities after the kick, afterwards those before it.
-  ContactStep advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const ToolsAt& tools_at);
-  ContactStep advance_explicit(double time, double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const ToolsAt& tools_at);
-  ContactStep advance_geometric(double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const ToolsAt& tools_at);
+  ContactStep advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at);
+  ContactStep advance_explicit(double time, double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at);
+  ContactStep advance_geometric(double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at);
 
   // geometric.cpp
   /// Sides of the bodies' facets, borders of open surfaces.

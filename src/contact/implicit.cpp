@@ -199,7 +199,7 @@ void Contact::Impl::close_books(ContactStep& step) {
   potential = step.potential;
 }
 
-ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const ToolsAt& tools_at) {
+ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at) {
   ContactStep step;
   Laps laps(times);
   bool all = false;  // let pairs that push askew act before they are in their layer
@@ -270,7 +270,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
   }
   step.dt = dt;
 
-  move(dt, x, v, v_star);
+  end(dt, move, x, v, v_star);
 
   laps.start();
   close_books(step);

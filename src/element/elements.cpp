@@ -12,7 +12,7 @@
 #include "forming_sim/element/crossed.h"
 #include "forming_sim/element/guard.h"
 #include "forming_sim/element/hourglass.h"
-#include "forming_sim/element/node_kernels.h"
+#include "forming_sim/element/nodes.h"
 #include "forming_sim/element/one_point.h"
 #include "forming_sim/mesh/cell_tables.h"
 #include "forming_sim/material/law.h"
@@ -297,7 +297,7 @@ bool Elements::forces_of_moved(Group& g, const NodalView& view) {
   return any_rests;
 }
 
-void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, double dt, NodeField& f) {
+void Elements::find_forces(const NodeField& x, const NodeField& v, double last_dt, double dt) {
   if (axisymmetric_) check_axis(x);
   StageClock clock(times_);
   NodalView view{x.data()->data(), v.data()->data(), nullptr, pressure_.data(), dt, last_dt};
@@ -317,15 +317,11 @@ void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, do
   for (const Group& g : groups_)
     if (!std::all_of(g.upright, g.upright + g.blocks, [](bool upright) { return upright; })) report_inversion(x);
   clock.ends(&StepTimes::cells);
-  sum_slots(f);
-  clock.ends(&StepTimes::sum);
 }
 
-void Elements::sum_slots(NodeField& f) const {
-  const NodeKernels& kernels = node_kernels_of(isa_);
-  team_->share(static_cast<long>(mass_.size()), kNodesOfAThread, [&](long first, long last) {
-    kernels.sum(dimension_, slot_start_.data(), slot_index_.data(), slots_, first, last, f.data()->data());
-  });
+void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, double dt, NodeField& f) {
+  find_forces(x, v, last_dt, dt);
+  sum_nodes(*team_, nodal_forces(), f);
 }
 
 Elements::Location Elements::locate(int element) const {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "element/group.h"
+#include "forming_sim/element/nodes.h"
 #include "forming_sim/element/one_point.h"
 
 namespace forming_sim {
@@ -156,7 +157,7 @@ void Elements::elastic_forces(const NodeField& x, NodeField& f) {
     });
   }
   stillness_.forget();  // the slots hold the forces at x now
-  sum_slots(f);
+  sum_nodes(*team_, nodal_forces(), f);
 }
 
 }  // namespace forming_sim

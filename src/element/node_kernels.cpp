@@ -1,7 +1,11 @@
 // The loops over nodes, compiled once per vector width (see CMakeLists.txt).
 #include "forming_sim/element/node_kernels.h"
 
+#include <algorithm>
+#include <type_traits>
+
 #include "forming_sim/element/cell_group.h"
+#include "forming_sim/tensor/pack.h"
 
 namespace forming_sim {
 namespace FORMING_SIM_ISA {
@@ -10,34 +14,62 @@ namespace {
 Quad& record(double* field, long node) { return *reinterpret_cast<Quad*>(field + 4 * node); }
 const Quad& record(const double* field, long node) { return *reinterpret_cast<const Quad*>(field + 4 * node); }
 
-void sum(int dimension, const int* start, const int* index, const double* slots, long first, long last, double* f) {
-  if (dimension == 2) {
+/// f of node n; Loaded: with its load.
+template <int D, bool Loaded> [[gnu::always_inline]] inline Quad force(const NodalForces& f, long n) {
+  const auto slot = [&](int k) { return f.slots + kRecord<D> * static_cast<long>(f.index[k]); };
+  Quad sum = {0, 0, 0, 0};
+  if constexpr (D == 2) {
+    Pair of_slots = {0, 0};
+    for (int k = f.start[n]; k < f.start[n + 1]; ++k) of_slots += *reinterpret_cast<const Pair*>(slot(k));
+    sum = Quad{of_slots[0], of_slots[1], 0, 0};
+  } else {
+    for (int k = f.start[n]; k < f.start[n + 1]; ++k) sum += *reinterpret_cast<const Quad*>(slot(k));
+  }
+  if constexpr (Loaded) sum += record(f.load, n);
+  return sum;
+}
+
+/// work(D, Loaded) with both as constants of the compiler.
+template <class Work> void with_kind_of(const NodalForces& f, Work&& work) {
+  constexpr std::integral_constant<int, 2> flat;
+  constexpr std::integral_constant<int, 3> solid;
+  if (f.dimension == 2) f.load ? work(flat, std::true_type()) : work(flat, std::false_type());
+  else f.load ? work(solid, std::true_type()) : work(solid, std::false_type());
+}
+
+void sum(const NodalForces& forces, long first, long last, double* f) {
+  with_kind_of(forces, [&](auto D, auto loaded) {
+    for (long n = first; n < last; ++n) record(f, n) = force<D, loaded>(forces, n);
+  });
+}
+
+void kick(double keep, double push, const double* v, const NodalForces& forces, const double* mass, long first, long last, double* to) {
+  with_kind_of(forces, [&](auto D, auto loaded) {
+    const auto node = [&](long n, double over_mass) {
+      const Quad f = force<D, loaded>(forces, n);
+      record(to, n) = keep * record(v, n) + over_mass * f;
+    };
+    long n = first;
+    for (; n + 4 <= last; n += 4) {  // four divisions at once
+      const Quad over_mass = push / *reinterpret_cast<const Quad*>(mass + n);
+      for (int k = 0; k < 4; ++k) node(n + k, over_mass[k]);
+    }
+    for (; n < last; ++n) node(n, push / mass[n]);
+  });
+}
+
+double move(double dt, const double* v, const double* then, long first, long last, double* x) {
+  double most = 0;
+  if (then) {
     for (long n = first; n < last; ++n) {
-      Pair sum = {0, 0};
-      for (int k = start[n]; k < start[n + 1]; ++k) sum += *reinterpret_cast<const Pair*>(slots + kRecord<2> * static_cast<long>(index[k]));
-      record(f, n) = Quad{sum[0], sum[1], 0, 0};
+      const Quad u = record(v, n), apart = u - record(then, n), squares = apart * apart;
+      record(x, n) += dt * u;
+      most = std::max(most, (squares[0] + squares[2]) + (squares[1] + squares[3]));
     }
   } else {
-    for (long n = first; n < last; ++n) {
-      Quad sum = {0, 0, 0, 0};
-      for (int k = start[n]; k < start[n + 1]; ++k) sum += record(slots, index[k]);
-      record(f, n) = sum;
-    }
+    for (long n = first; n < last; ++n) record(x, n) += dt * record(v, n);
   }
-}
-
-void kick(double keep, double push, const double* v, const double* f, const double* mass, long first, long last, double* to) {
-  const auto node = [&](long n, double over_mass) { record(to, n) = keep * record(v, n) + over_mass * record(f, n); };
-  long n = first;
-  for (; n + 4 <= last; n += 4) {  // four divisions at once
-    const Quad over_mass = push / *reinterpret_cast<const Quad*>(mass + n);
-    for (int k = 0; k < 4; ++k) node(n + k, over_mass[k]);
-  }
-  for (; n < last; ++n) node(n, push / mass[n]);
-}
-
-void move(double dt, const double* v, long first, long last, double* x) {
-  for (long n = first; n < last; ++n) record(x, n) += dt * record(v, n);
+  return most;
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 #include "forming_sim/element/nodes.h"
 
+#include <algorithm>
+
+#include "forming_sim/element/cell_group.h"
 #include "forming_sim/element/node_kernels.h"
 
 namespace forming_sim {
@@ -9,22 +12,54 @@ const NodeKernels& node_kernels_of(Isa isa) {
 }
 
 namespace {
+constexpr long kPart = 128;  ///< nodes of which v before and after the kick and x are 12 kB
+
 /// Of this processor, asked for once.
 const NodeKernels& kernels() {
   static const NodeKernels& widest = node_kernels_of(choose_isa());
   return widest;
 }
+const double* numbers(const NodeField& field) { return field.data()->data(); }
+const double* numbers(const NodeField* field) { return field ? numbers(*field) : nullptr; }
+double* numbers(NodeField& field) { return field.data()->data(); }
 }  // namespace
 
-void kick_nodes(Team& team, const NodeField& v, const NodeField& f, const std::vector<double>& mass, double kick, double damping, NodeField& to) {
-  const double a = 0.5 * damping * kick, keep = (1 - a) / (1 + a), push = kick / (1 + a);
+void sum_nodes(Team& team, const NodalForces& forces, NodeField& f) {
+  team.share(static_cast<long>(f.size()), kNodesOfAThread, [&](long first, long last) { kernels().sum(forces, first, last, numbers(f)); });
+}
+
+Node force_on(long node, const NodalForces& forces) {
+  const int size = forces.dimension == 2 ? kRecord<2> : kRecord<3>;
+  Node f = Node::Zero();
+  for (int k = forces.start[node]; k < forces.start[node + 1]; ++k)
+    for (int i = 0; i < size; ++i) f[i] += forces.slots[static_cast<long>(forces.index[k]) * size + i];
+  if (forces.load) f += Eigen::Map<const Node>(forces.load + 4 * node);
+  return f;
+}
+
+void kick_nodes(Team& team, const Kick& kick, const NodeField& v, const NodalForces& forces, const std::vector<double>& mass, NodeField& to) {
   team.share(static_cast<long>(v.size()), kNodesOfAThread, [&](long first, long last) {
-    kernels().kick(keep, push, v.data()->data(), f.data()->data(), mass.data(), first, last, to.data()->data());
+    kernels().kick(kick.keep, kick.push, numbers(v), forces, mass.data(), first, last, numbers(to));
   });
 }
 
-void move_nodes(Team& team, double dt, const NodeField& v, NodeField& x) {
-  team.share(static_cast<long>(x.size()), kNodesOfAThread, [&](long first, long last) { kernels().move(dt, v.data()->data(), first, last, x.data()->data()); });
+double move_nodes(Team& team, double dt, const NodeField& v, const NodeField* then, NodeField& x) {
+  return team.largest(static_cast<long>(x.size()), kNodesOfAThread,
+                      [&](long first, long last) { return kernels().move(dt, numbers(v), numbers(then), first, last, numbers(x)); });
+}
+
+double kick_and_move_nodes(Team& team, const Kick& kick, const NodeField& v_before, const NodalForces& forces, const std::vector<double>& mass,
+                           const std::function<void(long first, long last)>& hold, double dt, const NodeField* then, NodeField& v, NodeField& x) {
+  return team.largest(static_cast<long>(x.size()), kNodesOfAThread, [&](long first, long last) {
+    double most = 0;
+    for (long begin = first; begin < last; begin += kPart) {
+      const long end = std::min(last, begin + kPart);
+      kernels().kick(kick.keep, kick.push, numbers(v_before), forces, mass.data(), begin, end, numbers(v));
+      hold(begin, end);
+      most = std::max(most, kernels().move(dt, numbers(v), numbers(then), begin, end, numbers(x)));
+    }
+    return most;
+  });
 }
 
 }  // namespace forming_sim

@@ -188,18 +188,27 @@ Vec3 BoundarySet::prescribed(const Group& group, double t, double dt, const Vec3
 
 Vec3 BoundarySet::prescribed(int k, double t, double dt, const Vec3& x) const { return prescribed(groups_[group_[k]], t, dt, x); }
 
-double BoundarySet::apply_velocity(double t, double dt, const NodeField& x, NodeField& v) const {
-  std::vector<Vec3> velocities;
-  for (const Group& group : groups_) velocities.push_back(group.turns ? Vec3(Vec3::Zero()) : prescribed(group, t, dt, Vec3::Zero()));
+BoundarySet::Prescription BoundarySet::prescription(double t, double dt) const {
+  Prescription step{t, dt, {}};
+  for (const Group& group : groups_) step.u.push_back(group.turns ? Vec3(Vec3::Zero()) : prescribed(group, t, dt, Vec3::Zero()));
+  return step;
+}
+
+double BoundarySet::apply_velocity(const Prescription& step, const NodeField& x, long first, long last, NodeField& v) const {
   double fastest = 0;
-  for (size_t k = 0; k < nodes_.size(); ++k) {
-    const Group& group = groups_[group_[k]];
-    const Vec3 u = group.turns ? prescribed(group, t, dt, vec3(x[nodes_[k]])) : velocities[group_[k]];
+  for (auto at = std::lower_bound(nodes_.begin(), nodes_.end(), first); at != nodes_.end() && *at < last; ++at) {
+    const int g = group_[at - nodes_.begin()];
+    const Group& group = groups_[g];
+    const Vec3 u = group.turns ? prescribed(group, step.t, step.dt, vec3(x[*at])) : step.u[g];
     fastest = std::max(fastest, u.norm());
-    Node& velocity = v[nodes_[k]];
+    Node& velocity = v[*at];
     velocity.head<3>() = group.projector * vec3(velocity) + u;
   }
   return fastest;
+}
+
+double BoundarySet::apply_velocity(double t, double dt, const NodeField& x, NodeField& v) const {
+  return apply_velocity(prescription(t, dt), x, 0, static_cast<long>(v.size()), v);
 }
 
 }  // namespace forming_sim

@@ -8,13 +8,9 @@
 // c dt of a wave in a stable step, so that this makes a strain of about
 //   sum over the steps of max |v - v_then| / c,
 // twice that where two neighbours depart in opposite directions. Velocities alone enter, so that
-// it costs one pass over the nodes.
-#include <algorithm>
+// the pass that moves the nodes finds it (element/nodes.h).
 #include <cmath>
-#include <mutex>
 
-#include "forming_sim/element/nodes.h"
-#include "forming_sim/parallel/team.h"
 #include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
@@ -27,18 +23,10 @@ class Departure {
     then_ = v;
     strain_ = 0;
   }
-  /// After a step that ended with v, m/s; wave: the slowest of the bodies' waves, m/s.
-  void step(const NodeField& v, double wave, Team& team) {
-    std::mutex one;
-    double most = 0;
-    team.share(static_cast<long>(v.size()), kNodesOfAThread, [&](long first, long last) {
-      double of_part = 0;
-      for (long n = first; n < last; ++n) of_part = std::max(of_part, (v[n] - then_[n]).squaredNorm());
-      const std::lock_guard<std::mutex> lock(one);
-      most = std::max(most, of_part);
-    });
-    strain_ += std::sqrt(most) / wave;
-  }
+  /// Velocities at the last look.
+  const NodeField& then() const { return then_; }
+  /// After a step at whose end |v - then|^2 was at most `squared`, m2/s2; wave: the slowest of the bodies' waves, m/s.
+  void step(double squared, double wave) { strain_ += std::sqrt(squared) / wave; }
   bool sudden() const { return strain_ > kUnforeseenStrain; }
 
   template <class Archive> void exchange(Archive& a, std::size_t nodes) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "forming_sim/contact/contact.h"
+#include "forming_sim/element/nodes.h"
 #include "forming_sim/loads/boundary.h"
 #include "forming_sim/loads/pressure.h"
 #include "forming_sim/simulation/simulation.h"
@@ -22,7 +23,8 @@ struct Simulation::Impl {
   RunPlan plan;
   Model model;
   NodeField X;                      ///< initial positions
-  NodeField x, v, v_before, f;      ///< v at the half step
+  NodeField x, v, v_before;         ///< v at the half step
+  NodeField external;               ///< pressure and gravity at x, N; empty where there is none
   NodeField v_kicked;               ///< by the forces of the elements alone; while there is damping
   Elements elements;
   std::vector<Facet> surface;       ///< joined
@@ -101,19 +103,24 @@ struct Simulation::Impl {
   [[noreturn]] void collapse(double stable, int element) const;
 
   // step.cpp
-  /// v* = v + (dt_previous + dt)/2 f/m with damping and prescribed motion; f is complete.
+  /// Of the elements and the loads at x.
+  NodalForces forces() const;
+  /// (dt_previous + dt)/2 f/m with damping.
+  Kick kick_of(double step_dt) const;
+  /// v* = v + kick, with prescribed motion.
   void predict(double step_dt, const NodeField& from, NodeField& v_star) const;
+  void find_loads();
   void take_step();
   void book(const ContactStep& done);
   /// over_kick: what makes forces of the impulses of contact, 1/s.
   void mean_contact_pressure(double over_kick);
   /// Work of prescribed motion, pressure, gravity and damping over the kick.
-  void book_loads(const NodeField& external);
+  void book_loads();
   void book_reactions(double kick);
   double kinetic() const;
   /// Mass-proportional damping now, 1/s.
   double damping_rate() const;
-  /// Settling: estimates the frequency; f is complete but for contact.
+  /// Settling: estimates the frequency; forces() are complete.
   void watch_settling();
   /// Settling: whether the bodies rest, from the force m dv/dt + m alpha v that is left on
   /// each node when contact and supports have answered; v_before, v and dt are those of the step.

@@ -73,7 +73,7 @@ double thickness_of(const BodyModel& body, bool axisymmetric) {
 
 Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
     : plan(with_limit(p, m)), model(std::move(m)), X(initial_positions_of(model)), x(X),
-      v(X.size(), Node::Zero()), v_before(v), f(v),
+      v(X.size(), Node::Zero()), v_before(v),
       elements(model.bodies, model.dimension, X,
                {p.time_step.mass_scaling, p.time_step.linear_viscosity, p.time_step.quadratic_viscosity,
                 !by_cells(), model.axisymmetric}, n),

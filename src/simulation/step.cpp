@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "forming_sim/loads/gravity.h"
-#include "forming_sim/element/nodes.h"
 #include "simulation/impl.h"
 
 namespace forming_sim {
@@ -13,44 +12,56 @@ namespace {
 constexpr double kForceMeanSteps = 50;  ///< tool forces and contact pressures are running means over about this many steps
 }
 
+NodalForces Simulation::Impl::forces() const {
+  NodalForces f = elements.nodal_forces();
+  if (!external.empty()) f.load = external.data()->data();
+  return f;
+}
+
+Kick Simulation::Impl::kick_of(double step_dt) const { return Kick(0.5 * (previous_dt + step_dt), damping_rate()); }
+
 void Simulation::Impl::predict(double step_dt, const NodeField& from, NodeField& v_star) const {
-  kick_nodes(elements.team(), from, f, elements.nodal_mass(), 0.5 * (previous_dt + step_dt), damping_rate(), v_star);
+  kick_nodes(elements.team(), kick_of(step_dt), from, forces(), elements.nodal_mass(), v_star);
   boundaries.apply_velocity(time, step_dt, x, v_star);
 }
 
+void Simulation::Impl::find_loads() {
+  if (pressures.empty() && plan.gravity.isZero()) return;
+  external.assign(x.size(), Node::Zero());
+  pressures.add(time, x, external);
+  if (!plan.gravity.isZero()) add_gravity(plan.gravity, physical_mass, external);
+}
+
 void Simulation::Impl::take_step() {
-  const bool loaded = !pressures.empty() || !plan.gravity.isZero();
   choose_dt();
   --control.until_next;
   if (control.longer) ++longer_steps;
-  elements.forces(x, v, previous_dt, dt, f);
-  NodeField external;
-  if (loaded) {
-    external.assign(x.size(), Node::Zero());
-    pressures.add(time, x, external);
-    if (!plan.gravity.isZero()) add_gravity(plan.gravity, physical_mass, external);
-    for (std::size_t i = 0; i < f.size(); ++i) f[i] += external[i];
-  }
+  elements.find_forces(x, v, previous_dt, dt);
+  find_loads();
   if (stages.settling()) watch_settling();
+  const NodeField* then = by_cells() ? nullptr : &departure.then();
+  double departed = 0;  // squared
   if (contact) {
     const ContactStep done = contact->advance(
         time, dt, x, v, v_before, [&](double step_dt, NodeField& v_star) { predict(step_dt, v, v_star); },
+        [&](double step_dt, const NodeField& with, NodeField& at) { departed = move_nodes(elements.team(), step_dt, with, then, at); },
         [&](double step_dt) { return tool_motions(step_dt); }, full_dt());
     dt = done.dt;
     book(done);
   } else {
     v.swap(v_before);
-    predict(dt, v_before, v);
-    move_nodes(elements.team(), dt, v, x);
+    const BoundarySet::Prescription prescribed = boundaries.prescription(time, dt);
+    const auto hold = [&](long first, long last) { boundaries.apply_velocity(prescribed, x, first, last, v); };
+    departed = kick_and_move_nodes(elements.team(), kick_of(dt), v_before, forces(), elements.nodal_mass(), hold, dt, then, v, x);
   }
-  book_loads(external);
+  book_loads();
   if (stages.settling()) see_rest();
   time += dt;
   previous_dt = dt;
   ++steps;
   place_tools();
   most = std::max(most, work + initial);
-  if (!by_cells()) departure.step(v, elements.slowest_wave(), elements.team());
+  if (then) departure.step(departed, elements.slowest_wave());
 }
 
 void Simulation::Impl::book(const ContactStep& done) {
@@ -107,7 +118,7 @@ void Simulation::Impl::mean_contact_pressure(double over_kick) {
     for (int n : touchable) contact_pressure[n] = 0;
 }
 
-void Simulation::Impl::book_loads(const NodeField& external) {
+void Simulation::Impl::book_loads() {
   const double kick = 0.5 * (previous_dt + dt), alpha = damping_rate();
   const std::vector<double>& mass = elements.nodal_mass();
   for (std::size_t i = 0; i < external.size(); ++i) work += 0.5 * kick * external[i].dot(v_before[i] + v[i]);
@@ -133,6 +144,7 @@ void Simulation::Impl::book_loads(const NodeField& external) {
 void Simulation::Impl::book_reactions(double kick) {
   const std::vector<double>& mass = elements.nodal_mass();
   const std::vector<int>& nodes = boundaries.nodes();
+  const NodalForces f = forces();
   if (contact && !nodes.empty()) {
     held_impulse.assign(nodes.size(), Vec3::Zero());
     contact->add_held_impulses(held_impulse);
@@ -145,7 +157,7 @@ void Simulation::Impl::book_reactions(double kick) {
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const int i = nodes[k];
     while (once_held[r] != i) ++r;
-    Vec3 impulse = boundaries.reaction_impulse(static_cast<int>(k), vec3(f[i]), mass[i], vec3(v_before[i]), vec3(v[i]), kick);
+    Vec3 impulse = boundaries.reaction_impulse(static_cast<int>(k), vec3(force_on(i, f)), mass[i], vec3(v_before[i]), vec3(v[i]), kick);
     done += 0.5 * impulse.dot(vec3(v_before[i]) + vec3(v[i]));
     if (!held_impulse.empty()) impulse -= over_kick * held_impulse[k];
     reactions[r].impulse += impulse;
@@ -167,8 +179,14 @@ double Simulation::Impl::damping_rate() const {
 
 void Simulation::Impl::watch_settling() {
   const long phase = steps % Settle::kInterval;
-  if (phase == Settle::kInterval - 1) f_before = f, f_before_step = steps;
-  if (phase != 0 || f_before_step != steps - 1) return;
+  const bool estimates = phase == 0 && f_before_step == steps - 1;
+  if (phase != Settle::kInterval - 1 && !estimates) return;
+  NodeField f(x.size());
+  sum_nodes(elements.team(), forces(), f);
+  if (!estimates) {
+    f_before = f, f_before_step = steps;
+    return;
+  }
   const std::vector<double>& mass = elements.nodal_mass();
   double v_df = 0, v_Mv = 0;
   for (std::size_t i = 0; i < f.size(); ++i) {

@@ -271,12 +271,13 @@ TEST(Contact2D, HalvingsOfStepsInARowCountTogether) {
     int tried = 0;
     NodeField v_before;
     const auto predict = [&](double, NodeField& v_star) { v_star = world.v; };
+    const auto move = [](double, const NodeField&, NodeField&) {};
     const auto tools = [&](double h) {
       ++tried;
       return world.motion(0, h);
     };
     try {
-      contact.advance(0, dt, world.x, world.v, v_before, predict, tools, std::ldexp(dt, halved_before));
+      contact.advance(0, dt, world.x, world.v, v_before, predict, move, tools, std::ldexp(dt, halved_before));
       ADD_FAILURE() << "a step was found";
     } catch (const Error& e) {
       EXPECT_EQ(e.code(), Code::contact_error) << e.what();

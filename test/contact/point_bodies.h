@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "forming_sim/contact/contact.h"
+#include "forming_sim/element/nodes.h"
 
 namespace contact_test {
 using namespace forming_sim;
@@ -112,6 +113,10 @@ struct World {
           for (size_t i = 0; i < held.size(); ++i)
             v_star[held[i].node] = node(held[i].projector * vec3(v_star[held[i].node]) + (Mat3::Identity() - held[i].projector) * vec3(held_velocity[i]));
           kicked = v_star;
+        },
+        [](double h, const NodeField& with, NodeField& at) {
+          static Team alone(1);
+          move_nodes(alone, h, with, nullptr, at);
         },
         [&](double h) { return motion(time, time + h); });
     for (size_t i = 0; i < x.size(); ++i) {

@@ -88,6 +88,19 @@ TEST(BoundarySet, prescribes_velocity_along_its_axes_only) {
   EXPECT_EQ(set.prescribed(1, 5, 0, Vec3::Zero()), Vec3(4, 0, 0));
 }
 
+TEST(BoundarySet, a_part_of_the_nodes_at_a_time_is_all_of_them) {
+  const BoundarySet set({driven({2, 7, 0}, {4, 7, 0}, {"x"}, {0, 2, 3, 7}), symmetric(Vec3(1, 1, 0), {4, 8})}, 3);
+  const NodeField at_random{{1, 2, 3, 0}, {4, 5, 6, 0}, {7, 8, 9, 0}, {1, 4, 7, 0}, {2, 5, 8, 0}, {3, 6, 9, 0}, {9, 7, 5, 0}, {8, 6, 4, 0}, {7, 5, 3, 0}};
+  NodeField whole = at_random, parts = at_random;
+  const double fastest = set.apply_velocity(1, 0, whole, whole);
+  double of_parts = 0;
+  for (long first : {0, 3, 6}) of_parts = std::max(of_parts, set.apply_velocity(set.prescription(1, 0), parts, first, first + 3, parts));
+  EXPECT_EQ(parts, whole);
+  EXPECT_EQ(of_parts, fastest);
+  for (long n : {0, 2, 3, 4, 7, 8}) EXPECT_NE(parts[n], at_random[n]) << n;
+  for (long n : {1, 5, 6}) EXPECT_EQ(parts[n], at_random[n]) << n;
+}
+
 TEST(BoundarySet, a_drive_and_a_skew_plane_hold_both) {
   // Driven along x with speed u and kept on the plane with normal (1,1,0)/sqrt2:
   // the node must slide with v = u (1,-1,0) and stay free along z.

@@ -134,6 +134,8 @@ class Contact {
   /// Fills the velocities after the kick of all nodes for a step of this dt:
   /// v_star = v + (dt_prev + dt)/2 f/m, prescribed components inserted.
   using Predict = std::function<void(double dt, NodeField& v_star)>;
+  /// x += dt v.
+  using Move = std::function<void(double dt, const NodeField& v, NodeField& x)>;
   /// The tools' poses now and after dt.
   using ToolsAt = std::function<std::vector<ToolMotion>(double dt)>;
 
@@ -144,7 +146,7 @@ class Contact {
   /// would cross. Throws Error(contact_error) naming the pair when that does
   /// not help, or when a node that nothing can move is run over.
   /// full_dt: the step that could be taken had none been halved lately, 0: dt. All halvings since count.
-  ContactStep advance(double time, double dt, NodeField& x, NodeField& v, NodeField& v_before, const Predict& predict, const ToolsAt& tools, double full_dt = 0);
+  ContactStep advance(double time, double dt, NodeField& x, NodeField& v, NodeField& v_before, const Predict& predict, const Move& move, const ToolsAt& tools, double full_dt = 0);
 
   /// Independent check: edges of one surface that pierce facets of another
   /// (2D: crossing segments), nodes behind a plane, and parts wholly inside.

@@ -10,6 +10,7 @@
 #include "forming_sim/element/cell_group.h"
 #include "forming_sim/config/fault.h"
 #include "forming_sim/element/body.h"
+#include "forming_sim/element/nodal_forces.h"
 #include "forming_sim/element/step_bounds.h"
 #include "forming_sim/element/step_times.h"
 #include "forming_sim/element/stillness.h"
@@ -63,11 +64,15 @@ class Elements {
   /// From now on the stages of every call are booked there; null: no more. Not owned.
   void time_stages(StepTimes* times) { times_ = times; }
 
-  /// f = internal forces at x (N); updates the memory of what yields.
+  /// Internal forces at x (N) of the cells, for nodal_forces(); updates the memory of what yields.
   /// v: the velocities that led to x in last_dt (0: nothing has moved yet), for Law::classical
   /// and bulk viscosity, whose work is booked for the coming dt. Throws Error(mesh_error)
   /// naming an element whose volume is not positive or not a number, or a node that has
   /// crossed the axis.
+  void find_forces(const NodeField& x, const NodeField& v, double last_dt, double dt);
+  /// What the cells found last, as the nodes have it; until forces are found again.
+  NodalForces nodal_forces() const { return {dimension_, slot_start_.data(), slot_index_.data(), slots_, nullptr}; }
+  /// Both: f = internal forces at x.
   void forces(const NodeField& x, const NodeField& v, double last_dt, double dt, NodeField& f);
   /// Stable time step at x, without a safety factor: dt and the simplex' cell.
   void stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const;
@@ -127,8 +132,6 @@ class Elements {
   void clear_slots(const Group& group, long tile) const;
   /// cells: the group, or what differs from it in its law only.
   void forces_of_tile(const CellGroup& cells, const Group& group, const NodalView& view, long tile) const;
-  /// f = sum of the slots of each node.
-  void sum_slots(NodeField& f) const;
   /// Those of the tiles whose nodes moved, or whose memory the last evaluation changed.
   /// Returns whether some tile has no node that moves.
   bool forces_of_moved(Group& g, const NodalView& view);

@@ -1,17 +1,40 @@
 #pragma once
 // The nodes' part of a step, symplectic Euler (3.39), shared by the threads of a run.
+#include <functional>
 #include <vector>
 
+#include "forming_sim/element/nodal_forces.h"
 #include "forming_sim/parallel/team.h"
 #include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
 
-/// to = ((1 - a) v + kick f/m) / (1 + a), a = damping kick/2: the kick in a time of `kick` s with forces f (N), masses m
-/// (kg) and damping (1/s) at the mean of the two velocities.
-void kick_nodes(Team& team, const NodeField& v, const NodeField& f, const std::vector<double>& mass, double kick, double damping, NodeField& to);
+/// The kick in a time of `time` s with damping (1/s) at the mean of the two velocities:
+/// v <- keep v + push f/m = ((1 - a) v + time f/m) / (1 + a), a = damping time/2.
+struct Kick {
+  double keep, push;
 
-/// x += dt v.
-void move_nodes(Team& team, double dt, const NodeField& v, NodeField& x);
+  Kick(double time, double damping) {
+    const double a = 0.5 * damping * time;
+    keep = (1 - a) / (1 + a);
+    push = time / (1 + a);
+  }
+};
+
+/// f of all nodes.
+void sum_nodes(Team& team, const NodalForces& forces, NodeField& f);
+/// f of one node, the same to the last bit.
+Node force_on(long node, const NodalForces& forces);
+
+/// to = v after the kick; mass: kg.
+void kick_nodes(Team& team, const Kick& kick, const NodeField& v, const NodalForces& forces, const std::vector<double>& mass, NodeField& to);
+
+/// x += dt v. Returns the largest |v - then|^2, 0 without `then`.
+double move_nodes(Team& team, double dt, const NodeField& v, const NodeField* then, NodeField& x);
+
+/// Both, a part of the nodes at a time, which a core's cache holds meanwhile: v = v_before after the kick, then hold(first, last)
+/// for what else acts on the velocities of the nodes [first, last), then x += dt v. Returns what move_nodes does.
+double kick_and_move_nodes(Team& team, const Kick& kick, const NodeField& v_before, const NodalForces& forces, const std::vector<double>& mass,
+                           const std::function<void(long first, long last)>& hold, double dt, const NodeField* then, NodeField& v, NodeField& x);
 
 }  // namespace forming_sim

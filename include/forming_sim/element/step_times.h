@@ -10,8 +10,7 @@ struct StepTimes {
   double bound = 0;     ///< stable time step of the elements
   double pressure = 0;  ///< pressures of the nodes, where they have some
   double cells = 0;     ///< elements: positions gathered, law, forces on the nodes of each cell
-  double sum = 0;       ///< forces of the cells summed by node
-  double nodes = 0;     ///< velocities and positions
+  double nodes = 0;     ///< forces of the cells summed by node, velocities, positions
 };
 
 /// Adds what has passed since the last stage ended to the one that ends now.

@@ -43,7 +43,15 @@ class BoundarySet {
   /// zero along free directions.
   Vec3 prescribed(int k, double t, double dt, const Vec3& x) const;
 
-  /// v <- P v + u. Returns the largest prescribed speed, m/s.
+  /// What the boundaries prescribe in the step from t to t + dt.
+  struct Prescription {
+    double t, dt;
+    std::vector<Vec3> u;  ///< of each group that does not turn
+  };
+  Prescription prescription(double t, double dt) const;
+  /// v <- P v + u of those of the nodes [first, last) that are held or driven. Returns the largest prescribed speed, m/s.
+  double apply_velocity(const Prescription& step, const NodeField& x, long first, long last, NodeField& v) const;
+  /// Of all nodes.
   double apply_velocity(double t, double dt, const NodeField& x, NodeField& v) const;
 
   /// What the prescription pushed on nodes()[k] in a step, N s:

@@ -5,7 +5,9 @@
 // On a machine that does other things as well a thread may not be there when its
 // part is due: then another takes it, and the loop waits for no more than the part
 // in which a thread was stopped.
+#include <algorithm>
 #include <memory>
+#include <mutex>
 #include <type_traits>
 
 namespace forming_sim {
@@ -28,6 +30,18 @@ class Team {
   /// One loop at a time.
   template <class Work> void share(long count, long least, Work&& work) {
     run(count, least, [](void* w, long first, long last) { (*static_cast<std::remove_reference_t<Work>*>(w))(first, last); }, &work);
+  }
+
+  /// Likewise; the largest of the numbers that work returns, at least 0.
+  template <class Work> double largest(long count, long least, Work&& work) {
+    std::mutex one;
+    double most = 0;
+    share(count, least, [&](long first, long last) {
+      const double of_piece = work(first, last);
+      const std::lock_guard<std::mutex> lock(one);
+      most = std::max(most, of_piece);
+    });
+    return most;
   }
 
  private:
