@@ -35,7 +35,7 @@ class SteppedBody {
   }
   void accelerate(double dt) {
     before_ = v;
-    elements_.forces(x, v, last_dt_, dt, force_);
+    elements_.forces(x, v, last_dt_, last_dt_, force_);
     const double keep = (1 - 0.5 * damping * dt) / (1 + 0.5 * damping * dt), kick = dt / (1 + 0.5 * damping * dt);
     for (std::size_t i = 0; i < x.size(); ++i)
       v[i] = (keep * v[i] + kick / mass()[i] * (force_[i] + load[i])).cwiseProduct(free[i]);

@@ -22,12 +22,13 @@ void volume_and_rate(const double* constants, const Vector<Pack, kD<Cell>>* x, c
   }
 }
 
-/// Bulk viscosity of the cells of a block: q, which adds to p, and the power that it takes, q D V, with
-/// q = rho l (b1 c D + b2^2 l D |D| where D < 0), D = (dV/dt)/V, l = extent^(1/d). Out of line: most scenes have none.
-struct Viscosity {
-  Pack q, power;
-};
-template <class Cell> [[gnu::noinline]] Viscosity viscosity_of_block(const CellGroup& g, const NodalView& view, long block) {
+inline bool is_viscous(const CellGroup& g) { return g.linear_viscosity > 0 || g.quadratic_viscosity > 0; }
+
+/// Bulk viscosity of the cells of a block, q, which adds to p,
+///   q = rho l (b1 c D + b2^2 l D |D| where D < 0), D = (dV/dt)/V, l = extent^(1/d), with the velocities before the kick.
+/// Its work is that of a force that acts in the kick, q times the mean of dV/dt before and after it: it is booked when the
+/// next step knows that. Out of line: most scenes have none.
+template <class Cell> [[gnu::noinline]] Pack viscosity_of_block(const CellGroup& g, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   Vector<Pack, D> x[Cell::nodes], v[Cell::nodes];
@@ -40,7 +41,12 @@ template <class Cell> [[gnu::noinline]] Viscosity viscosity_of_block(const CellG
   const Pack c(__builtin_sqrt((g.solid.K + 4.0 / 3 * g.solid.mu) / g.density));
   const Pack b2(g.quadratic_viscosity);
   const Pack q = Pack(g.density) * l * D_v * (Pack(g.linear_viscosity) * c + select(D_v < Pack(0.0), b2 * b2 * l * absolute(D_v), Pack(0.0)));
-  return {q, q * D_v * V};
+  double* last = g.last_viscosity + 2 * block * kLanes;
+  const Pack q_last = Pack::load(last), rate_last = Pack::load(last + kLanes);
+  g.viscous_work[block] += sum_of_first(q_last * (rate_last + rate), lanes_in_use(g, block)) * 0.5 * view.last_kick;
+  q.store(last);
+  rate.store(last + kLanes);
+  return q;
 }
 
 }  // namespace FORMING_SIM_ISA

@@ -137,6 +137,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.linear_viscosity = options.linear_viscosity;
       g.quadratic_viscosity = options.quadratic_viscosity;
       const bool viscous = g.linear_viscosity > 0 || g.quadratic_viscosity > 0;
+      if (viscous) g.viscosity_storage.resize(2 * static_cast<std::size_t>(g.blocks));
       may_sleep_ = may_sleep_ && g.pressure != PressureMode::node && g.solid.law != Law::classical && !viscous;
       g.first_element = first_element;
       first_element += g.cells * shape.simplices;
@@ -219,6 +220,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
     g.sums = slots_ + g.first_slot * record_size_;
     g.plastic_work = g.plastic.data();
     g.viscous_work = g.viscous.data();
+    g.last_viscosity = reinterpret_cast<double*>(g.viscosity_storage.data());
     g.upright = g.upright_storage.get();
     g.pressed = g.pressed_storage.get();
   }
@@ -297,10 +299,10 @@ bool Elements::forces_of_moved(Group& g, const NodalView& view) {
   return any_rests;
 }
 
-void Elements::find_forces(const NodeField& x, const NodeField& v, double last_dt, double dt) {
+void Elements::find_forces(const NodeField& x, const NodeField& v, double last_dt, double last_kick) {
   if (axisymmetric_) check_axis(x);
   StageClock clock(times_);
-  NodalView view{x.data()->data(), v.data()->data(), nullptr, pressure_.data(), dt, last_dt};
+  NodalView view{x.data()->data(), v.data()->data(), nullptr, pressure_.data(), last_kick, last_dt};
   if (any_nodal_) nodal_pressure(view);
   clock.ends(&StepTimes::pressure);
   if (may_sleep_) stillness_.look(x, *team_);
@@ -319,8 +321,8 @@ void Elements::find_forces(const NodeField& x, const NodeField& v, double last_d
   clock.ends(&StepTimes::cells);
 }
 
-void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, double dt, NodeField& f) {
-  find_forces(x, v, last_dt, dt);
+void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, double last_kick, NodeField& f) {
+  find_forces(x, v, last_dt, last_kick);
   sum_nodes(*team_, nodal_forces(), f);
 }
 

@@ -7,8 +7,8 @@
 namespace forming_sim {
 
 void Elements::add_bytes(const Group& g, GroupPlan& plan) const {
-  plan.memory_bytes += static_cast<double>((g.memory_storage.size() + g.constants_storage.size() + g.hourglass_storage.size()) * sizeof(Lane));
-  plan.state_bytes += static_cast<double>((g.memory_storage.size() / g.items * (g.items - 1) + g.hourglass_storage.size()) * sizeof(Lane));  // V0 stays
+  plan.memory_bytes += static_cast<double>((g.memory_storage.size() + g.constants_storage.size() + g.hourglass_storage.size() + g.viscosity_storage.size()) * sizeof(Lane));
+  plan.state_bytes += static_cast<double>((g.memory_storage.size() / g.items * (g.items - 1) + g.hourglass_storage.size() + g.viscosity_storage.size()) * sizeof(Lane));  // V0 stays
   const double slots = static_cast<double>(g.tile_start.back() - g.tiles);  // of nodes
   plan.force_bytes += slots * record_size_ * sizeof(double);
   plan.index_bytes += (static_cast<double>(g.node_storage.size() + g.slot_storage.size()) + slots) * sizeof(int);
@@ -138,7 +138,7 @@ ElementFields Elements::observe(const NodeField& x) const {
 
 void Elements::append_state(std::vector<double>& to) const {
   for (const Group& g : groups_) {
-    for (const LargeArray<Lane>* storage : {&g.memory_storage, &g.hourglass_storage}) {
+    for (const LargeArray<Lane>* storage : {&g.memory_storage, &g.hourglass_storage, &g.viscosity_storage}) {
       const double* memory = reinterpret_cast<const double*>(storage->data());
       to.insert(to.end(), memory, memory + storage->size() * kLanes);
     }
@@ -154,7 +154,7 @@ const double* Elements::read_state(const double* from) {
     from += count;
   };
   for (Group& g : groups_) {
-    for (LargeArray<Lane>* storage : {&g.memory_storage, &g.hourglass_storage})
+    for (LargeArray<Lane>* storage : {&g.memory_storage, &g.hourglass_storage, &g.viscosity_storage})
       take(reinterpret_cast<double*>(storage->data()), storage->size() * kLanes);
     take(g.plastic.data(), g.plastic.size());
     take(g.viscous.data(), g.viscous.size());

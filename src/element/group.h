@@ -22,7 +22,7 @@ struct Elements::Group : CellGroup {
   enum Rest : char { changed, kept, passed_over };  ///< a tile's memory by the last evaluation, or none was needed
   std::vector<Rest> rest;  ///< per tile; empty where all are evaluated
   CurveTables curves;
-  LargeArray<Lane> memory_storage, constants_storage, hourglass_storage, node_share_storage;
+  LargeArray<Lane> memory_storage, constants_storage, hourglass_storage, node_share_storage, viscosity_storage;
   std::vector<double> share;  ///< [cell][node] kg, with ElementOptions::shares
   int parts = 0;  ///< simplices of a cell, all of them its one point's in a one-point cell; none of points at edges
   std::vector<int> edge_points;  ///< [simplex][edges_of_simplex] of simplices whose law is there: place among all such points, a lane each

@@ -151,10 +151,9 @@ template <class Cell, Made made>
   if constexpr (Cell::drawn)
     if (classical) draw<Cell>(constants, v, drawn_v);
   const int in_use = lanes_in_use(g, block);
-  if (g.linear_viscosity > 0 || g.quadratic_viscosity > 0) {
-    const Viscosity viscosity = viscosity_of_block<Cell>(g, view, block);
-    for (int s = 0; s < Cell::simplices; ++s) p[s] += viscosity.q;
-    g.viscous_work[block] += sum_of_first(viscosity.power, in_use) * view.dt;
+  if (is_viscous(g)) {
+    const Pack q = viscosity_of_block<Cell>(g, view, block);
+    for (int s = 0; s < Cell::simplices; ++s) p[s] += q;
   }
 
   constexpr int n = made == Made::any ? 1 : kPoints<Cell>;

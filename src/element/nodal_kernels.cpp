@@ -47,10 +47,9 @@ template <class Cell> [[gnu::flatten]] void forces_of_block(const CellGroup& g, 
     for (int i = 0; i < D; ++i) on_node[i] = Pack(0.0);
   Pack p[Cell::simplices], J[Cell::simplices];
   pressures<Cell>(g, view, block, x, p, J);
-  if (g.linear_viscosity > 0 || g.quadratic_viscosity > 0) {
-    const Viscosity viscosity = viscosity_of_block<Cell>(g, view, block);
-    for (Pack& of_simplex : p) of_simplex += viscosity.q;
-    g.viscous_work[block] += sum_of_first(viscosity.power, lanes_in_use(g, block)) * view.dt;
+  if (is_viscous(g)) {
+    const Pack q = viscosity_of_block<Cell>(g, view, block);
+    for (Pack& of_simplex : p) of_simplex += q;
   }
   Mask upright = Pack(1.0) > Pack(0.0);
   Pack hoops(0.0);

@@ -71,11 +71,7 @@ template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_block
   } else {
     point = von_mises_with_hourglass<made == Made::one_layer>(g.solid, e, J, memory, hourglass, hourglass_of<Cell>(g, block));
   }
-  if (g.linear_viscosity > 0 || g.quadratic_viscosity > 0) {
-    const Viscosity viscosity = viscosity_of_block<Cell>(g, view, block);
-    p += viscosity.q;
-    g.viscous_work[block] += sum_of_first(viscosity.power, in_use) * view.dt;
-  }
+  if (is_viscous(g)) p += viscosity_of_block<Cell>(g, view, block);
   g.plastic_work[block] += sum_of_first(point.dissipation * V0, in_use);
 
   Vector<Pack, D> r[OnePoint<D>::modes], M[D], force[D];

@@ -46,7 +46,7 @@ struct Simulation::Impl {
   bool ledger_told = false;
   std::vector<Observer*> observers;
 
-  double time = 0, dt = 0, previous_dt = 0;
+  double time = 0, dt = 0, previous_dt = 0, previous_kick = 0;
   long steps = 0;
   StepControl control;
   GlobalLimit global;

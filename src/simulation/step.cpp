@@ -36,7 +36,7 @@ void Simulation::Impl::take_step() {
   choose_dt();
   --control.until_next;
   if (control.longer) ++longer_steps;
-  elements.find_forces(x, v, previous_dt, dt);
+  elements.find_forces(x, v, previous_dt, previous_kick);
   find_loads();
   if (stages.settling()) watch_settling();
   const NodeField* then = by_cells() ? nullptr : &departure.then();
@@ -57,6 +57,7 @@ void Simulation::Impl::take_step() {
   book_loads();
   if (stages.settling()) see_rest();
   time += dt;
+  previous_kick = 0.5 * (previous_dt + dt);
   previous_dt = dt;
   ++steps;
   place_tools();

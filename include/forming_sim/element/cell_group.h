@@ -52,6 +52,7 @@ struct CellGroup {
   double* sums = nullptr;          ///< [slot][kRecord] forces, N; or volumes for nodal pressure, the first of each
   double* plastic_work = nullptr;  ///< [block] dissipated so far, J
   double* viscous_work = nullptr;  ///< [block] dissipated so far by bulk viscosity, J
+  double* last_viscosity = nullptr;  ///< with bulk viscosity: [block][2][lane] its q and dV/dt of the last force pass, whose work comes with the next
   bool* upright = nullptr;         ///< [block] V/V0 > 0 everywhere in the last force pass
   bool* pressed = nullptr;         ///< one-point cells: [block] a corner is so far in the range of its guard, likewise, that its stiffness grows fast (element/corner_guard.h)
   bool at_edges = false;           ///< the cells are points of element/edge_points.h
@@ -65,7 +66,7 @@ struct NodalView {
   const double* v = nullptr;          ///< velocities, read only with bulk viscosity or Law::classical
   const double* inertia = nullptr;    ///< [node] of rings: equal shares of the mass over the node's own, read in the time step only
   const double* pressure = nullptr;   ///< [node] nodal pressure, read only in PressureMode::node
-  double dt = 0;                      ///< s, for the viscous work
+  double last_kick = 0;               ///< s, in which the forces of the last pass acted, for the viscous work
   double last_dt = 0;                 ///< s, in which v led to x, for Law::classical
 };
 

@@ -66,14 +66,15 @@ class Elements {
 
   /// Internal forces at x (N) of the cells, for nodal_forces(); updates the memory of what yields.
   /// v: the velocities that led to x in last_dt (0: nothing has moved yet), for Law::classical
-  /// and bulk viscosity, whose work is booked for the coming dt. Throws Error(mesh_error)
+  /// and bulk viscosity; last_kick: the time in which the forces of the last call acted to give v, and for which
+  /// the work of their viscosity is booked now. Throws Error(mesh_error)
   /// naming an element whose volume is not positive or not a number, or a node that has
   /// crossed the axis.
-  void find_forces(const NodeField& x, const NodeField& v, double last_dt, double dt);
+  void find_forces(const NodeField& x, const NodeField& v, double last_dt, double last_kick);
   /// What the cells found last, as the nodes have it; until forces are found again.
   NodalForces nodal_forces() const { return {dimension_, slot_start_.data(), slot_index_.data(), slots_, nullptr}; }
   /// Both: f = internal forces at x.
-  void forces(const NodeField& x, const NodeField& v, double last_dt, double dt, NodeField& f);
+  void forces(const NodeField& x, const NodeField& v, double last_dt, double last_kick, NodeField& f);
   /// Stable time step at x, without a safety factor: dt and the simplex' cell.
   void stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const;
   /// In the last force pass a corner of a one-point cell was so far in the range of its guard that every step asks for its limit.
