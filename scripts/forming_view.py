@@ -8,7 +8,6 @@ run on the topics and frames its bodies, the legend beside them, in the one or t
 """
 import os
 import sys
-import tempfile
 
 import rospkg
 import rospy
@@ -37,16 +36,20 @@ def main():
     views = os.path.join(rospkg.RosPack().get_path('forming_sim'), 'rviz')
     path = os.path.join(views, name + '.rviz')
     if name == 'fit':
-        rospy.init_node('rviz', disable_signals=True)
+        rospy.init_node('rviz')
         print('rviz opens with the first run', flush=True)
-        run = rospy.wait_for_message('/forming_server/plastic_strain_topology', PlasticStrainTopology)
+        try:
+            run = rospy.wait_for_message('/forming_server/plastic_strain_topology', PlasticStrainTopology)
+        except rospy.ROSInterruptException:
+            return
         with open(os.path.join(views, 'forming.rviz' if run.dimension == 2 else 'forming_3d.rviz')) as file:
             view = yaml.safe_load(file)
         nodes = [(p.x, p.y, p.z) for p in run.nodes]
         view = framed(view, [min(column) for column in zip(*nodes)], [max(column) for column in zip(*nodes)])
-        with tempfile.NamedTemporaryFile('w', prefix='forming_view_', suffix='.rviz', delete=False) as file:
+        os.makedirs(rospkg.get_ros_home(), exist_ok=True)
+        path = os.path.join(rospkg.get_ros_home(), 'forming_view.rviz')
+        with open(path, 'w') as file:
             yaml.safe_dump(view, file, sort_keys=False)
-            path = file.name
         rospy.signal_shutdown('rviz takes its name')
     elif not os.path.exists(path):
         known = sorted(f[:-5] for f in os.listdir(views) if f.endswith('.rviz'))

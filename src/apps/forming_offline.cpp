@@ -11,6 +11,7 @@
 #include "forming_sim/results/progress_line.h"
 #include "forming_sim/results/run_scene.h"
 #include "forming_sim/results/start.h"
+#include "forming_sim/scene/build.h"
 #include "forming_sim/scene/schema.h"
 #include "forming_sim/scene/validate.h"
 
@@ -45,6 +46,7 @@ int perform(const OfflineOptions& options) {
       const std::vector<Fault> faults = validate_start(scene, {}, options.thread_count());
       if (!faults.empty()) throw SceneError(faults);
     }
+    for (const std::string& note : build_model(scene).notes) std::fprintf(stderr, "note: %s\n", note.c_str());
     text = options.task == Task::estimate ? estimate_text(estimate_run(scene, options.thread_count()))
            : options.task == Task::plan   ? plan_text(scene, options.thread_count())
                                           : "The scene has no faults.\n";

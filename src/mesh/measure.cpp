@@ -1,5 +1,6 @@
 #include "forming_sim/mesh/measure.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace forming_sim {
@@ -31,6 +32,28 @@ Eigen::AlignedBox3d bounds(const Mesh& mesh) {
 }
 
 double size_of(const Mesh& mesh) { return mesh.nodes.empty() ? 0 : bounds(mesh).diagonal().norm(); }
+
+double flatness(const Mesh& mesh) {
+  static constexpr int along[3][4][2] = {{{0, 1}, {3, 2}, {4, 5}, {7, 6}}, {{0, 3}, {1, 2}, {4, 7}, {5, 6}}, {{0, 4}, {1, 5}, {2, 6}, {3, 7}}};
+  double sum = 0;
+  int count = 0;
+  for (const Cells& cells : mesh.cells) {
+    if (cells.kind != CellKind::hex6 && cells.kind != CellKind::hex24) continue;
+    const int size = shape_of(cells.kind).nodes;
+    for (int cell = 0; cell < cells.count(); ++cell) {
+      std::array<double, 3> length;
+      for (int m = 0; m < 3; ++m) {
+        Vec3 edges = Vec3::Zero();
+        for (const auto& edge : along[m]) edges += mesh.nodes[cells.nodes[cell * size + edge[1]]] - mesh.nodes[cells.nodes[cell * size + edge[0]]];
+        length[m] = edges.norm();
+      }
+      std::sort(length.begin(), length.end());
+      sum += length[1] / length[0];
+      ++count;
+    }
+  }
+  return count > 0 ? sum / count : 0;
+}
 
 std::string place(const Vec3& x) {
   std::ostringstream text;

@@ -1,6 +1,7 @@
 #include "geometry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <set>
 
@@ -167,6 +168,10 @@ void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
   if (const int parts = config.self_contact ? 1 : count_parts(mesh); parts > 1)
     model.notes.push_back("body " + config.name + " consists of " + std::to_string(parts) +
                           " parts that share no node, and they pass through each other: set its self_contact to true, or give them as bodies of their own");
+  constexpr double kFlat = 1.5;
+  if (const double flat = flatness(mesh); flat > kFlat)
+    model.notes.push_back("the cells of body " + config.name + " are " + number_text(0.1 * std::round(10 * flat)) +
+                          " times as long and as wide as they are thick: split into tetrahedra they bend far too stiffly (docs/elements.md); set its pattern to one_point, or give cells about as thick as long");
   BodyModel body;
   body.name = config.name;
   body.first_node = model.node_count();

@@ -34,7 +34,7 @@ Scene plate_scene() {
   body.blank->thickness = 0.001;
   body.blank->cells_along = body.blank->cells_across = 4;
   body.blank->cells_through = 1;
-  body.blank->pattern = "coarse";
+  body.blank->pattern = "one_point";
   body.material.density = 2700;
   body.material.youngs_modulus = 70e9;
   body.material.poissons_ratio = 0.3;
@@ -244,6 +244,20 @@ TEST(SceneBuild, FaultsOfReadingAndOfMeshesAreToldTogether) {
 }
 
 // What a body without self contact does where it has more parts than one is told.
+TEST(SceneBuild, FlatCellsOfTetrahedraAreTold) {
+  Scene scene = plate_scene();  // cells of 5 x 5 x 1 mm
+  scene.tools.clear();
+  for (const char* pattern : {"fine", "coarse", "one_point"}) {
+    scene.bodies[0].blank->pattern = pattern;
+    const std::vector<std::string> notes = build_model(scene).notes;
+    ASSERT_EQ(notes.size(), pattern == std::string("one_point") ? 0u : 1u) << pattern;
+    for (const std::string& note : notes) EXPECT_NE(note.find("body plate are 5 times as long and as wide as they are thick"), std::string::npos) << note;
+  }
+  scene.bodies[0].blank->pattern = "fine";
+  scene.bodies[0].blank->cells_along = 20;  // as thick as long: it bends along x
+  EXPECT_TRUE(build_model(scene).notes.empty());
+}
+
 TEST(SceneBuild, ABodyInTwoPartsIsTold) {
   Scene scene = plate_scene();
   scene.tools.clear();

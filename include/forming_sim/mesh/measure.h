@@ -25,6 +25,10 @@ Eigen::AlignedBox3d bounds(const Mesh& mesh);
 /// Length of the diagonal of `bounds`, m; 0 for a mesh without nodes.
 double size_of(const Mesh& mesh);
 
+/// How flat the hexahedra are that are split into tetrahedra: the middle one of the lengths of a cell (the means of its parallel
+/// edges) over the shortest, in the mean over these cells; 1 of cubes and of long bars, 0 where there are none.
+double flatness(const Mesh& mesh);
+
 /// "(x, y, z) m", as messages name a place.
 std::string place(const Vec3& x);
 
