@@ -80,7 +80,7 @@ A run is a list of stages. Times of motions, boundaries and pressures count from
 - `withdraw` moves tools away from where they stand by `displacement`, smoothly, in `duration`; then they are gone.
 - `settle` takes motion out of the bodies until their kinetic energy stays below `kinetic_fraction` of the elastic one:
   springback. It ends at `limit` at the latest, and the result then says so. Forces come to rest as the root of it: with
-the default of 1e-5 to some .3 %; who reads a static force from the end of a run gives 1e-8.
+  the default of 1e-5 to some .3 %; who reads a static force from the end of a run gives 1e-8.
 
 Slow processes are simulated faster than they are: give the tools speeds of some m/s, or scale the mass, and judge
 what it costs by kinetic over internal energy in `summary.json`, which should stay below a few percent.
