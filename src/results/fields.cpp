@@ -8,7 +8,6 @@ namespace forming_sim {
 
 void Fields::on_start(const Simulation& simulation) {
   schedule_.start(simulation.time());
-  sheets_ = Thickness(simulation.model());
   const std::string path = in_directory(directory_, "result.h5");
   ResultHeader header = take_header(simulation, scene_);
   if (resumed_) {
@@ -39,7 +38,7 @@ void Fields::on_end(const Simulation& simulation, Code code, const std::string&)
 void Fields::write(const Simulation& simulation, bool interrupted) {
   if (simulation.steps() == last_step_) return;
   last_step_ = simulation.steps();
-  Frame frame = take_frame(simulation, sheets_);
+  Frame frame = take_frame(simulation, gauge_.at(simulation));
   frame.interrupted = interrupted;
   file_->write(frame);
   // With very many frames not after each: the text grows with every one of them.

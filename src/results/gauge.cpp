@@ -66,9 +66,10 @@ const Measures& Gauge::at(const Simulation& simulation) {
   measures_.plastic_strain = greatest_plastic_strain(simulation);
   measures_.surface_strain = greatest_surface_strain(simulation);
   if (sheets_.any()) {
-    const std::vector<double> thickness = sheets_.at(simulation.positions());
-    measures_.thickness = smallest(thickness);
-    measures_.thinning = greatest_thinning(simulation, sheets_.thinning(thickness));
+    measures_.thickness_of_nodes = sheets_.at(simulation.positions());
+    measures_.thinning_of_nodes = sheets_.thinning(measures_.thickness_of_nodes);
+    measures_.thickness = smallest(measures_.thickness_of_nodes);
+    measures_.thinning = greatest_thinning(simulation, measures_.thinning_of_nodes);
   }
   measures_.probes.clear();
   const std::vector<Sym> stress = probes_.empty() ? std::vector<Sym>() : simulation.stress();

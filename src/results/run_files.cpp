@@ -19,7 +19,7 @@ RunFiles open_run_files(const Simulation& simulation, const Scene& scene, const 
   Gauge& gauge = *files.gauge;
   const auto add = [&](auto observer) { files.observers.push_back(std::move(observer)); };
   add(std::make_unique<Recorder>(scene.output, every.history, gauge, record));
-  add(std::make_unique<Fields>(scene, directory, every.frames, resumed, record));
+  add(std::make_unique<Fields>(scene, directory, every.frames, resumed, gauge, record));
   add(std::make_unique<History>(in_directory(directory, "history.csv"), every.history, resumed, gauge, record));
   add(std::make_unique<Checkpoints>(scene, in_directory(directory, "checkpoint.h5"), every.checkpoint, record));
   add(std::make_unique<SummaryFile>(scene, directory, gauge, record));

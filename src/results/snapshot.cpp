@@ -42,7 +42,7 @@ ResultHeader take_header(const Simulation& simulation, const Scene& scene) {
   return header;
 }
 
-Frame take_frame(const Simulation& simulation, const Thickness& sheets) {
+Frame take_frame(const Simulation& simulation, const Measures& measures) {
   Frame frame;
   frame.time = simulation.time();
   frame.step = simulation.steps();
@@ -56,11 +56,8 @@ Frame take_frame(const Simulation& simulation, const Thickness& sheets) {
     frame.surface_strain.push_back(static_cast<float>(strain.major));
     frame.surface_strain_minor.push_back(static_cast<float>(strain.minor));
   }
-  if (sheets.any()) {
-    const std::vector<double> thickness = sheets.at(simulation.positions());
-    frame.thickness = single(thickness);
-    frame.thinning = single(sheets.thinning(thickness));
-  }
+  frame.thickness = single(measures.thickness_of_nodes);
+  frame.thinning = single(measures.thinning_of_nodes);
   frame.contact_pressure = single(simulation.contact_pressure());
   frame.contact_gap = single(simulation.contact_gap());
   frame.contact_slip = single(simulation.contact_slip());

@@ -131,18 +131,23 @@ TEST(RosMarkers, LegendNamesTheRange) {
   EXPECT_NEAR(find(array, "sheet", 0).colors[0].g, half.g, 1e-6);
 }
 
+/// The markers of a frame whose sheet is coloured by that field; its legend has this title and this upper end.
+visualization_msgs::MarkerArray coloured(const RunShape& shape, const RunFrame& frame, const std::string& by, const std::string& title, const std::string& most) {
+  MarkerOptions options;
+  options.colour_by = by;
+  const visualization_msgs::MarkerArray array = RunMarkers(shape, options).at(frame, ros::Time(1));
+  EXPECT_EQ(find(array, "legend", 1).text, title);
+  EXPECT_EQ(find(array, "legend", 3).text, most);
+  return array;
+}
+
 TEST(RosMarkers, ContactCanColour) {
   const RunShape shape = section(2, 2);
   RunFrame frame = at_rest(shape);
   frame.contact_pressure.assign(frame.positions.size(), 0.0);
   frame.contact_gap = frame.contact_pressure;
   for (std::size_t n = 0; n < frame.positions.size(); ++n) frame.contact_pressure[n] = n == 4 ? 2e8 : 0;
-  MarkerOptions options;
-  options.colour_by = "contact_pressure";
-  RunMarkers markers(shape, options);
-  const auto array = markers.at(frame, ros::Time(1));
-  EXPECT_EQ(find(array, "legend", 1).text, "contact pressure, Pa");
-  EXPECT_EQ(find(array, "legend", 3).text, "2e+08");
+  const auto array = coloured(shape, frame, "contact_pressure", "contact pressure, Pa", "2e+08");
   const auto most = scale_colour(1);
   const auto& sheet = find(array, "sheet", 0);
   EXPECT_TRUE(std::any_of(sheet.colors.begin(), sheet.colors.end(), [&](const auto& c) { return c.r == most.r; }));
@@ -154,12 +159,7 @@ TEST(RosMarkers, ThinningColoursTheSheetsAndNothingElse) {
   frame.thinning.assign(frame.positions.size(), std::nan(""));
   frame.thinning[4] = 0.25;
   frame.thinning[5] = -0.1;
-  MarkerOptions options;
-  options.colour_by = "thinning";
-  RunMarkers markers(shape, options);
-  const auto array = markers.at(frame, ros::Time(1));
-  EXPECT_EQ(find(array, "legend", 1).text, "thinning");
-  EXPECT_EQ(find(array, "legend", 3).text, "0.25");
+  const auto array = coloured(shape, frame, "thinning", "thinning", "0.25");
   const auto most = scale_colour(1), none = scale_colour(0);
   const auto& sheet = find(array, "sheet", 0);
   for (std::size_t i = 0; i < sheet.points.size(); ++i) {

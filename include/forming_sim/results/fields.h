@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
+#include "forming_sim/results/gauge.h"
 #include "forming_sim/results/result_file.h"
 #include "forming_sim/results/run_record.h"
 #include "forming_sim/results/schedule.h"
-#include "forming_sim/results/thickness.h"
 #include "forming_sim/simulation/observer.h"
 
 namespace forming_sim {
@@ -16,8 +16,8 @@ class Fields : public Observer {
  public:
   /// resumed: go on with the file that is there, where it fits; a note in the
   /// record tells where it did not.
-  Fields(const Scene& scene, const std::string& directory, double interval, bool resumed, RunRecord& record)
-      : scene_(scene), directory_(directory), schedule_(interval), resumed_(resumed), record_(record) {}
+  Fields(const Scene& scene, const std::string& directory, double interval, bool resumed, Gauge& gauge, RunRecord& record)
+      : scene_(scene), directory_(directory), schedule_(interval), resumed_(resumed), gauge_(gauge), record_(record) {}
   void on_start(const Simulation& simulation) override;
   void on_step(const Simulation& simulation) override;
   void on_stage_end(const Simulation& simulation, int index) override;
@@ -30,8 +30,8 @@ class Fields : public Observer {
   std::string directory_;
   Schedule schedule_;
   bool resumed_;
+  Gauge& gauge_;
   RunRecord& record_;
-  Thickness sheets_;
   std::optional<ResultFile> file_;
   long last_step_ = -1;
   std::size_t frames_in_xdmf_ = 0;
