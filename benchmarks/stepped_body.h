@@ -76,7 +76,7 @@ class SteppedBody {
   /// Kinetic and stored energy at x^n, J, the kinetic one of the mean of v^(n-1/2) and v^(n+1/2).
   /// Between accelerate() and move().
   double energy() const {
-    double sum = elements_.observe(x).stored_energy;
+    double sum = elements_.stored_energy(x);
     for (std::size_t i = 0; i < x.size(); ++i) sum += 0.125 * mass()[i] * (before_[i] + v[i]).squaredNorm();
     return sum;
   }

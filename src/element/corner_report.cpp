@@ -37,8 +37,8 @@ void Elements::report_corner_inversion(const NodeField& x) const {
         if (least.q > 0) return;
         const int n = g.node(cell, least.corner);
         std::ostringstream what;
-        what << "one-point cell " << cell << " of body " << g.body << " (elements " << g.first_element + cell * g.parts << " to "
-             << g.first_element + (cell + 1) * g.parts - 1 << ") turned inside out at its corner at node " << n << " at ("
+        what << "one-point cell " << g.order[cell] << " of body " << g.body << " (elements " << g.element(cell, 0) << " to "
+             << g.element(cell, g.parts - 1) << ") turned inside out at its corner at node " << n << " at ("
              << vec3(x[n]).transpose() << ") m: the corner has " << least.q << " of its first share in the " << (dimension_ == 2 ? "area" : "volume")
              << " of the cell; a finer mesh there, larger tool radii, slower tools or pattern fine avoid it";
         throw Error(Code::mesh_error, what.str());

@@ -1,5 +1,6 @@
-// The points at edges as groups of cells: those with the same number of nodes together.
-#include <map>
+// The points at edges as a group of cells.
+#include <algorithm>
+#include <numeric>
 #include <sstream>
 
 #include "element/group.h"
@@ -13,69 +14,75 @@ void Elements::put_points_at_edges(const BodyModel& body, const NodeField& X) {
   const Group* like = nullptr;
   for (const Group& g : groups_)
     if (g.body == body.name && g.nodal()) {
-      simplices.insert(simplices.end(), simplices_.begin() + g.first_element, simplices_.begin() + g.first_element + static_cast<long>(g.cells) * g.parts);
+      for (int cell = 0; cell < g.cells; ++cell)
+        for (int s = 0; s < g.parts; ++s) simplices.push_back(simplices_[g.element(cell, s)]);
       like = &g;
     }
   if (!like) return;
   const EdgePoints points = find_edge_points(simplices, X, dimension_, axisymmetric_);
-  std::map<int, std::vector<int>> of_size;  // points by their number of nodes
-  for (int point = 0; point < points.count(); ++point) of_size[points.nodes_of(point)].push_back(point);
+  const int weights = edge_weights(dimension_, axisymmetric_);
+  Group g;
+  g.at_edges = true;
+  g.dimension = dimension_;
+  g.ring = axisymmetric_;
+  g.cell_simplices = 1;
+  g.make_blocks(points.count());
+  g.pressure = PressureMode::node;
+  g.solid = solid_constants(body.material, g.curves);
+  g.items = dimension_ == 2 ? memory_items<2>(g.solid) : memory_items<3>(g.solid);
+  g.density = like->density;
+  g.body = body.name;
+  g.memory_storage.resize(static_cast<std::size_t>(g.blocks) * g.items);
+  g.first_point = points_;
+  points_ += g.blocks * kLanes;
+
+  // Those of a tile by their number of nodes, so that those of a block have the same.
+  std::vector<int> order(points.count());
+  std::iota(order.begin(), order.end(), 0);
+  const int of_tile = blocks_of_a_tile(g.blocks, g.cell_simplices) * kLanes;
+  for (int first = 0; first < g.cells; first += of_tile)
+    std::stable_sort(order.begin() + first, order.begin() + std::min(first + of_tile, g.cells), [&](int a, int b) { return points.nodes_of(a) < points.nodes_of(b); });
 
   std::vector<int> place(points.count());
-  std::vector<Group> groups;
-  const int weights = edge_weights(dimension_, axisymmetric_);
-  for (const auto& [size, members] : of_size) {
-    Group g;
-    g.at_edges = true;
-    g.dimension = dimension_;
-    g.ring = axisymmetric_;
-    g.cell_nodes = size;
-    g.cell_simplices = 1;
-    g.make_blocks(static_cast<int>(members.size()));
-    g.pressure = PressureMode::node;
-    g.solid = solid_constants(body.material, g.curves);
-    g.items = dimension_ == 2 ? memory_items<2>(g.solid) : memory_items<3>(g.solid);
-    g.density = like->density;
-    g.body = body.name;
-    g.node_storage.resize(static_cast<std::size_t>(g.blocks) * size * kLanes);
-    g.memory_storage.resize(static_cast<std::size_t>(g.blocks) * g.items);
-    g.constants_storage.resize(static_cast<std::size_t>(g.blocks) * size * weights);
-    g.node_share_storage.resize(static_cast<std::size_t>(g.blocks) * size);
-    g.first_point = points_;
-    points_ += g.blocks * kLanes;
-    for (int b = 0; b < g.blocks; ++b)
-      for (int l = 0; l < kLanes; ++l) {
-        const int cell = std::min(b * kLanes + l, g.cells - 1), point = members[cell];
-        if (b * kLanes + l == cell) {
-          place[point] = g.first_point + cell;
-          g.edge_ends.push_back(points.ends[point]);
-        }
-        g.start(b, l, points.edges(point), points.volume[point]);
-        for (int a = 0; a < size; ++a) {
-          const std::size_t of_cell = static_cast<std::size_t>(b) * size + a, of_point = static_cast<std::size_t>(points.start[point]) + a;
-          g.node_storage[of_cell * kLanes + l] = points.node[of_point];
-          g.node_share_storage[of_cell][l] = points.share[of_point];
-          for (int m = 0; m < weights; ++m) g.constants_storage[of_cell * weights + m][l] = points.weight[of_point * weights + m];
-        }
+  for (int b = 0; b < g.blocks; ++b) {
+    const auto point_of = [&](int l) { return order[std::min(b * kLanes + l, g.cells - 1)]; };
+    int rows = 0;
+    for (int l = 0; l < kLanes; ++l) rows = std::max(rows, points.nodes_of(point_of(l)));
+    const std::size_t first_row = g.node_storage.size() / kLanes;
+    g.row_storage.push_back(static_cast<int>(first_row));
+    g.node_storage.resize((first_row + rows) * kLanes);
+    g.node_share_storage.resize(first_row + rows);
+    g.constants_storage.resize((first_row + rows) * weights);
+    for (int l = 0; l < kLanes; ++l) {
+      const int point = point_of(l), cell = b * kLanes + l, nodes = points.nodes_of(point);
+      if (cell < g.cells) {
+        place[point] = g.first_point + cell;
+        g.edge_ends.push_back(points.ends[point]);
       }
-    groups.push_back(std::move(g));
-  }
-  auto side = points.of_simplex.begin();
-  for (Group& g : groups_)
-    if (g.body == body.name && g.nodal()) {
-      g.edge_points.resize(static_cast<std::size_t>(g.cells) * g.parts * edges_of_simplex(dimension_));
-      for (int& at : g.edge_points) at = place[*side++];
+      g.start(b, l, points.edges(point), points.volume[point]);
+      for (int a = 0; a < rows; ++a) {
+        const std::size_t row = first_row + a, of_point = static_cast<std::size_t>(points.start[point]) + std::min(a, nodes - 1);
+        g.node_storage[row * kLanes + l] = points.node[of_point];
+        g.node_share_storage[row][l] = points.share[of_point];
+        for (int m = 0; m < weights; ++m) g.constants_storage[row * weights + m][l] = a < nodes ? points.weight[of_point * weights + m] : 0;
+      }
     }
-  for (Group& g : groups) groups_.push_back(std::move(g));
+  }
+  g.row_storage.push_back(static_cast<int>(g.node_storage.size() / kLanes));
+  auto side = points.of_simplex.begin();
+  for (Group& own : groups_)
+    if (own.body == body.name && own.nodal()) {
+      own.edge_points.resize(static_cast<std::size_t>(own.cells) * own.parts * edges_of_simplex(dimension_));
+      for (int& at : own.edge_points) at = place[*side++];
+    }
+  groups_.push_back(std::move(g));
 }
 
-std::vector<double> Elements::means_over_edges(const Group& g, const std::vector<double>& value, int components, int c) const {
+std::vector<double> Elements::means_over_edges(const Group& g, const std::vector<double>& value, int components) const {
   const int k = edges_of_simplex(dimension_);
-  std::vector<double> mean(g.edge_points.size() / k, 0.0);
-  for (std::size_t s = 0; s < mean.size(); ++s) {
-    for (int i = 0; i < k; ++i) mean[s] += value[static_cast<std::size_t>(g.edge_points[s * k + i]) * components + c];
-    mean[s] /= k;
-  }
+  std::vector<double> mean(g.edge_points.size() / k * components, 0.0);
+  for (std::size_t i = 0; i < g.edge_points.size(); ++i)
+    for (int c = 0; c < components; ++c) mean[i / k * components + c] += value[static_cast<std::size_t>(g.edge_points[i]) * components + c] / k;
   return mean;
 }
 

@@ -8,19 +8,18 @@ namespace forming_sim {
 namespace FORMING_SIM_ISA {
 namespace {
 
-template <int D, bool Ring> const double* weights_of(const CellGroup& g, long block) {
-  return g.constants + block * g.cell_nodes * edge_weights(D, Ring) * kLanes;
+template <int D, bool Ring> const double* weights_of(const CellGroup& g, long row) {
+  return g.constants + row * edge_weights(D, Ring) * kLanes;
 }
 
 /// x_m = sum_a w_ma x_a, of a ring x_3 = sum_a o_a r_a.
 template <int D, bool Ring> Edges<Pack, D, Ring> edges_of_point(const CellGroup& g, const NodalView& view, long block) {
-  const int* nodes = g.nodes + block * g.cell_nodes * kLanes;
-  const double* w = weights_of<D, Ring>(g, block);
   Edges<Pack, D, Ring> e;
   for (Vector<Pack, D>& edge : e.x)
     for (int i = 0; i < D; ++i) edge[i] = Pack(0.0);
-  for (int a = 0; a < g.cell_nodes; ++a, w += edge_weights(D, Ring) * kLanes) {
-    const Vector<Pack, D> x = gather_vectors<D>(nodes + a * kLanes, view.x);
+  for (long row = g.rows[block]; row < g.rows[block + 1]; ++row) {
+    const Vector<Pack, D> x = gather_vectors<D>(g.nodes + row * kLanes, view.x);
+    const double* w = weights_of<D, Ring>(g, row);
     for (int m = 0; m < D; ++m) e.x[m] += weight(w, m) * x;
     if constexpr (Ring) e.x[2][0] += weight(w, D) * x[0];
   }
@@ -31,13 +30,12 @@ template <int D, bool Ring> Edges<Pack, D, Ring> edges_of_point(const CellGroup&
 template <int D, bool Ring, class Pull> void add_forces(const CellGroup& g, long block, const Edges<Pack, D, Ring>& e, const Pull& pull) {
   Vector<Pack, D> force[D];
   for (int m = 0; m < D; ++m) force[m] = -pull.on(e, m);
-  const int* slots = g.slots + block * g.cell_nodes * kLanes;
-  const double* w = weights_of<D, Ring>(g, block);
-  for (int a = 0; a < g.cell_nodes; ++a, w += edge_weights(D, Ring) * kLanes) {
+  for (long row = g.rows[block]; row < g.rows[block + 1]; ++row) {
+    const double* w = weights_of<D, Ring>(g, row);
     Vector<Pack, D> f = weight(w, 0) * force[0];
     for (int m = 1; m < D; ++m) f += weight(w, m) * force[m];
     if constexpr (Ring) f[0] -= weight(w, D) * pull.on_hoop(e);
-    add_vectors(f, slots + a * kLanes, g.sums);
+    add_vectors(f, g.slots + row * kLanes, g.sums);
   }
 }
 
@@ -53,8 +51,8 @@ template <int D, bool Ring, int N> struct BlocksOfPoints {
   BlocksOfPoints(const CellGroup& g, const NodalView& view, long block) : g(g), block(block) {
     for (int i = 0; i < N; ++i) {
       fetch_memory(g, memory(i), 8);
-      const long weights = static_cast<long>(g.cell_nodes) * edge_weights(D, Ring);
-      fetch_ahead(weights_of<D, Ring>(g, block + i), 8 * weights * static_cast<long>(sizeof(Lane)), weights);
+      const long row = g.rows[block + i], weights = (g.rows[block + i + 1] - row) * edge_weights(D, Ring);
+      fetch_ahead(weights_of<D, Ring>(g, row), 8 * weights * static_cast<long>(sizeof(Lane)), weights);
       const Edges<Pack, D, Ring> e = edges_of_point<D, Ring>(g, view, block + i);
       for (int m = 0; m < kEdges<D, Ring>; ++m) x[i][m] = e.x[m];
       dissipated[i] = Pack(0.0);
@@ -92,27 +90,28 @@ template <int D, bool Ring> void observe_block(const CellGroup& g, const NodalVi
   find_reciprocal(e);
   double* memory = memory_of_point(g, block);
   const Pack V0 = initial_volume(g, memory), J = e.volume / V0;
+  energy[block] = sum_of_first(V0 * point_energy(g.solid, e, J, memory), lanes_in_use(g, block));
+  if (!stress) return;
   const Vector<Pack, D>* at_rest = nullptr;
   const Symmetric<Pack, D> S = point_step(g.solid, e, at_rest, J, memory, Keep::no).S;
   for (int i = 0; i < 6; ++i) (i < Symmetric<Pack, D>::size ? S[i] : Pack(0.0)).store(stress + (block * 6 + i) * kLanes);
   J.store(ratio + block * kLanes);
-  energy[block] = sum_of_first(V0 * point_energy(g.solid, e, J, memory), lanes_in_use(g, block));
 }
 
 /// omega_e^2 of element/time_step.h.
 template <int D, bool Ring> void rates_of_block(const CellGroup& g, const NodalView& view, long block, double* omega2) {
   Edges<Pack, D, Ring> e = edges_of_point<D, Ring>(g, view, block);
   find_reciprocal(e);
-  const int* nodes = g.nodes + block * g.cell_nodes * kLanes;
-  const double *w = weights_of<D, Ring>(g, block), *share = g.node_share + block * g.cell_nodes * kLanes;
   Symmetric<Pack, D> S;
   Symmetric<Pack, 3> M;  // of a ring
   for (int i = 0; i < Symmetric<Pack, D>::size; ++i) S[i] = Pack(0.0);
   for (int i = 0; i < 6; ++i) M[i] = Pack(0.0);
-  for (int a = 0; a < g.cell_nodes; ++a, w += edge_weights(D, Ring) * kLanes, share += kLanes, nodes += kLanes) {
+  for (long row = g.rows[block]; row < g.rows[block + 1]; ++row) {
+    const int* nodes = g.nodes + row * kLanes;
+    const double* w = weights_of<D, Ring>(g, row);
     Vector<Pack, D> gradient = weight(w, 0) * e.up[0];
     for (int m = 1; m < D; ++m) gradient += weight(w, m) * e.up[m];
-    const Pack over_mass = Pack(1.0) / Pack::load(share);
+    const Pack over_mass = Pack(1.0) / Pack::load(g.node_share + row * kLanes);
     if constexpr (Ring) {
       const Pack axial = over_mass * gather_numbers(view.inertia, nodes);
       const Pack radial = select(gather_vectors<D>(nodes, view.x)[0] > Pack(0.0), axial, Pack(0.0));  // no radial motion on the axis

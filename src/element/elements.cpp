@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/element/cell_order.h"
 #include "forming_sim/element/crossed.h"
 #include "forming_sim/element/guard.h"
 #include "forming_sim/element/hourglass.h"
@@ -141,6 +142,10 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       may_sleep_ = may_sleep_ && g.pressure != PressureMode::node && g.solid.law != Law::classical && !viscous;
       g.first_element = first_element;
       first_element += g.cells * shape.simplices;
+      simplices_.resize(first_element, {-1, -1, -1, -1});
+      g.order = order_of_cells(cells, body.first_node, x, blocks_of_a_tile(g.blocks, g.cell_simplices) * kLanes);
+      g.cell_of.resize(g.cells);
+      for (int cell = 0; cell < g.cells; ++cell) g.cell_of[g.order[cell]] = cell;
       g.body = body.name;
       g.node_storage.resize(static_cast<std::size_t>(g.blocks) * shape.nodes * kLanes);
       g.memory_storage.resize(static_cast<std::size_t>(g.blocks) * shape.points * g.items);
@@ -154,15 +159,12 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       for (int b = 0; b < g.blocks; ++b) {
         for (int l = 0; l < kLanes; ++l) {
           const int cell = std::min(b * kLanes + l, g.cells - 1);
-          const int* of_cell = cells.nodes.data() + static_cast<std::size_t>(cell) * shape.nodes;
+          const int* of_cell = cells.nodes.data() + static_cast<std::size_t>(g.order[cell]) * shape.nodes;
           for (int a = 0; a < shape.nodes; ++a)
             g.node_storage[(static_cast<std::size_t>(b) * shape.nodes + a) * kLanes + l] = of_cell[a] + body.first_node;
           const bool first = b * kLanes + l == cell;  // not a copy
-          for (int s = 0; s < shape.simplices && first; ++s) {
-            std::array<int, 4> corner{-1, -1, -1, -1};
-            for (int a = 0; a <= D; ++a) corner[a] = of_cell[shape.simplex[s][a]] + body.first_node;
-            simplices_.push_back(corner);
-          }
+          for (int s = 0; s < shape.simplices && first; ++s)
+            for (int a = 0; a <= D; ++a) simplices_[g.element(cell, s)][a] = of_cell[shape.simplex[s][a]] + body.first_node;
           if (crossed) {
             Vec3 corners[5];
             for (int a = 0; a < 5; ++a) corners[a] = vec3(x[of_cell[a] + body.first_node]);
@@ -171,7 +173,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
             for (int i = 0; i < kCrossedItems; ++i) constants[i][l] = items[i];
           }
           for (int s = 0; s < shape.points; ++s) {
-            const int element = g.first_element + cell * shape.simplices + s;
+            const int element = g.element(cell, s);
             const ElementStart initial = is_one_point(cells.kind) ? ElementStart(x, of_cell, body.first_node, D, axisymmetric_, g.solid)
                                                                   : ElementStart(x, simplices_[element], D, axisymmetric_);
             const double V0 = initial.volume;
@@ -212,6 +214,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   for (Group& g : groups_) {
     g.nodes = g.node_storage.data();
     g.memory = reinterpret_cast<double*>(g.memory_storage.data());
+    g.rows = g.row_storage.data();
     g.constants = g.constants_storage.empty() ? nullptr : reinterpret_cast<double*>(g.constants_storage.data());
     g.constant_set = g.constant_sets.data();
     g.hourglass = reinterpret_cast<double*>(g.hourglass_storage.data());
@@ -230,7 +233,8 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
 /// A thread gets 400 packs or more: below that, waiting for each other costs more.
 constexpr long kPacksOfAThread = 400;
 long Elements::packs_of_a_block(const Group& g) const {
-  return g.at_edges ? std::max(1, g.cell_nodes / (dimension_ + 1)) : g.cell_simplices;  // a point at an edge costs what its nodes do
+  if (!g.at_edges) return g.cell_simplices;
+  return std::max(1L, g.first_node(g.blocks) / kLanes / (g.blocks * (dimension_ + 1)));  // a point at an edge costs what its nodes do
 }
 long Elements::blocks_of_a_thread(const Group& g) const { return kPacksOfAThread / packs_of_a_block(g); }
 long Elements::tiles_of_a_thread(const Group& g) const { return std::max(1L, blocks_of_a_thread(g) / g.tile); }
@@ -279,10 +283,9 @@ void Elements::forces_of_tile(const CellGroup& cells, const Group& g, const Noda
 bool Elements::forces_of_moved(Group& g, const NodalView& view) {
   std::atomic<bool> any_rests{false};
   g.rest.resize(g.tiles, Group::changed);
-  const long nodes = static_cast<long>(g.node_storage.size()) / g.blocks;
   team_->share(g.tiles, tiles_of_a_thread(g), [&](long begin, long end) {
     for (long t = begin; t < end; ++t) {
-      const int *first = &g.node_storage[g.first_block(t) * nodes], *last = first + (g.last_block(t) - g.first_block(t)) * nodes;
+      const int *nodes = g.node_storage.data(), *first = nodes + g.first_node(g.first_block(t)), *last = nodes + g.first_node(g.last_block(t));
       if (std::none_of(first, last, [&](int n) { return stillness_.moved(n); })) {
         any_rests = true;
         if (g.rest[t] != Group::changed) {
@@ -330,7 +333,7 @@ Elements::Location Elements::locate(int element) const {
   for (int k = static_cast<int>(groups_.size()) - 1; k >= 0; --k) {
     const Group& g = groups_[k];
     if (g.parts > 0 && element >= g.first_element)
-      return {k, (element - g.first_element) / g.parts, (element - g.first_element) % g.parts};
+      return {k, g.cell_of[(element - g.first_element) / g.parts], (element - g.first_element) % g.parts};
   }
   return {0, 0, 0};
 }

@@ -78,15 +78,36 @@ std::vector<double> Elements::plastic_strain() const {
         const auto at = [&](int item) { return memory[item][cell % kLanes]; };
         const double strain = dimension_ == 2 ? plastic_strain_of<2>(g.solid, at) : plastic_strain_of<3>(g.solid, at);
         if (g.at_edges) at_edges[g.first_point + cell] = strain;
-        for (int part = s; part < g.parts; part += g.cell_simplices) p[g.first_element + cell * g.parts + part] = strain;
+        for (int part = s; part < g.parts; part += g.cell_simplices) p[g.element(cell, part)] = strain;
       }
   }
   for (const Group& g : groups_) {
     if (!g.nodal()) continue;
-    const std::vector<double> means = means_over_edges(g, at_edges, 1, 0);
-    std::copy(means.begin(), means.end(), p.begin() + g.first_element);
+    const std::vector<double> means = means_over_edges(g, at_edges, 1);
+    for (std::size_t i = 0; i < means.size(); ++i) p[g.element(static_cast<int>(i) / g.parts, static_cast<int>(i) % g.parts)] = means[i];
   }
   return p;
+}
+
+void Elements::observe_group(const Group& g, const NodalView& view, double* stress, double* ratio, double* energy) const {
+  const auto observe = g.at_edges ? kernels_.edge.observe : g.nodal() ? kernels_.nodal.observe : kernels_.observe;
+  team_->share(g.blocks, blocks_of_a_thread(g), [&](long first, long last) {
+    observe(g, view, static_cast<int>(first), static_cast<int>(last), stress, ratio, energy);
+  });
+}
+
+double Elements::stored_energy(const NodeField& x) const {
+  const NodalView view{x.data()->data(), nullptr, nullptr, pressure_.data(), 0, 0};
+  if (any_nodal_) nodal_pressure(view);
+  double sum = 0;
+  for (const Group& g : groups_) {
+    std::vector<double> energy(g.blocks);
+    observe_group(g, view, nullptr, nullptr, energy.data());
+    for (double e : energy) sum += e;
+  }
+  for (std::size_t n = 0; n < pressure_.size(); ++n)  // the volumetric energy of nodal pressures belongs to the nodes
+    if (nodal_volume0_[n] > 0) sum += 0.5 * nodal_volume0_[n] * pressure_[n] * pressure_[n] / nodal_bulk_[n];
+  return sum;
 }
 
 ElementFields Elements::observe(const NodeField& x) const {
@@ -99,14 +120,8 @@ ElementFields Elements::observe(const NodeField& x) const {
   for (const Group& g : groups_) {
     const std::size_t simplices = static_cast<std::size_t>(g.blocks) * g.cell_simplices;
     std::vector<Lane> stress(simplices * 6), ratio(simplices);
-    std::vector<double> energy(g.blocks, 0.0);
-    team_->share(g.blocks, blocks_of_a_thread(g), [&](long first, long last) {
-      const int from = static_cast<int>(first), to = static_cast<int>(last);
-      if (g.at_edges) kernels_.edge.observe(g, view, from, to, stress.data()->value, ratio.data()->value, energy.data());
-      else if (g.nodal()) kernels_.nodal.observe(g, view, from, to, stress.data()->value, ratio.data()->value, energy.data());
-      else kernels_.observe(g, view, from, to, stress.data()->value, ratio.data()->value, energy.data());
-    });
-    for (double e : energy) fields.stored_energy += e;
+    std::vector<double> energy(g.blocks);
+    observe_group(g, view, stress.data()->value, ratio.data()->value, energy.data());
     for (int cell = 0; cell < g.cells; ++cell) {
       const int l = cell % kLanes;
       const std::size_t block = static_cast<std::size_t>(cell / kLanes) * g.cell_simplices;
@@ -114,25 +129,18 @@ ElementFields Elements::observe(const NodeField& x) const {
         for (int i = 0; i < 6; ++i) S[static_cast<std::size_t>(g.first_point + cell) * 6 + i] = stress[block * 6 + i][l];
       for (int s = 0; s < g.parts; ++s) {
         const std::size_t at = block + s % g.cell_simplices;
-        const int element = g.first_element + cell * g.parts + s;
+        const int element = g.element(cell, s);
         for (int i = 0; i < 6; ++i) fields.stress[element][i] = stress[at * 6 + i][l];
         fields.volume_ratio[element] = ratio[at][l];
       }
     }
   }
-  for (const Group& g : groups_)
-    for (int i = 0; i < 6 && g.nodal(); ++i) {
-      const std::vector<double> means = means_over_edges(g, S, 6, i);
-      for (std::size_t s = 0; s < means.size(); ++s) fields.stress[g.first_element + s][i] += means[s];
-    }
-  if (any_nodal_)  // the volumetric energy of nodal pressures belongs to the nodes
-    for (const Group& g : groups_) {
-      if (!g.nodal()) continue;
-      std::vector<char> mine(mass_.size(), 0);
-      for (int node : g.node_storage) mine[node] = 1;
-      for (std::size_t n = 0; n < mine.size(); ++n)
-        if (mine[n]) fields.stored_energy += 0.5 * nodal_volume0_[n] * pressure_[n] * pressure_[n] / nodal_bulk_[n];
-    }
+  for (const Group& g : groups_) {
+    if (!g.nodal()) continue;
+    const std::vector<double> means = means_over_edges(g, S, 6);
+    for (std::size_t i = 0; i < means.size() / 6; ++i)
+      for (int c = 0; c < 6; ++c) fields.stress[g.element(static_cast<int>(i) / g.parts, static_cast<int>(i) % g.parts)][c] += means[i * 6 + c];
+  }
   return fields;
 }
 

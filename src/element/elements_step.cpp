@@ -48,7 +48,7 @@ void Elements::find_rates(const NodeField& x, const NodeField& v, CellRates& rat
     CellGroup g = own;
     std::vector<Lane> of_simplex;
     if (own.nodal()) {
-      of_simplex = lanes_of_simplices(own, means_over_edges(own, of_edge, 1, 0));
+      of_simplex = lanes_of_simplices(own, means_over_edges(own, of_edge, 1));
       g.edge_omega2 = of_simplex.data()->value;
     }
     rates[k].resize(g.blocks);
@@ -66,7 +66,7 @@ CellLimit Elements::slowest_cell(const CellRates& rates) const {
     for (int cell = 0; cell < g.cells; ++cell) {
       const BlockRates& block = rates[k][cell / kLanes];
       const double dt = forming_sim::stable_step(block.omega2[cell % kLanes], block.damping[cell % kLanes]);
-      if (!(dt >= limit.dt)) limit = {dt, g.first_element + cell * g.parts};  // a NaN wins
+      if (!(dt >= limit.dt)) limit = {dt, g.element(cell, 0)};  // a NaN wins
     }
   }
   return limit;

@@ -14,7 +14,7 @@
 namespace forming_sim {
 
 struct Elements::Group : CellGroup {
-  LargeArray<int> node_storage, slot_storage;
+  LargeArray<int> node_storage, row_storage, slot_storage;
   std::vector<int> constant_sets;
   std::vector<long> tile_start;  ///< first slot of each tile, and behind the last
   std::vector<double> plastic, viscous;
@@ -29,6 +29,7 @@ struct Elements::Group : CellGroup {
   std::vector<std::array<int, 2>> edge_ends;  ///< of points at edges: the nodes of each edge
   int first_point = 0;                        ///< likewise: place of the first of the group
   int first_element = 0;
+  std::vector<int> order, cell_of;  ///< [cell] which of the body's cells of its kind it is, and the other way round (element/cell_order.h); none of points at edges
   long first_slot = 0;           ///< of all slots
   std::string body;
 
@@ -57,11 +58,20 @@ struct Elements::Group : CellGroup {
   }
   /// A constant of a one-point cell.
   double constant(int block, int item, int lane) const { return constants_storage[static_cast<std::size_t>(constant_sets[block]) * one_point_items(dimension, ring) + item][lane]; }
+  /// Number of a part of a cell among all elements.
+  int element(int cell, int part) const { return first_element + order[cell] * parts + part; }
   /// Node a of a cell.
   int node(int cell, int a) const { return node_storage[(static_cast<std::size_t>(cell / kLanes) * cell_nodes + a) * kLanes + cell % kLanes]; }
+  /// Of a block, and behind the last one: where its cells' nodes start in node_storage.
+  long first_node(long block) const { return (at_edges ? row_storage[block] : block * cell_nodes) * kLanes; }
+  /// Whether what stands there is of a copy of the last cell.
+  bool copied(long at) const { return at >= first_node(blocks - 1) && at % kLanes >= cells - (blocks - 1) * kLanes; }
   int first_block(long t) const { return static_cast<int>(t) * tile; }
   int last_block(long t) const { return blocks < first_block(t + 1) ? blocks : first_block(t + 1); }
 };
+
+/// Blocks that make a tile of so many.
+int blocks_of_a_tile(int blocks, int simplices_of_a_cell);
 
 /// work(D, ring) with both as constants of the compiler.
 template <class Work> auto with_dimension(int dimension, bool ring, Work&& work) {

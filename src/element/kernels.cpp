@@ -274,6 +274,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
     if (g.guard > 0) stored += Pack(g.guard * g.solid.K) * V0 * guard_energy(J[s], free_of_guard<Cell>(constants, s));
     cell_V += V[s];
     cell_V0 += V0;
+    if (!stress) continue;
     const Vector<Pack, D>* at_rest = nullptr;
     const PointResponse<Pack, D> point = point_step(g.solid, e, at_rest, law_J, memory, Keep::no);
     double* to = stress + (block * Cell::simplices + s) * 6 * kLanes;

@@ -79,6 +79,7 @@ template <class Cell> void observe_block(const CellGroup& g, const NodalView& vi
   pressures<Cell>(g, view, block, x, p, J);
   for (int s = 0; s < Cell::simplices; ++s) {
     stored += Pack(kGuard * g.solid.K) * initial_volume(g, memory_of<Cell>(g, block, s)) * guard_energy(J[s]);
+    if (!stress) continue;
     double* to = stress + (block * Cell::simplices + s) * 6 * kLanes;
     for (int i = 0; i < 6; ++i) (i < 3 ? p[s] : Pack(0.0)).store(to + i * kLanes);
     J[s].store(ratio + (block * Cell::simplices + s) * kLanes);

@@ -4,16 +4,13 @@
 #include "element/group.h"
 
 namespace forming_sim {
-namespace {
 
-/// Blocks of a tile: simplices of 512 packs, whose nodes a core's cache holds, or an eighth of a small
+/// Simplices of 512 packs, whose nodes a core's cache holds, or an eighth of a small
 /// group, so that there is something to share among threads; 64 packs at least.
 int blocks_of_a_tile(int blocks, int simplices_of_a_cell) {
   const auto of_packs = [&](int packs) { return std::max(1, packs / simplices_of_a_cell); };
   return std::clamp((blocks + 7) / 8, of_packs(64), of_packs(512));
 }
-
-}  // namespace
 
 void Elements::lay_tiles(int nodes) {
   std::vector<int> count(nodes + 1, 0), slot(nodes), seen(nodes, -1);
@@ -24,12 +21,11 @@ void Elements::lay_tiles(int nodes) {
     g.tile = blocks_of_a_tile(g.blocks, g.cell_simplices);
     g.tiles = (g.blocks + g.tile - 1) / g.tile;
     g.slot_storage.resize(g.node_storage.size());
-    const long in_a_block = static_cast<long>(g.cell_nodes) * kLanes;
     for (int t = 0; t < g.tiles; ++t, ++tile_number) {
       g.tile_start.push_back(static_cast<long>(node_of_slot.size()) - g.first_slot);
       std::vector<long> copies;
-      for (long at = g.first_block(t) * in_a_block; at < g.last_block(t) * in_a_block; ++at) {
-        if (at / in_a_block * kLanes + at % kLanes >= g.cells) {
+      for (long at = g.first_node(g.first_block(t)); at < g.first_node(g.last_block(t)); ++at) {
+        if (g.copied(at)) {
           copies.push_back(at);
           continue;
         }

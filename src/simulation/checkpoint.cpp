@@ -9,7 +9,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f6600000006u;
+constexpr std::uint64_t kLayout = 0x6d726f6600000007u;
 }  // namespace
 
 template <class Archive> void Simulation::Impl::exchange(Archive& a) {

@@ -78,7 +78,7 @@ const Energies& Simulation::energies() const {
     for (std::size_t i = 0; i < half.size(); ++i) half[i] -= 0.5 * s.dt * s.v[i];
   Energies& e = s.energies;
   e.kinetic = s.kinetic();
-  e.elastic = s.elements.observe(half).stored_energy;
+  e.elastic = s.elements.stored_energy(half);
   e.plastic = s.elements.plastic_work();
   e.contact = s.contact_potential + s.contact_dissipated;
   e.friction = s.friction;

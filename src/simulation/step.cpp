@@ -204,7 +204,7 @@ void Simulation::Impl::see_rest() {
   double f_Mf = 0;
   for (std::size_t i = 0; i < v.size(); ++i)
     f_Mf += mass[i] * ((v[i] - v_before[i]) / kick + 0.5 * alpha * (v[i] + v_before[i])).squaredNorm();
-  rests = settle.at_rest(time, f_Mf, kinetic(), elements.observe(x).stored_energy, most);
+  rests = settle.at_rest(time, f_Mf, kinetic(), elements.stored_energy(x), most);
 }
 
 }  // namespace forming_sim

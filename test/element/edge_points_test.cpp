@@ -138,7 +138,7 @@ TEST(EdgePoints, BesideCellsWithPressuresOfTheirOwn) {
     for (int i = 0; i < 2; ++i) {
       NodeField plus = x, minus = x;
       plus[n][i] += h, minus[n][i] -= h;
-      const double slope = (elements.observe(plus).stored_energy - elements.observe(minus).stored_energy) / (2 * h);
+      const double slope = (elements.stored_energy(plus) - elements.stored_energy(minus)) / (2 * h);
       EXPECT_NEAR(f[n][i], -slope, 1e-6 * scale) << "node " << n << " axis " << i;
     }
 }

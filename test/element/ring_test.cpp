@@ -51,7 +51,7 @@ TEST_P(EveryRing, ForcesAreMinusTheGradientOfTheStoredEnergy) {
       NodeField plus = x, minus = x;
       plus[n][i] += h;
       minus[n][i] -= h;
-      const double slope = (elements.observe(plus).stored_energy - elements.observe(minus).stored_energy) / (2 * h);
+      const double slope = (elements.stored_energy(plus) - elements.stored_energy(minus)) / (2 * h);
       EXPECT_NEAR(f[n][i], -slope, (paper ? 2e-3 : 2e-7) * scale) << "node " << n << " axis " << i;
     }
 }

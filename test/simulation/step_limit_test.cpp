@@ -205,7 +205,7 @@ double growth_of_energy(CellKind kind, double share) {
       v[n] += dt / elements.nodal_mass()[n] * f[n];
       energy += 0.5 * elements.nodal_mass()[n] * before.dot(v[n]);  // with the stored energy: kept exactly where all is linear
     }
-    if (step % 100 == 0) energy += elements.observe(x).stored_energy;
+    if (step % 100 == 0) energy += elements.stored_energy(x);
     if (step == 0) first = energy;
     if (step % 100 == 0) most = std::max(most, energy);
     if (!(most < 100 * first)) return most / first;

@@ -20,7 +20,7 @@ struct Moved {
     elements.forces(x, v, 0, 0, f);
     return f;
   }
-  double energy() const { return elements.observe(x).stored_energy; }
+  double energy() const { return elements.stored_energy(x); }
 };
 
 inline double largest(const NodeField& f) {

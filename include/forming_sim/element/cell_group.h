@@ -31,7 +31,7 @@ struct CellGroup {
   int kind = 0;             ///< CellKind
   int dimension = 0;
   bool ring = false;        ///< axisymmetric: the triangles are turned about the y axis
-  int cell_nodes = 0, cell_simplices = 0;  ///< simplices: elements with a memory, 1 in a one-point cell
+  int cell_nodes = 0, cell_simplices = 0;  ///< simplices: elements with a memory, 1 in a one-point cell; of points at edges no number of nodes, which have as many as there are around an edge
   int cells = 0, blocks = 0;
   int tile = 1, tiles = 0;         ///< blocks of a tile (the last may have fewer); number of tiles
   PressureMode pressure = PressureMode::cell;
@@ -42,13 +42,14 @@ struct CellGroup {
   double density = 0;              ///< kg/m3, scaled
   double linear_viscosity = 0, quadratic_viscosity = 0;
 
-  const int* nodes = nullptr;      ///< [block][cell node][lane] joined node index
+  const int* nodes = nullptr;      ///< [block][cell node][lane] joined node index; edge points: [row][lane], a block has a row for each node of the point that has most, where others have their last again without weight
+  const int* rows = nullptr;       ///< edge points: [block] its first row, and behind the last
   double* memory = nullptr;        ///< [block][simplex][items][lane]
-  const double* constants = nullptr;  ///< one-point cells: [set][OnePoint::items][lane]; crossed triangles: [set][kCrossedItems][lane]; edge points: [block][cell node][weight][lane]
+  const double* constants = nullptr;  ///< one-point cells: [set][OnePoint::items][lane]; crossed triangles: [set][kCrossedItems][lane]; edge points: [row][weight][lane]
   const int* constant_set = nullptr;  ///< likewise: [block] its set, shared by blocks of the same shape
   double* hourglass = nullptr;        ///< likewise: [block][hourglass_items][lane], memory
   int hourglass_items = 0;
-  const int* slots = nullptr;      ///< [block][cell node][lane] where in `sums` the slot starts that the node has in the tile; of a copy one that no node reads
+  const int* slots = nullptr;      ///< as `nodes`: where in `sums` the slot starts that the node has in the tile; of a copy one that no node reads
   double* sums = nullptr;          ///< [slot][kRecord] forces, N; or volumes for nodal pressure, the first of each
   double* plastic_work = nullptr;  ///< [block] dissipated so far, J
   double* viscous_work = nullptr;  ///< [block] dissipated so far by bulk viscosity, J
@@ -56,7 +57,7 @@ struct CellGroup {
   bool* upright = nullptr;         ///< [block] V/V0 > 0 everywhere in the last force pass
   bool* pressed = nullptr;         ///< one-point cells: [block] a corner is so far in the range of its guard, likewise, that its stiffness grows fast (element/corner_guard.h)
   bool at_edges = false;           ///< the cells are points of element/edge_points.h
-  const double* node_share = nullptr;  ///< edge points: [block][cell node][lane] V_e's share of each node, for the time step
+  const double* node_share = nullptr;  ///< edge points: [row][lane] V_e's share of each node, for the time step
   const double* edge_omega2 = nullptr; ///< simplices whose law is at their edges: [block][simplex][lane] mean of the edges' bounds, likewise
 };
 
@@ -102,7 +103,7 @@ struct Kernels {
   /// The bounds of element/time_step.h, [block].
   void (*rates)(const CellGroup&, const NodalView&, int first, int last, BlockRates* out);
   /// Cauchy stress [block][simplex][6][lane], V/V0 [block][simplex][lane] and stored
-  /// deviatoric plus volumetric energy [block], without changing the memory.
+  /// deviatoric plus volumetric energy [block], without changing the memory. Without `stress` the energy alone.
   void (*observe)(const CellGroup&, const NodalView&, int first, int last, double* stress, double* ratio,
                   double* energy);
   NodalKernels nodal;

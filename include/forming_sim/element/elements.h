@@ -24,7 +24,6 @@ using Sym = Eigen::Matrix<double, 6, 1>;  ///< xx yy zz xy yz zx
 struct ElementFields {
   std::vector<Sym> stress;             ///< Cauchy, Pa
   std::vector<double> volume_ratio;    ///< V / V0
-  double stored_energy = 0;            ///< J
 };
 
 /// Cells of one body and kind, and what they own.
@@ -100,6 +99,7 @@ class Elements {
   double viscous_work() const;   ///< dissipated so far by bulk viscosity, J
   std::vector<double> plastic_strain() const;
   ElementFields observe(const NodeField& x) const;
+  double stored_energy(const NodeField& x) const;  ///< J
 
   /// Numbers that the next steps depend on, in a fixed order.
   void append_state(std::vector<double>& to) const;
@@ -120,10 +120,12 @@ class Elements {
   void report_edge_inversion(const NodeField& x) const;
   void check_axis(const NodeField& x) const;
   void nodal_pressure(const NodalView& view) const;
-  /// Groups of the points at the edges of the body's simplices whose pressures are in the nodes.
+  /// What the kernels observe of a group; stress and ratio: null where the energy is asked for alone.
+  void observe_group(const Group& g, const NodalView& view, double* stress, double* ratio, double* energy) const;
+  /// A group of the points at the edges of the body's simplices whose pressures are in the nodes.
   void put_points_at_edges(const BodyModel& body, const NodeField& X);
-  /// Of every simplex of g the mean over its edges of component c of value[point][components].
-  std::vector<double> means_over_edges(const Group& g, const std::vector<double>& value, int components, int c) const;
+  /// Of every simplex of g, in the order of its cells, the means over its edges of value[point][components].
+  std::vector<double> means_over_edges(const Group& g, const std::vector<double>& value, int components) const;
   /// omega_e^2 of element/time_step.h, of all points at edges.
   std::vector<double> edge_rates(const NodalView& view) const;
   void keep_shares(const NodeField& X);
