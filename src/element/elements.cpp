@@ -9,12 +9,12 @@
 #include <sstream>
 
 #include "forming_sim/config/fault.h"
-#include "forming_sim/element/cell_order.h"
 #include "forming_sim/element/crossed.h"
 #include "forming_sim/element/guard.h"
 #include "forming_sim/element/hourglass.h"
 #include "forming_sim/element/nodes.h"
 #include "forming_sim/element/one_point.h"
+#include "forming_sim/mesh/cell_order.h"
 #include "forming_sim/mesh/cell_tables.h"
 #include "forming_sim/material/law.h"
 
@@ -143,7 +143,8 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.first_element = first_element;
       first_element += g.cells * shape.simplices;
       simplices_.resize(first_element, {-1, -1, -1, -1});
-      g.order = order_of_cells(cells, body.first_node, x, blocks_of_a_tile(g.blocks, g.cell_simplices) * kLanes);
+      // By halves only where much is gained: the nodes keep their order, and a large body is the slower for each that is not its cells'.
+      g.order = order_of_cells(body.mesh.nodes, cells.nodes, shape.nodes, blocks_of_a_tile(g.blocks, g.cell_simplices) * kLanes, 0.5);
       g.cell_of.resize(g.cells);
       for (int cell = 0; cell < g.cells; ++cell) g.cell_of[g.order[cell]] = cell;
       g.body = body.name;

@@ -29,7 +29,7 @@ struct Elements::Group : CellGroup {
   std::vector<std::array<int, 2>> edge_ends;  ///< of points at edges: the nodes of each edge
   int first_point = 0;                        ///< likewise: place of the first of the group
   int first_element = 0;
-  std::vector<int> order, cell_of;  ///< [cell] which of the body's cells of its kind it is, and the other way round (element/cell_order.h); none of points at edges
+  std::vector<int> order, cell_of;  ///< [cell] which of the body's cells of its kind it is, and the other way round (mesh/cell_order.h); none of points at edges
   long first_slot = 0;           ///< of all slots
   std::string body;
 

@@ -26,6 +26,12 @@ template <class Cell> void gather_one_point(const int* nodes, const double* fiel
   sums.find_edges(constants, edge);
 }
 
+/// The constants of the next block, where they are others: cells of a file have each their own.
+template <class Cell> void fetch_constants(const CellGroup& g, long block) {
+  if (block + 1 == g.blocks || g.constant_set[block + 1] == g.constant_set[block]) return;
+  fetch_ahead(constants_of<Cell>(g, block + 1), 0, OnePoint<kD<Cell>, Cell::ring>::inertia);  // those behind are for the time step
+}
+
 /// What varies across the cells of a block whose nodes are gathered.
 template <class Cell> class Variation {
  public:
@@ -49,6 +55,7 @@ template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_block
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;
   double* memory = memory_of<Cell>(g, block, 0);
   fetch_memory(g, memory, 2);
+  fetch_constants<Cell>(g, block);
   fetch_ahead(hourglass_of<Cell>(g, block), 2L * g.hourglass_items * static_cast<long>(sizeof(Lane)), g.hourglass_items);
   CellEdges<Cell> e;
   CornerSums<Pack, D> sums;

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/mesh/cell_order.h"
 #include "raw_mesh.h"
 
 namespace forming_sim {
@@ -152,20 +153,31 @@ struct Reader {
       refuse("the physical group \"" + wanted + "\" holds no triangles, quadrilaterals, tetrahedra or hexahedra, so it is no body");
   }
 
-  // Drops the nodes that the body does not use: they would have no mass.
-  void drop_unused_nodes() {
-    std::vector<int> place(raw.points.size(), -1);
+  // Neighbours in the body come near to each other, which the numbers of a mesh generator do not see to.
+  void order_cells() {
+    std::vector<int> nodes;
     for (const RawCell& cell : raw.cells)
-      for (int k = 0; k < shape_of(cell.kind).corners; ++k) place[cell.nodes[k]] = 0;
-    int count = 0;
-    for (std::size_t p = 0; p < place.size(); ++p)
-      if (place[p] == 0) {
-        raw.points[count] = raw.points[p];
-        raw.point_tags[count] = raw.point_tags[p];
-        place[p] = count++;
+      for (int k = 0; k < 8; ++k) nodes.push_back(cell.nodes[std::min(k, shape_of(cell.kind).corners - 1)]);
+    const std::vector<RawCell> given = raw.cells;
+    const std::vector<int> order = order_of_cells(raw.points, nodes, 8, 512, 0.8);
+    for (std::size_t i = 0; i < order.size(); ++i) raw.cells[i] = given[order[i]];
+  }
+
+  // In the order in which the cells come to them. Nodes that the body does not use are dropped: they would have no mass.
+  void renumber_nodes() {
+    std::vector<int> place(raw.points.size(), -1);
+    std::vector<Vec3> points;
+    std::vector<long long> tags;
+    for (const RawCell& cell : raw.cells)
+      for (int k = 0; k < shape_of(cell.kind).corners; ++k) {
+        const int p = cell.nodes[k];
+        if (place[p] >= 0) continue;
+        place[p] = static_cast<int>(points.size());
+        points.push_back(raw.points[p]);
+        tags.push_back(raw.point_tags[p]);
       }
-    raw.points.resize(count);
-    raw.point_tags.resize(count);
+    raw.points = std::move(points);
+    raw.point_tags = std::move(tags);
     const auto renumber = [&](RawCell& cell) {
       bool whole = true;
       for (int k = 0; k < shape_of(cell.kind).corners; ++k) whole = (cell.nodes[k] = place[cell.nodes[k]]) >= 0 && whole;
@@ -200,7 +212,8 @@ RawMesh read(const std::string& path, const std::string& group, double unit_scal
   gmsh::model::getPhysicalGroups(groups);
   reader.choose_body(groups, group);
   for (const auto& g : groups) reader.append_group(g, reader.raw.groups[name_of(g)]);
-  reader.drop_unused_nodes();
+  reader.order_cells();
+  reader.renumber_nodes();
   return std::move(reader.raw);
 }
 

@@ -1,11 +1,15 @@
 // Bodies from .msh files and inline.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <random>
+#include <sstream>
 #include <thread>
 
 #include "forming_sim/mesh/import.h"
 #include "mesh/mesh_test_tools.h"
 #include "mesh/msh_texts.h"
+#include "support/bodies.h"
 
 namespace forming_sim {
 namespace {
@@ -60,6 +64,37 @@ void expect_two_cubes(const Mesh& mesh) {
   EXPECT_EQ(mesh.sets.at("bottom face").size(), 8u);  // six corners, two face centres
   EXPECT_EQ(mesh.sets.at("group_7"), nodes_where(mesh, [](const Vec3& x) { return x.x() == 0; }));
   EXPECT_EQ(mesh.sets.at("edge").size(), 3u);
+}
+
+// A mesh generator numbers nodes and cells as it makes them.
+TEST(MeshImportBody, NeighboursComeNearToEachOther) {
+  const Mesh mesh = block_of(CellKind::tetrahedron, 10);
+  const int nodes = static_cast<int>(mesh.nodes.size()), count = mesh.cells[0].count();
+  std::mt19937 random(1);
+  std::vector<int> number(nodes), order(count);
+  std::iota(number.begin(), number.end(), 1);
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(number.begin(), number.end(), random);
+  std::shuffle(order.begin(), order.end(), random);
+  std::ostringstream points, cells;
+  for (int n = 0; n < nodes; ++n) points << number[n] << ' ' << mesh.nodes[n].transpose() << '\n';
+  for (int i = 0; i < count; ++i) {
+    cells << i + 1 << " 4 2 1 1";
+    for (int a = 0; a < 4; ++a) cells << ' ' << number[mesh.cells[0].nodes[order[i] * 4 + a]];
+    cells << '\n';
+  }
+  const TempDir dir;
+  dir.write("scattered.msh", msh::cells(points.str(), nodes, cells.str(), count));
+  const Mesh read = load_body_mesh(file("scattered.msh"), dir.str());
+  ASSERT_EQ(read.nodes.size(), mesh.nodes.size());
+  EXPECT_NEAR(volume(read), volume(mesh), 1e-4 * volume(mesh));  // six digits in the file
+  EXPECT_NEAR(area(read), area(mesh), 1e-4 * area(mesh));
+  double span = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto [low, high] = std::minmax_element(read.cells[0].nodes.begin() + i * 4, read.cells[0].nodes.begin() + i * 4 + 4);
+    span += *high - *low;
+  }
+  EXPECT_LT(span / count, 0.2 * nodes);  // of four random numbers 3/5
 }
 
 TEST(MeshImportBody, BothFormatsKeepPhysicalGroups) {

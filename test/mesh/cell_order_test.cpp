@@ -1,4 +1,4 @@
-// The order in which cells are worked on: element/cell_order.h.
+// The order in which cells lie: mesh/cell_order.h.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,14 +6,13 @@
 #include <random>
 #include <set>
 
-#include "forming_sim/element/cell_order.h"
-#include "forming_sim/element/cell_group.h"
+#include "forming_sim/mesh/cell_order.h"
 #include "support/bodies.h"
 
 namespace forming_sim {
 namespace {
 
-constexpr int kTile = 512;  // cells
+constexpr int kPiece = 512;  // cells
 
 /// The same cells, the one that was number order[i] as number i.
 Cells reordered(const Cells& cells, const std::vector<int>& order) {
@@ -30,39 +29,38 @@ std::vector<int> shuffled(int count) {
   return order;
 }
 
-double nodes_of_a_tile(const Cells& cells, const std::vector<int>& order) {
+double nodes_of_a_piece(const Cells& cells, const std::vector<int>& order) {
   const int n = shape_of(cells.kind).nodes;
   double sum = 0;
-  int tiles = 0;
-  for (std::size_t first = 0; first < order.size(); first += kTile, ++tiles) {
+  int pieces = 0;
+  for (std::size_t first = 0; first < order.size(); first += kPiece, ++pieces) {
     std::set<int> nodes;
-    for (std::size_t i = first; i < std::min(first + kTile, order.size()); ++i)
+    for (std::size_t i = first; i < std::min(first + kPiece, order.size()); ++i)
       nodes.insert(cells.nodes.begin() + order[i] * n, cells.nodes.begin() + (order[i] + 1) * n);
     sum += static_cast<double>(nodes.size());
   }
-  return sum / tiles;
+  return sum / pieces;
 }
 
 TEST(CellOrder, ShuffledCellsLieTogetherAgain) {
   for (CellKind kind : {CellKind::tetrahedron, CellKind::triangle, CellKind::hex1}) {
     const Mesh mesh = block_of(kind, kind == CellKind::triangle ? 60 : 12);
-    const NodeField X = positions_of(mesh);
     const Cells cells = reordered(mesh.cells[0], shuffled(mesh.cells[0].count()));
-    const std::vector<int> order = order_of_cells(cells, 0, X, kTile);
+    const std::vector<int> order = order_of_cells(mesh.nodes, cells.nodes, shape_of(kind).nodes, kPiece, 0.7);
     std::vector<int> numbers = order, all(order.size());
     std::sort(numbers.begin(), numbers.end());
     std::iota(all.begin(), all.end(), 0);
     EXPECT_EQ(numbers, all) << shape_of(kind).name;
     // A cube of 512 cells has 9^3 nodes, of 85 cells of six tetrahedra some 5.4^3; strips and thin layers more.
-    const double as_generated = nodes_of_a_tile(mesh.cells[0], all);
-    EXPECT_LT(nodes_of_a_tile(cells, order), 1.1 * as_generated) << shape_of(kind).name;
-    EXPECT_GT(nodes_of_a_tile(cells, all), 1.5 * as_generated) << shape_of(kind).name;
+    const double as_generated = nodes_of_a_piece(mesh.cells[0], all);
+    EXPECT_LT(nodes_of_a_piece(cells, order), 1.1 * as_generated) << shape_of(kind).name;
+    EXPECT_GT(nodes_of_a_piece(cells, all), 1.5 * as_generated) << shape_of(kind).name;
   }
 }
 
 TEST(CellOrder, CellsInOrderStay) {
   const Mesh mesh = block_of(CellKind::hex1, 20);
-  const std::vector<int> order = order_of_cells(mesh.cells[0], 0, positions_of(mesh), 4096);
+  const std::vector<int> order = order_of_cells(mesh.nodes, mesh.cells[0].nodes, 8, 4096, 0.7);
   EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
 }
 
