@@ -43,6 +43,7 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
   set_back(m.layer, sides, setup, m.features, m.tools, m.warnings);
   check_start(m.layer, m.sides, setup, x, at_start, m.features, m.tools, m.warnings);
   m.tools.place_all(m.features, at_start, false, place);  // set back
+  if (setup.dimension == 3) find_level_parts(m.features);
   keep_ties(m.features, x, place, at_start, m.ties);
   if (m.method == Impl::Method::geometric) m.know_sides();
   m.tool_index = std::make_unique<ToolIndex>(m.features, m.features.place, std::vector<bool>(setup.tools.size(), true));

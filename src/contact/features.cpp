@@ -82,7 +82,10 @@ void find_edges(Features& f, int surface) {
       f.edges.back().surface = surface;
     }
     Features::Edge& edge = f.edges.back();
-    if (edge.facets < 2) edge.opposite[edge.facets] = f.facets[side.facet][(side.side + 2) % 3];
+    if (edge.facets < 2) {
+      edge.facet[edge.facets] = side.facet;
+      edge.opposite[edge.facets] = f.facets[side.facet][(side.side + 2) % 3];
+    }
     ++edge.facets;
     f.facet_edges[side.facet][side.side] = static_cast<int>(f.edges.size()) - 1;
   }
@@ -210,6 +213,26 @@ Features build_features(const ContactSetup& setup, const NodeField& x) {
   find_neighbours(f);
   measure_bodies(f, x, setup.axisymmetric);
   return f;
+}
+
+void find_level_parts(Features& f) {
+  constexpr double kLevel = 1e-6;  // slope
+  f.level_vertex.assign(f.place.size(), true);
+  for (Features::Edge& edge : f.edges) {
+    if (!f.rigid(edge.node[0])) continue;
+    const auto at = [&](int v) { return vec3(f.place[v - f.body_nodes]); };
+    if (edge.facets == 2) {
+      const Vec3 along = (at(edge.node[1]) - at(edge.node[0])).normalized();
+      const auto across = [&](int corner) {
+        const Vec3 way = at(corner) - at(edge.node[0]);
+        return Vec3(way - way.dot(along) * along);
+      };
+      const Vec3 a = across(edge.opposite[0]), b = across(edge.opposite[1]);
+      edge.level = a.dot(b) < 0 && a.cross(b).norm() <= kLevel * a.norm() * b.norm();
+    }
+    for (int v : edge.node)
+      if (!edge.level) f.level_vertex[v - f.body_nodes] = false;
+  }
 }
 
 bool Features::tied_edge_to_facet(const Relation& relation, int e, int facet) const {

@@ -36,6 +36,8 @@ class Builder {
     return tools_.motion.empty() ? p : node(pose0(tools_.motion[f_.vertex_surface[vertex] - f_.bodies], vec3(p)));
   }
 
+  bool level(int vertex) const { return f_.rigid(vertex) && !f_.level_vertex.empty() && f_.level_vertex[vertex - f_.body_nodes]; }
+
   // Vertices of body `a` against facets of `b`.
   void vertices_against_facets(int a, const Indexed& b, const Box& near) {
     for (int v : f_.surfaces[a].vertices) {
@@ -58,7 +60,9 @@ class Builder {
       here.add(q);
       here.add(r);
       if (!here.overlaps(near)) continue;
-      b.index->vertices(b.query(radius_, p, q, r), [&](int v) { meet(v, at(v), b.surface, facet, a); });
+      b.index->vertices(b.query(radius_, p, q, r), [&](int v) {
+        if (!level(v)) meet(v, at(v), b.surface, facet, a);
+      });
     }
     group(a);
   }
@@ -74,6 +78,7 @@ class Builder {
       here.add(p1);
       if (!here.overlaps(near)) continue;
       b.index->edges(b.query(radius_, p0, p1), [&](int other) {
+        if (f_.edges[other].level) return;
         const auto& q = f_.edges[other].node;
         if (a == b.surface && (other <= e || p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1])) return;
         if (f_.tied_edges(relation, e, other)) return;

@@ -187,10 +187,8 @@ class Start {
   }
 
   template <class At> Node outward_normal(const Features::Edge& e, int k, At&& at) const {
-    std::array<int, 3> c{e.node[0], e.node[1], e.opposite[k]};
-    std::sort(c.begin(), c.end());
-    const Features::Surface& s = f_.surfaces[e.surface];
-    const auto facet = std::find(f_.facets.begin() + s.first_facet, f_.facets.begin() + s.last_facet, c) - f_.facets.begin();
+    const int facet = e.facet[k];
+    const auto& c = f_.facets[facet];
     const int side = f_.rigid(c[0]) ? sides_[facet] : f_.facet_outward[facet];
     return side * facet_normal(3, at(c[0]), at(c[1]), at(c[2]));
   }

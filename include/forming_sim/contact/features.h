@@ -32,7 +32,9 @@ struct Features {
     int node[2] = {-1, -1};           ///< rising
     int surface = -1;
     int facets = 0;                   ///< number of facets at this edge
-    int opposite[2] = {-1, -1};       ///< third corners of the first two of them
+    int facet[2] = {-1, -1};          ///< the first two of them
+    int opposite[2] = {-1, -1};       ///< their third corners
+    bool level = false;               ///< of a tool: inside of a plane part of it (find_level_parts)
   };
 
   int dimension = 3;
@@ -54,6 +56,7 @@ struct Features {
   std::vector<int> first_neighbour;
   std::vector<int> vertex_surface;              ///< -1: on no surface
   std::vector<double> area;                     ///< of body vertices: the area they stand for at set-up, m^2 (2D: per metre of width; axisymmetric: of the whole circle)
+  std::vector<bool> level_vertex;               ///< of tools: all its edges are level; index: vertex - body_nodes
   NodeField place;                              ///< of tool vertices in the tool's frame; index: vertex - body_nodes
   double smallest_edge = 0, mean_edge = 0;      ///< of the bodies' surfaces
 
@@ -89,5 +92,10 @@ struct Features {
 
 /// x: positions of the bodies' nodes, from which areas and edge lengths are taken.
 Features build_features(const ContactSetup& setup, const NodeField& x);
+
+/// Finds the edges of tools between two facets that lie in one plane, to a slope of 1e-6, and the vertices that have no
+/// others: what a body's edge or facet is nearest to inside of a plane part it is nearest to with its own vertices, or at that
+/// part's border, so that level edges and vertices need not be met. From `place` as it stands; to be called when tools are set back.
+void find_level_parts(Features& f);
 
 }  // namespace forming_sim
