@@ -1,10 +1,16 @@
 // What each stage of a step costs.
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "contact_costs.h"
+#include "forming_sim/mesh/import.h"
 #include "layer_costs.h"
+#include "mesh/msh_texts.h"
 #include "rows.h"
+#include "scratch.h"
 #include "support/bodies.h"
+#include "support/free_mesh.h"
 
 namespace forming_sim::bench {
 namespace {
@@ -22,6 +28,18 @@ BodyModel block(const Family& family, int elements) {
   return body_of(block_of(family.kind, n), aluminium(true), family.average);
 }
 
+/// Seconds of the forces of a body that is stretched to and fro, so that the material yields in most calls.
+double time_of_forces(Elements& engine, const NodeField& X, NodeField& x) {
+  const NodeField v(X.size(), Node::Zero());
+  NodeField f(X.size());
+  long calls = 0;
+  return least_time([&] {
+    const double stretch = 1 + 0.02 * std::sin(0.05 * static_cast<double>(calls++));
+    for (std::size_t i = 0; i < x.size(); ++i) x[i][0] = stretch * X[i][0];
+    engine.forces(x, v, 1e-8, 1e-8, f);
+  });
+}
+
 /// Forces and time step of one block, stretched into yield step by step.
 void element_costs(const Family& family, int elements, const char* size, std::vector<Row>& rows) {
   const Clock clock;
@@ -32,14 +50,9 @@ void element_costs(const Family& family, int elements, const char* size, std::ve
   for (int threads : {1, 2}) {
     Elements engine({body}, D, X, ElementOptions(), threads);
     const double count = static_cast<double>(engine.simplices().size()) / shape_of(family.kind).simplices * shape_of(family.kind).points;
-    NodeField x = X, v(X.size(), Node::Zero()), f(X.size());
-    long calls = 0;
-    const double force = least_time([&] {
-      // To and fro, so that the material yields in most calls.
-      const double stretch = 1 + 0.02 * std::sin(0.05 * static_cast<double>(calls++));
-      for (std::size_t i = 0; i < x.size(); ++i) x[i][0] = stretch * X[i][0];
-      engine.forces(x, v, 1e-8, 1e-8, f);
-    });
+    NodeField x = X;
+    const NodeField v(X.size(), Node::Zero());
+    const double force = time_of_forces(engine, X, x);
     const std::string name = std::string(shape_of(family.kind).name) + ", p per " + family.average + ", " + size;
     if (threads == 1) {
       one_thread = force;
@@ -52,6 +65,36 @@ void element_costs(const Family& family, int elements, const char* size, std::ve
       rows.push_back(just(name, "forces, 1 thread over 2", one_thread / force, clock.seconds()));
     }
   }
+}
+
+/// A file of tetrahedra as gmsh numbers them.
+void file_costs(std::vector<Row>& rows) {
+  const Clock clock;
+  const Mesh made = free_box(Vec3(1, 1, 0.2), 0.023);
+  const std::vector<int>& corners = made.cells[0].nodes;
+  std::ostringstream nodes, cells;
+  for (std::size_t n = 0; n < made.nodes.size(); ++n) nodes << n + 1 << ' ' << made.nodes[n].transpose() << '\n';
+  for (std::size_t i = 0; i < corners.size(); i += 4) {
+    cells << i / 4 + 1 << " 4 2 1 1";
+    for (int a = 0; a < 4; ++a) cells << ' ' << corners[i + a] + 1;
+    cells << '\n';
+  }
+  const Scratch scratch;
+  std::ofstream(scratch.path() + "/box.msh") << msh::cells(nodes.str(), static_cast<int>(made.nodes.size()), cells.str(), made.cells[0].count());
+  MeshConfig config;
+  config.url = "box.msh";
+  config.unit_scale = 1;
+  const Family free{CellKind::tetrahedron, "node", 0};
+  const auto time_of = [&](const BodyModel& body) {
+    const NodeField X = positions_of(body.mesh);
+    NodeField x = X;
+    Elements engine({body}, 3, X, ElementOptions(), 1);
+    return 1e9 * time_of_forces(engine, X, x) / static_cast<double>(engine.simplices().size());
+  };
+  const double of_file = time_of(body_of(load_body_mesh(config, scratch.path()), aluminium(true), free.average)), of_block = time_of(block(free, made.cells[0].count()));
+  const std::string name = std::to_string(made.cells[0].count()) + " tetrahedra of a file by gmsh";
+  rows.push_back(just(name, "forces, ns an element", of_file, clock.seconds()));
+  rows.push_back(just(name, "forces, of those of a block in order", of_file / of_block, clock.seconds()));
 }
 
 /// Forces of a body that waits, over those of one that moves.
@@ -97,6 +140,7 @@ std::vector<Row> costs(const Request&) {
     element_costs(family, 4000, "4k elements", rows);
     element_costs(family, 400000, "400k elements", rows);
   }
+  file_costs(rows);
   rest_costs(rows);
   layer_costs(rows);
   contact_costs(rows);

@@ -1,7 +1,9 @@
 #include "tool_surface.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -18,11 +20,44 @@ bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b - a).cross(c - a).norm() / 2 > kNoArea * longest;
 }
 
-int count_open_edges(const std::vector<Facet>& surface) {
+std::vector<std::pair<int, int>> open_edges(const std::vector<Facet>& surface) {
   std::map<std::pair<int, int>, int> uses;
   for (const Facet& f : surface)
     for (int k = 0; k < 3; ++k) ++uses[std::minmax(f.nodes[k], f.nodes[(k + 1) % 3])];
-  return static_cast<int>(std::count_if(uses.begin(), uses.end(), [](const auto& edge) { return edge.second == 1; }));
+  std::vector<std::pair<int, int>> open;
+  for (const auto& [edge, count] : uses)
+    if (count == 1) open.push_back(edge);
+  return open;
+}
+
+/// Joins vertices of open edges that differ by what a writer rounds: a surface that closes on itself, or is written piece by
+/// piece. Facets that collapse are dropped. Returns how many vertices became another.
+int join_seams(Mesh& mesh) {
+  constexpr double kRounding = 1e-6;  // of the largest extent
+  std::vector<int> border;
+  for (const auto& [a, b] : open_edges(mesh.surface)) border.insert(border.end(), {a, b});
+  std::sort(border.begin(), border.end());
+  border.erase(std::unique(border.begin(), border.end()), border.end());
+  std::stable_sort(border.begin(), border.end(), [&](int a, int b) { return mesh.nodes[a].x() < mesh.nodes[b].x(); });
+  Eigen::AlignedBox3d box;
+  for (const Vec3& x : mesh.nodes) box.extend(x);
+  const double near = kRounding * box.sizes().maxCoeff();
+  std::vector<int> same(mesh.nodes.size());
+  std::iota(same.begin(), same.end(), 0);
+  int joined = 0;
+  for (std::size_t i = 0; i < border.size(); ++i)
+    for (std::size_t j = i; j-- > 0 && mesh.nodes[border[i]].x() - mesh.nodes[border[j]].x() <= near;)
+      if ((mesh.nodes[border[i]] - mesh.nodes[border[j]]).norm() <= near) {
+        same[border[i]] = same[border[j]];
+        ++joined;
+        break;
+      }
+  if (joined == 0) return 0;
+  for (Facet& facet : mesh.surface)
+    for (int k = 0; k < 3; ++k) facet.nodes[k] = same[facet.nodes[k]];
+  const auto collapsed = [](const Facet& f) { return f.nodes[0] == f.nodes[1] || f.nodes[1] == f.nodes[2] || f.nodes[2] == f.nodes[0]; };
+  mesh.surface.erase(std::remove_if(mesh.surface.begin(), mesh.surface.end(), collapsed), mesh.surface.end());
+  return joined;
 }
 
 }  // namespace
@@ -59,7 +94,8 @@ Mesh clean_surface(const Triangles& triangles, std::vector<std::string>& notes) 
     refuse("none of its " + std::to_string(flat) + " triangles has an area; check how it was written, and its precision");
   if (flat) notes.push_back(triangles.source + ": " + std::to_string(flat) + " triangles without area removed");
   if (repeated) notes.push_back(triangles.source + ": " + std::to_string(repeated) + " repeated triangles removed");
-  if (const int open = count_open_edges(mesh.surface))
+  if (const int joined = join_seams(mesh)) notes.push_back(triangles.source + ": " + std::to_string(joined) + " vertices along seams joined with those beside them, which differ by rounding");
+  if (const std::size_t open = open_edges(mesh.surface).size())
     notes.push_back(triangles.source + ": the surface is open, " + std::to_string(open) +
                     " edges belong to one triangle only; nothing holds the blank back from passing round them");
   return mesh;

@@ -17,7 +17,7 @@ struct Triangles {
 /// Triangles of an STL, OBJ, PLY or DAE file, by way of assimp.
 Triangles read_triangles(const std::string& path, double unit_scale);
 
-/// Merges coinciding points, removes triangles without area and repeated ones,
+/// Merges coinciding points, along seams those that differ by rounding too, removes triangles without area and repeated ones,
 /// says so in `notes`, and there too whether the surface is open.
 Mesh clean_surface(const Triangles& triangles, std::vector<std::string>& notes);
 

@@ -161,6 +161,27 @@ TEST(MeshImportTool, FlatAndRepeatedTrianglesAreRemovedAndCounted) {
   EXPECT_TRUE(has(notes[1], "1 repeated triangles removed")) << notes[1];
 }
 
+// Every triangle with corners of its own, rounded differently: the box is closed nevertheless. A gap that can be seen stays one.
+TEST(MeshImportTool, SeamsThatDifferByRoundingAreJoined) {
+  for (const auto& [rounding, closed] : {std::pair(3e-7, true), std::pair(3e-4, false)}) {
+    MeshConfig config;
+    config.unit_scale = 1;
+    for (const Triangle& t : kBox)
+      for (int n : t) {
+        const double sign = config.points.size() % 2 == 0 ? 1 : -1;
+        config.points.push_back(kCorners[n] + sign * rounding * Vec3(1, -1, 1));
+        config.cells.push_back(static_cast<int>(config.cells.size()));
+      }
+    std::vector<std::string> notes;
+    const Mesh mesh = load_tool_surface(config, "", notes);
+    EXPECT_EQ(mesh.surface.size(), 12u);
+    EXPECT_NEAR(area(mesh), 22, 1e-2);
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_EQ(has(notes[0], "vertices along seams joined"), closed) << notes[0];
+    EXPECT_EQ(has(notes[0], "the surface is open"), !closed) << notes[0];
+  }
+}
+
 TEST(MeshImportTool, AnOpenSurfaceIsSaid) {
   std::vector<std::string> notes;
   load("box.stl", ascii_stl(kCorners, {kBox.begin() + 2, kBox.end()}), &notes);
