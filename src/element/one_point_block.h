@@ -29,7 +29,10 @@ template <class Cell> void gather_one_point(const int* nodes, const double* fiel
 /// The constants of the next block, where they are others: cells of a file have each their own.
 template <class Cell> void fetch_constants(const CellGroup& g, long block) {
   if (block + 1 == g.blocks || g.constant_set[block + 1] == g.constant_set[block]) return;
-  fetch_ahead(constants_of<Cell>(g, block + 1), 0, OnePoint<kD<Cell>, Cell::ring>::inertia);  // those behind are for the time step
+  using Items = OnePoint<kD<Cell>, Cell::ring>;
+  const double* constants = constants_of<Cell>(g, block + 1);
+  fetch_ahead(constants, 0, Items::inertia);  // those behind are for the time step, but for one
+  fetch_ahead(constants + Items::near * kLanes, 0, 1);
 }
 
 /// What varies across the cells of a block whose nodes are gathered.

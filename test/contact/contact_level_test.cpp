@@ -1,6 +1,8 @@
 // Plane parts of tools: their inner edges and vertices need not be met (find_level_parts).
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "contact/point_bodies.h"
 #include "forming_sim/contact/list.h"
 
@@ -69,8 +71,9 @@ TEST(ContactLevel, NoMoreThanAPlane) {
     Features f = build_features(setup_of(world), world.x);
     find_level_parts(f);
     for (const Features::Edge& e : f.edges)
-      if (f.rigid(e.node[0]) && e.facets == 2 && f.place[e.node[0] - f.body_nodes][0] == 0 && f.place[e.node[1] - f.body_nodes][0] == 0)
+      if (f.rigid(e.node[0]) && e.facets == 2 && f.place[e.node[0] - f.body_nodes][0] == 0 && f.place[e.node[1] - f.body_nodes][0] == 0) {
         EXPECT_EQ(e.level, expected) << high;
+      }
   }
   World world;
   world.dimension = 3;
