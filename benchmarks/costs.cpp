@@ -1,7 +1,6 @@
 // What each stage of a step costs.
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 #include "contact_costs.h"
 #include "forming_sim/mesh/import.h"
@@ -71,16 +70,8 @@ void element_costs(const Family& family, int elements, const char* size, std::ve
 void file_costs(std::vector<Row>& rows) {
   const Clock clock;
   const Mesh made = free_box(Vec3(1, 1, 0.2), 0.023);
-  const std::vector<int>& corners = made.cells[0].nodes;
-  std::ostringstream nodes, cells;
-  for (std::size_t n = 0; n < made.nodes.size(); ++n) nodes << n + 1 << ' ' << made.nodes[n].transpose() << '\n';
-  for (std::size_t i = 0; i < corners.size(); i += 4) {
-    cells << i / 4 + 1 << " 4 2 1 1";
-    for (int a = 0; a < 4; ++a) cells << ' ' << corners[i + a] + 1;
-    cells << '\n';
-  }
   const Scratch scratch;
-  std::ofstream(scratch.path() + "/box.msh") << msh::cells(nodes.str(), static_cast<int>(made.nodes.size()), cells.str(), made.cells[0].count());
+  std::ofstream(scratch.path() + "/box.msh") << msh::tetrahedra(made.nodes, made.cells[0].nodes);
   MeshConfig config;
   config.url = "box.msh";
   config.unit_scale = 1;

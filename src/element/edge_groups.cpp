@@ -14,8 +14,7 @@ void Elements::put_points_at_edges(const BodyModel& body, const NodeField& X) {
   const Group* like = nullptr;
   for (const Group& g : groups_)
     if (g.body == body.name && g.nodal()) {
-      for (int cell = 0; cell < g.cells; ++cell)
-        for (int s = 0; s < g.parts; ++s) simplices.push_back(simplices_[g.element(cell, s)]);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(g.cells) * g.parts; ++i) simplices.push_back(simplices_[g.element(i)]);
       like = &g;
     }
   if (!like) return;

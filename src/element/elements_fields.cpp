@@ -84,7 +84,7 @@ std::vector<double> Elements::plastic_strain() const {
   for (const Group& g : groups_) {
     if (!g.nodal()) continue;
     const std::vector<double> means = means_over_edges(g, at_edges, 1);
-    for (std::size_t i = 0; i < means.size(); ++i) p[g.element(static_cast<int>(i) / g.parts, static_cast<int>(i) % g.parts)] = means[i];
+    for (std::size_t i = 0; i < means.size(); ++i) p[g.element(i)] = means[i];
   }
   return p;
 }
@@ -139,7 +139,7 @@ ElementFields Elements::observe(const NodeField& x) const {
     if (!g.nodal()) continue;
     const std::vector<double> means = means_over_edges(g, S, 6);
     for (std::size_t i = 0; i < means.size() / 6; ++i)
-      for (int c = 0; c < 6; ++c) fields.stress[g.element(static_cast<int>(i) / g.parts, static_cast<int>(i) % g.parts)][c] += means[i * 6 + c];
+      for (int c = 0; c < 6; ++c) fields.stress[g.element(i)][c] += means[i * 6 + c];
   }
   return fields;
 }

@@ -60,6 +60,8 @@ struct Elements::Group : CellGroup {
   double constant(int block, int item, int lane) const { return constants_storage[static_cast<std::size_t>(constant_sets[block]) * one_point_items(dimension, ring) + item][lane]; }
   /// Number of a part of a cell among all elements.
   int element(int cell, int part) const { return first_element + order[cell] * parts + part; }
+  /// Of a simplex, counted through the cells.
+  int element(std::size_t simplex) const { return element(static_cast<int>(simplex) / parts, static_cast<int>(simplex) % parts); }
   /// Node a of a cell.
   int node(int cell, int a) const { return node_storage[(static_cast<std::size_t>(cell / kLanes) * cell_nodes + a) * kLanes + cell % kLanes]; }
   /// Of a block, and behind the last one: where its cells' nodes start in node_storage.

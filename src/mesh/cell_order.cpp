@@ -46,12 +46,14 @@ void halve(const std::vector<Vec3>& centre, int* first, int* last, int piece) {
 std::vector<int> order_of_cells(const std::vector<Vec3>& points, const std::vector<int>& nodes, int nodes_of_cell, int piece, double worth) {
   std::vector<int> given(nodes.size() / nodes_of_cell);
   std::iota(given.begin(), given.end(), 0);
+  const auto count = [&](const std::vector<int>& order, int of_piece) { return static_cast<double>(nodes_of_pieces(nodes, nodes_of_cell, order, of_piece, points.size())); };
+  const double enough = worth * count(given, piece);
+  if (count(given, std::max<int>(1, given.size())) > enough) return given;  // every node is once in some piece at least
   std::vector<Vec3> centre(given.size(), Vec3::Zero());
   for (std::size_t i = 0; i < nodes.size(); ++i) centre[i / nodes_of_cell] += points[nodes[i]] / nodes_of_cell;
   std::vector<int> by_halves = given;
   halve(centre, by_halves.data(), by_halves.data() + by_halves.size(), piece);
-  const auto count = [&](const std::vector<int>& order) { return static_cast<double>(nodes_of_pieces(nodes, nodes_of_cell, order, piece, points.size())); };
-  return count(by_halves) <= worth * count(given) ? by_halves : given;
+  return count(by_halves, piece) <= enough ? by_halves : given;
 }
 
 }  // namespace forming_sim

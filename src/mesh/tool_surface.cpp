@@ -30,12 +30,12 @@ std::vector<std::pair<int, int>> open_edges(const std::vector<Facet>& surface) {
   return open;
 }
 
-/// Joins vertices of open edges that differ by what a writer rounds: a surface that closes on itself, or is written piece by
+/// Joins vertices of the open edges that differ by what a writer rounds: a surface that closes on itself, or is written piece by
 /// piece. Facets that collapse are dropped. Returns how many vertices became another.
-int join_seams(Mesh& mesh) {
+int join_seams(const std::vector<std::pair<int, int>>& open, Mesh& mesh) {
   constexpr double kRounding = 1e-6;  // of the largest extent
   std::vector<int> border;
-  for (const auto& [a, b] : open_edges(mesh.surface)) border.insert(border.end(), {a, b});
+  for (const auto& [a, b] : open) border.insert(border.end(), {a, b});
   std::sort(border.begin(), border.end());
   border.erase(std::unique(border.begin(), border.end()), border.end());
   std::stable_sort(border.begin(), border.end(), [&](int a, int b) { return mesh.nodes[a].x() < mesh.nodes[b].x(); });
@@ -94,9 +94,13 @@ Mesh clean_surface(const Triangles& triangles, std::vector<std::string>& notes) 
     refuse("none of its " + std::to_string(flat) + " triangles has an area; check how it was written, and its precision");
   if (flat) notes.push_back(triangles.source + ": " + std::to_string(flat) + " triangles without area removed");
   if (repeated) notes.push_back(triangles.source + ": " + std::to_string(repeated) + " repeated triangles removed");
-  if (const int joined = join_seams(mesh)) notes.push_back(triangles.source + ": " + std::to_string(joined) + " vertices along seams joined with those beside them, which differ by rounding");
-  if (const std::size_t open = open_edges(mesh.surface).size())
-    notes.push_back(triangles.source + ": the surface is open, " + std::to_string(open) +
+  std::vector<std::pair<int, int>> open = open_edges(mesh.surface);
+  if (const int joined = join_seams(open, mesh)) {
+    notes.push_back(triangles.source + ": " + std::to_string(joined) + " vertices along seams joined with those beside them, which differ by rounding");
+    open = open_edges(mesh.surface);
+  }
+  if (!open.empty())
+    notes.push_back(triangles.source + ": the surface is open, " + std::to_string(open.size()) +
                     " edges belong to one triangle only; nothing holds the blank back from passing round them");
   return mesh;
 }

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numeric>
 #include <random>
-#include <sstream>
 #include <thread>
 
 #include "forming_sim/mesh/import.h"
@@ -71,20 +70,17 @@ TEST(MeshImportBody, NeighboursComeNearToEachOther) {
   const Mesh mesh = block_of(CellKind::tetrahedron, 10);
   const int nodes = static_cast<int>(mesh.nodes.size()), count = mesh.cells[0].count();
   std::mt19937 random(1);
-  std::vector<int> number(nodes), order(count);
-  std::iota(number.begin(), number.end(), 1);
+  std::vector<int> number(nodes), order(count), corners;
+  std::iota(number.begin(), number.end(), 0);
   std::iota(order.begin(), order.end(), 0);
   std::shuffle(number.begin(), number.end(), random);
   std::shuffle(order.begin(), order.end(), random);
-  std::ostringstream points, cells;
-  for (int n = 0; n < nodes; ++n) points << number[n] << ' ' << mesh.nodes[n].transpose() << '\n';
-  for (int i = 0; i < count; ++i) {
-    cells << i + 1 << " 4 2 1 1";
-    for (int a = 0; a < 4; ++a) cells << ' ' << number[mesh.cells[0].nodes[order[i] * 4 + a]];
-    cells << '\n';
-  }
+  std::vector<Vec3> points(nodes);
+  for (int n = 0; n < nodes; ++n) points[number[n]] = mesh.nodes[n];
+  for (int cell : order)
+    for (int a = 0; a < 4; ++a) corners.push_back(number[mesh.cells[0].nodes[cell * 4 + a]]);
   const TempDir dir;
-  dir.write("scattered.msh", msh::cells(points.str(), nodes, cells.str(), count));
+  dir.write("scattered.msh", msh::tetrahedra(points, corners));
   const Mesh read = load_body_mesh(file("scattered.msh"), dir.str());
   ASSERT_EQ(read.nodes.size(), mesh.nodes.size());
   EXPECT_NEAR(volume(read), volume(mesh), 1e-4 * volume(mesh));  // six digits in the file

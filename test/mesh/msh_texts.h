@@ -1,6 +1,10 @@
 #pragma once
 // Small .msh files.
+#include <sstream>
 #include <string>
+#include <vector>
+
+#include "forming_sim/tensor/vec.h"
 
 namespace forming_sim::msh {
 
@@ -144,6 +148,18 @@ $EndElements
 inline std::string cells(const std::string& nodes, int node_count, const std::string& elements, int element_count) {
   return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + std::to_string(node_count) + "\n" + nodes +
          "$EndNodes\n$Elements\n" + std::to_string(element_count) + "\n" + elements + "$EndElements\n";
+}
+
+/// Tetrahedra, four of `corners` each, numbered from 1 as they come.
+inline std::string tetrahedra(const std::vector<Vec3>& points, const std::vector<int>& corners) {
+  std::ostringstream nodes, elements;
+  for (std::size_t n = 0; n < points.size(); ++n) nodes << n + 1 << ' ' << points[n].transpose() << '\n';
+  for (std::size_t i = 0; i < corners.size(); i += 4) {
+    elements << i / 4 + 1 << " 4 2 1 1";
+    for (int a = 0; a < 4; ++a) elements << ' ' << corners[i + a] + 1;
+    elements << '\n';
+  }
+  return cells(nodes.str(), static_cast<int>(points.size()), elements.str(), static_cast<int>(corners.size()) / 4);
 }
 
 /// A unit square and a triangle to its right, both clockwise, node 5 at the
