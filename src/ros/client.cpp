@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <mutex>
 #include <stdexcept>
 
 #include "forming_sim/ResultCode.h"
@@ -73,16 +72,14 @@ bool wait_for_server(Client& client, double wait_s) {
 }
 
 /// Follows the goal to its end. False where the server has gone.
-bool follow(Client& client, ClientProgress& line, std::mutex& mutex) {
+bool follow(Client& client, ClientProgress& line) {
   bool cancelled = false;
   int missed = 0;
   while (!client.waitForResult(ros::Duration(0.1))) {
     if (!ros::ok()) return false;
     // Not while pending: actionlib gives a goal up as lost when it is cancelled before a status lists it.
     if (stop_requested() && !cancelled && client.getState() != actionlib::SimpleClientGoalState::PENDING) {
-      const std::lock_guard<std::mutex> lock(mutex);
-      line.end();
-      std::printf("cancelling\n");
+      line.say("cancelling");
       client.cancelGoal();
       cancelled = true;
     }
@@ -104,21 +101,16 @@ int run_client(const ClientRequest& request) {
     return 2;
   }
   const std::string name = request.server + "/simulate_forming";
+  ClientProgress line(stdout);  // outlives the client, whose thread writes to it
   Client client(name, true);
   if (!wait_for_server(client, request.wait_s)) {
     std::fprintf(stderr, "forming_client: no server on %s after %g s; start one with `roslaunch forming_sim forming.launch`\n",
                  name.c_str(), request.wait_s);
     return 1;
   }
-  std::mutex mutex;
-  ClientProgress line(stdout);
   client.sendGoal(goal, Client::SimpleDoneCallback(), Client::SimpleActiveCallback(),
-                  [&](const SimulateFormingFeedbackConstPtr& feedback) {
-                    const std::lock_guard<std::mutex> lock(mutex);
-                    line.show(feedback->status);
-                  });
-  const bool ended = follow(client, line, mutex);
-  const std::lock_guard<std::mutex> lock(mutex);
+                  [&line](const SimulateFormingFeedbackConstPtr& feedback) { line.show(feedback->status); });
+  const bool ended = follow(client, line);
   line.end();
   if (!ended) {
     std::fprintf(stderr, "forming_client: the server on %s has gone\n", name.c_str());

@@ -11,6 +11,8 @@ namespace forming_sim {
 ClientProgress::ClientProgress(std::FILE* out) : out_(out), terminal_(isatty(fileno(out)) != 0) {}
 
 void ClientProgress::show(const RunStatus& status) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (ended_) return;
   const double progress = std::clamp(status.progress, 0.0, 1.0);
   const int tenth = static_cast<int>(10 * progress);
   if (!terminal_ && status.stage == stage_ && tenth == tenth_) return;
@@ -22,7 +24,20 @@ void ClientProgress::show(const RunStatus& status) {
   std::fflush(out_);
 }
 
+void ClientProgress::say(const char* text) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  end_line();
+  std::fprintf(out_, "%s\n", text);
+  std::fflush(out_);
+}
+
 void ClientProgress::end() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  end_line();
+  ended_ = true;
+}
+
+void ClientProgress::end_line() {
   if (open_) std::fputc('\n', out_);
   open_ = false;
   std::fflush(out_);

@@ -4,6 +4,7 @@ import json
 import math
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -17,7 +18,8 @@ import rospy
 import yaml
 from actionlib_msgs.msg import GoalID, GoalStatus
 from forming_sim.msg import (ContactFields, PlasticStrainTopology, ResultCode, RunStatus, SimulateFormingAction,
-                             SimulateFormingActionGoal, SimulateFormingActionResult, SimulateFormingGoal)
+                             SimulateFormingActionGoal, SimulateFormingActionResult, SimulateFormingFeedback,
+                             SimulateFormingGoal, SimulateFormingResult)
 from forming_sim.srv import EstimateRun, ValidateScene
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -135,9 +137,10 @@ class ServiceTest(unittest.TestCase):
             yaml.safe_dump(scene, file)
         code, _ = run(scene, output_directory=self.path('action'), threads=2)
         self.assertEqual(code, GoalStatus.SUCCEEDED)
-        subprocess.check_call([executable('forming_offline'), self.path('scene.yaml'), '--output', self.path('offline'), '--threads', '1'])
+        subprocess.check_call([executable('forming_offline'), self.path('scene.yaml'), '--output', self.path('offline'), '--threads', '1'],
+                              timeout=60)
         client = subprocess.run([executable('forming_client'), self.path('scene.yaml'), '--output', self.path('client')],
-                                stdout=subprocess.PIPE, text=True)
+                                stdout=subprocess.PIPE, text=True, timeout=60)
         self.assertEqual(client.returncode, 0)
         self.assertIn('result.h5', client.stdout)
         for other in ('offline', 'client'):
@@ -227,10 +230,35 @@ class ServiceTest(unittest.TestCase):
         scene['bodies'][0]['boundaries'][1]['set'] = 'neither'
         with open(self.path('bad.yaml'), 'w') as file:
             yaml.safe_dump(scene, file)
-        client = subprocess.run([executable('forming_client'), self.path('bad.yaml')], stderr=subprocess.PIPE, text=True)
+        client = subprocess.run([executable('forming_client'), self.path('bad.yaml')], stderr=subprocess.PIPE, text=True,
+                                timeout=60)
         self.assertEqual(client.returncode, 2)
         self.assertIn('nowhere', client.stderr)
         self.assertIn('neither', client.stderr)
+
+    def test_client_ends_while_feedback_still_comes(self):
+        clients = []
+
+        def talk(goal):
+            goal.set_accepted()
+            # What comes while the client is stopped meets it all at once.
+            clients[-1].send_signal(signal.SIGSTOP)
+            goal.set_succeeded(SimulateFormingResult(code=ResultCode.SUCCESS, message='done'))
+            for _ in range(1000):
+                server.publish_feedback(goal.get_goal_status(), SimulateFormingFeedback())
+            clients[-1].send_signal(signal.SIGCONT)
+
+        server = actionlib.ActionServer('/talkative/simulate_forming', SimulateFormingAction, talk, auto_start=False)
+        server.start()
+        with open(self.path('scene.yaml'), 'w') as file:
+            yaml.safe_dump(scenes.pulled_strip(), file)
+        for _ in range(5):
+            clients.append(subprocess.Popen([executable('forming_client'), self.path('scene.yaml'), '--server', '/talkative'],
+                                            stdout=subprocess.PIPE, text=True))
+            self.addCleanup(clients[-1].kill)
+            output, _ = clients[-1].communicate(timeout=20)
+            self.assertEqual(clients[-1].returncode, 0)
+            self.assertIn('done', output)
 
     # ---- one run at a time, cancels
 
