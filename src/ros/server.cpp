@@ -1,6 +1,5 @@
 #include "forming_sim/ros/server.h"
 
-#include <chrono>
 #include <cstdlib>
 
 #include "forming_sim/ResultCode.h"
@@ -84,24 +83,25 @@ void FormingServer::stop() {
   if (worker_.joinable()) worker_.join();
 }
 
-// A client of actionlib takes itself for connected as soon as it has opened its way to the results, which may be before this
-// node knows of it: an answer that comes at once would be lost, and the client wait for ever.
-void FormingServer::wait_for_listeners() const {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(2);
-  while (results_.getNumSubscribers() < goals_.getNumPublishers() && ros::WallTime::now() < end && ros::ok()) ros::WallDuration(0.002).sleep();
-}
-
-void FormingServer::reject(Goal& goal, const SimulateFormingResult& result) {
-  // actionlib's SimpleActionClient in Python loses an answer that comes before its
-  // send_goal has returned, and then waits for ever.
-  std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  goal.setRejected(result, result.message);
+// Answers that come at once are lost, and their clients wait for ever: actionlib's client in C++ takes itself for connected
+// as soon as it has opened its way to the results, which may be before this node knows of it; the one in Python drops what
+// comes before its send_goal has returned.
+void FormingServer::wait_for_client(Clock::time_point received) const {
+  using namespace std::chrono_literals;
+  while (ros::ok()) {
+    const auto age = Clock::now() - received;
+    const bool all_listen = results_.getNumSubscribers() >= goals_.getNumPublishers();
+    if (age >= 100ms && (all_listen || age >= 2s)) return;
+    std::this_thread::sleep_for(2ms);
+  }
 }
 
 void FormingServer::on_goal(Goal goal) {
+  const auto received = Clock::now();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!current_ && !stopping_) {
+      received_ = received;
       current_ = std::make_unique<Goal>(goal);
       waiting_ = std::make_unique<Goal>(goal);
       // Its cancel may have come already, in another thread: then on_cancel did not know the goal yet.
@@ -112,8 +112,8 @@ void FormingServer::on_goal(Goal goal) {
     }
   }
   const auto result = result_of(Code::busy, "another run is under way; send the goal again when it has ended, or cancel it");
-  wait_for_listeners();
-  reject(goal, result);
+  wait_for_client(received);
+  goal.setRejected(result, result.message);
 }
 
 void FormingServer::on_cancel(Goal goal) {
@@ -151,6 +151,7 @@ void FormingServer::serve(Goal goal) {
     result.code = ResultCode::INTERNAL_ERROR;
     result.message = "the run ended without an outcome: " + result.message;
   }
+  wait_for_client(received_);
   {
     // From here a new goal is welcome: its client may have waited for this result only.
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -206,12 +207,11 @@ SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
 }
 
 void FormingServer::finish(Goal& goal, const SimulateFormingResult& result, bool accepted) {
-  wait_for_listeners();
   ROS_INFO("%s: %s", goal.getGoal()->scene.name.c_str(), result.message.c_str());
   if (result.code == ResultCode::CANCELLED) {
     goal.setCanceled(result, result.message);
   } else if (!accepted) {
-    reject(goal, result);
+    goal.setRejected(result, result.message);
   } else if (result.code == ResultCode::SUCCESS) {
     goal.setSucceeded(result, result.message);
   } else {

@@ -10,21 +10,17 @@ import threading
 import unittest
 from xmlrpc.client import ServerProxy
 
-import actionlib
 import rosbag
 import rosgraph
 import rospy
-from forming_sim.msg import ResultCode, RunStatus, SimulateFormingAction, SimulateFormingGoal
+from forming_sim.msg import ResultCode, RunStatus, SimulateFormingGoal
 from visualization_msgs.msg import MarkerArray
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import scenes  # noqa: E402
+from support import Client, executable  # noqa: E402
 
 TOPICS = ['deformed_mesh', 'plastic_strain', 'plastic_strain_topology', 'status', 'tool_forces/press']
-
-
-def executable(name):
-    return subprocess.check_output(['catkin_find', '--first-only', '--libexec', 'forming_sim', name], text=True).strip()
 
 
 def subscribed(topics):
@@ -57,7 +53,7 @@ class ReplayTest(unittest.TestCase):
         names = ['/forming_server/' + topic for topic in TOPICS]
         recorder = subprocess.Popen(['rosrun', 'rosbag', 'record', '--lz4', '-O', cls.bag] + names)
         subscribed(names)
-        client = actionlib.SimpleActionClient('/forming_server/simulate_forming', SimulateFormingAction)
+        client = Client()
         assert client.wait_for_server(rospy.Duration(20))
         goal = SimulateFormingGoal(scene=scenes.message(scenes.pressed_strip(4e-5)), output_directory=cls.directory)
         # Forces have a topic once there was a run with the tool: the second one is heard from its start.

@@ -25,6 +25,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import scenes  # noqa: E402
+from support import Client, executable  # noqa: E402
 
 ACTION = '/forming_server/simulate_forming'
 LIMIT = rospy.Duration(60)
@@ -34,7 +35,7 @@ class Followed:
     """A goal with the feedback it got; waits on state, never on time."""
 
     def __init__(self, goal):
-        self.client = actionlib.SimpleActionClient(ACTION, SimulateFormingAction)
+        self.client = Client()
         assert self.client.wait_for_server(LIMIT), 'no server'
         self.feedback = []
         self.first = threading.Event()
@@ -62,10 +63,6 @@ def goal_of(scene, **fields):
 
 def run(scene, **fields):
     return Followed(goal_of(scene, **fields)).result()
-
-
-def executable(name):
-    return subprocess.check_output(['catkin_find', '--first-only', '--libexec', 'forming_sim', name], text=True).strip()
 
 
 class ServiceTest(unittest.TestCase):
@@ -240,13 +237,18 @@ class ServiceTest(unittest.TestCase):
         clients = []
 
         def talk(goal):
+            client = clients[-1]
+            result = SimulateFormingResult(code=ResultCode.SUCCESS, message='done')
             goal.set_accepted()
             # What comes while the client is stopped meets it all at once.
-            clients[-1].send_signal(signal.SIGSTOP)
-            goal.set_succeeded(SimulateFormingResult(code=ResultCode.SUCCESS, message='done'))
+            client.send_signal(signal.SIGSTOP)
+            goal.set_succeeded(result)
             for _ in range(1000):
                 server.publish_feedback(goal.get_goal_status(), SimulateFormingFeedback())
-            clients[-1].send_signal(signal.SIGCONT)
+            client.send_signal(signal.SIGCONT)
+            while client.poll() is None:  # it may not have listened to results yet
+                server.publish_result(goal.get_goal_status(), result)
+                rospy.sleep(0.1)
 
         server = actionlib.ActionServer('/talkative/simulate_forming', SimulateFormingAction, talk, auto_start=False)
         server.start()

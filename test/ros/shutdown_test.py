@@ -10,17 +10,13 @@ import tempfile
 import threading
 import unittest
 
-import actionlib
 import h5py
 import rospy
-from forming_sim.msg import ResultCode, SimulateFormingAction, SimulateFormingGoal
+from forming_sim.msg import ResultCode, SimulateFormingGoal
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import scenes  # noqa: E402
-
-
-def executable(name):
-    return subprocess.check_output(['catkin_find', '--first-only', '--libexec', 'forming_sim', name], text=True).strip()
+from support import Client, executable  # noqa: E402
 
 
 class ShutdownTest(unittest.TestCase):
@@ -30,7 +26,7 @@ class ShutdownTest(unittest.TestCase):
         self.addCleanup(shutil.rmtree, directory, ignore_errors=True)
         server = subprocess.Popen([executable('forming_server'), '__name:=' + name])
         self.addCleanup(lambda: server.poll() is None and server.kill())
-        client = actionlib.SimpleActionClient('/%s/simulate_forming' % name, SimulateFormingAction)
+        client = Client('/' + name)
         self.assertTrue(client.wait_for_server(rospy.Duration(20)))
         running = threading.Event()
 
@@ -78,7 +74,7 @@ class ShutdownTest(unittest.TestCase):
 
     def test_idle(self):
         server = subprocess.Popen([executable('forming_server'), '__name:=idle'])
-        client = actionlib.SimpleActionClient('/idle/simulate_forming', SimulateFormingAction)
+        client = Client('/idle')
         self.assertTrue(client.wait_for_server(rospy.Duration(20)))
         server.send_signal(signal.SIGINT)
         self.assertEqual(server.wait(10), 0)

@@ -2,6 +2,7 @@
 // The service: action simulate_forming, services validate_scene and
 // estimate_run, the topics of a run.
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
@@ -36,6 +37,7 @@ class FormingServer {
  private:
   using Server = actionlib::ActionServer<SimulateFormingAction>;
   using Goal = Server::GoalHandle;
+  using Clock = std::chrono::steady_clock;
 
   void on_goal(Goal goal);
   void on_cancel(Goal goal);
@@ -45,20 +47,20 @@ class FormingServer {
   void work();
   void serve(Goal goal);
   SimulateFormingResult run(Goal& goal, bool& accepted);
-  static void reject(Goal& goal, const SimulateFormingResult& result);
   void finish(Goal& goal, const SimulateFormingResult& result, bool accepted);
-  /// Until as many listen to results as send goals, at most 2 s.
-  void wait_for_listeners() const;
+  /// Until the client of a goal that came then can take an answer to it.
+  void wait_for_client(Clock::time_point received) const;
 
   ros::NodeHandle node_;
   int threads_ = 0;
   std::string output_root_;
   RunPublisher publisher_;
 
-  std::mutex mutex_;                 ///< of the four below
+  std::mutex mutex_;                 ///< of the five below
   std::condition_variable changed_;
   std::unique_ptr<Goal> waiting_;    ///< handed over, not yet taken by the worker
   std::unique_ptr<Goal> current_;    ///< the goal that makes the server busy
+  Clock::time_point received_;       ///< when current_ came
   bool stopping_ = false;
 
   std::atomic<bool> cancel_{false};
