@@ -1,100 +1,28 @@
 #include "forming_sim/contact/list.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "forming_sim/contact/closest.h"
 
 namespace forming_sim {
 namespace {
 
-/// A surface as the search asks it: its index, and where it stands.
-struct Indexed {
-  int surface;
-  const SurfaceIndex* index;
-  const ToolMotion* motion = nullptr;  ///< null: the index is of the world
-
-  Node to_index(const Node& p) const {
-    return motion ? node(motion->rotation0.transpose() * (vec3(p) - motion->position0)) : p;
-  }
-  /// A box in the index' frame around points of the world, with `radius` to spare.
-  template <class... Points> Box query(double radius, const Points&... points) const {
-    Box box;
-    (box.add(to_index(points)), ...);
-    box.grow(radius * (1 + 1e-9));  // the way into the frame rounds
-    return box;
-  }
-};
-
 class Builder {
  public:
-  Builder(const Features& f, const NodeField& x, const PlacedTools& tools, double radius) : f_(f), x_(x), tools_(tools), radius_(radius) {}
+  Builder(const Features& f, const NodeField& x, const PlacedTools& tools, const Encounters& encounters)
+      : f_(f), x_(x), tools_(tools), encounters_(encounters), radius_(encounters.radius()) {}
 
-  Node at(int vertex) const {
-    if (vertex < f_.body_nodes) return x_[vertex];
-    const Node& p = tools_.index.place(vertex);
-    return tools_.motion.empty() ? p : node(pose0(tools_.motion[f_.vertex_surface[vertex] - f_.bodies], vec3(p)));
+  void search(int a, const Indexed& b, const Box& near) {
+    vertices_against_facets(a, b, near);
+    if (a != b.surface) facets_against_vertices(a, b, near);
+    if (f_.dimension == 3) edges_against_edges(a, b, near);
   }
 
-  bool level(int vertex) const { return f_.rigid(vertex) && !f_.level_vertex.empty() && f_.level_vertex[vertex - f_.body_nodes]; }
-
-  // Vertices of body `a` against facets of `b`.
-  void vertices_against_facets(int a, const Indexed& b, const Box& near) {
-    for (int v : f_.surfaces[a].vertices) {
-      const Node p = at(v);
-      Box here;
-      here.add(p);
-      if (!here.overlaps(near)) continue;
-      b.index->facets(b.query(radius_, p), [&](int facet) { meet(v, p, a, facet, b.surface); });
-    }
-    group(b.surface);
-  }
-
-  // Facets of body `a` against vertices of `b`.
-  void facets_against_vertices(int a, const Indexed& b, const Box& near) {
-    for (int facet = f_.surfaces[a].first_facet; facet < f_.surfaces[a].last_facet; ++facet) {
-      const auto& c = f_.facets[facet];
-      const Node p = at(c[0]), q = at(c[1]), r = at(c[f_.corners() - 1]);
-      Box here;
-      here.add(p);
-      here.add(q);
-      here.add(r);
-      if (!here.overlaps(near)) continue;
-      b.index->vertices(b.query(radius_, p, q, r), [&](int v) {
-        if (!level(v)) meet(v, at(v), b.surface, facet, a);
-      });
-    }
-    group(a);
-  }
-
-  void edges_against_edges(int a, const Indexed& b, const Box& near) {
-    const auto& sa = f_.surfaces[a];
-    const Features::Relation& relation = f_.relation(a, b.surface);
-    for (int e = sa.first_edge; e < sa.last_edge; ++e) {
-      const auto& p = f_.edges[e].node;
-      const Node p0 = at(p[0]), p1 = at(p[1]);
-      Box here;
-      here.add(p0);
-      here.add(p1);
-      if (!here.overlaps(near)) continue;
-      b.index->edges(b.query(radius_, p0, p1), [&](int other) {
-        if (f_.edges[other].level) return;
-        const auto& q = f_.edges[other].node;
-        if (a == b.surface && (other <= e || p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1])) return;
-        if (f_.tied_edges(relation, e, other)) return;
-        const double squared = closest_on_edges(p0, p1, at(q[0]), at(q[1])).squared;
-        if (squared > radius_ * radius_) return;
-        const auto &op = f_.edges[e].opposite, &oq = f_.edges[other].opposite;
-        const auto or_end = [](int corner, const int (&ends)[2]) { return corner >= 0 ? corner : ends[0]; };
-        list.edges.push_back({e, other, a, b.surface, {p[0], p[1], q[0], q[1], or_end(op[0], p), or_end(op[1], p), or_end(oq[0], q), or_end(oq[1], q)}, -1, std::sqrt(squared)});
-      });
-    }
-  }
-
-  void vertices_against_plane(int a, int tool, const PlanePose& plane) {
+  void vertices_against_plane(int a, int tool) {
+    const PlanePose& plane = tools_.planes[tool];
     const Features::Relation& relation = f_.relation(a, f_.bodies + tool);
     for (int v : f_.surfaces[a].vertices)
-      if (dot3(at(v) - plane.point, plane.normal) <= radius_ && !(relation.tie >= 0 && f_.tied_zones[relation.tie][v])) list.planes.push_back({v, v, -1, tool});
+      if (dot3(x_[v] - plane.point, plane.normal) <= radius_ && !f_.tied_to_plane(relation, v)) list.planes.push_back({v, v, -1, tool});
   }
 
   // From feature vertices to places in the workspace: those of bodies as they are numbered, those of tools in the order in
@@ -153,13 +81,61 @@ class Builder {
   NearList list;
 
  private:
-  // Keeps vertex v (at p, of surface `own`) and a facet of surface `other` where they are near enough.
-  void meet(int v, const Node& p, int own, int facet, int other) {
-    const auto& c = f_.facets[facet];
-    if (own == other && (c[0] == v || c[1] == v || c[2] == v)) return;
-    if (f_.tied_to_facet(f_.relation(own, other), v, facet)) return;
-    const double squared = f_.dimension == 2 ? closest_on_segment_facet(p, at(c[0]), at(c[1])).squared
-                                             : closest_on_triangle(p, at(c[0]), at(c[1]), at(c[2])).squared;
+  // All distances below are found in the frame of b's index, in which only what is of body `a` has to be turned.
+
+  bool level(int vertex) const { return f_.rigid(vertex) && !f_.level_vertex.empty() && f_.level_vertex[vertex - f_.body_nodes]; }
+  const Node& place(int vertex) const { return encounters_.place(vertex); }
+
+  void vertices_against_facets(int a, const Indexed& b, const Box& near) {
+    for (int v : f_.surfaces[a].vertices) {
+      if (!near.holds(x_[v])) continue;
+      const Node p = b.to_index(x_[v]);
+      b.index->facets(Indexed::around(radius_, p), [&](int facet) {
+        const auto& c = f_.facets[facet];
+        meet(v, a, p, facet, b.surface, place(c[0]), place(c[1]), place(c[f_.corners() - 1]));
+      });
+    }
+    group(b.surface);
+  }
+
+  void facets_against_vertices(int a, const Indexed& b, const Box& near) {
+    for (int facet = f_.surfaces[a].first_facet; facet < f_.surfaces[a].last_facet; ++facet) {
+      const auto& c = f_.facets[facet];
+      const Node &p = x_[c[0]], &q = x_[c[1]], &r = x_[c[f_.corners() - 1]];
+      if (!Box::of(p, q, r).overlaps(near)) continue;
+      const Node p_b = b.to_index(p), q_b = b.to_index(q), r_b = b.to_index(r);
+      b.index->vertices(Indexed::around(radius_, p_b, q_b, r_b), [&](int v) {
+        if (!level(v)) meet(v, b.surface, place(v), facet, a, p_b, q_b, r_b);
+      });
+    }
+    group(a);
+  }
+
+  void edges_against_edges(int a, const Indexed& b, const Box& near) {
+    const auto& sa = f_.surfaces[a];
+    const Features::Relation& relation = f_.relation(a, b.surface);
+    for (int e = sa.first_edge; e < sa.last_edge; ++e) {
+      const auto& p = f_.edges[e].node;
+      if (!Box::of(x_[p[0]], x_[p[1]]).overlaps(near)) continue;
+      const Node p0 = b.to_index(x_[p[0]]), p1 = b.to_index(x_[p[1]]);
+      b.index->edges(Indexed::around(radius_, p0, p1), [&](int other) {
+        if (f_.edges[other].level) return;
+        const auto& q = f_.edges[other].node;
+        if (a == b.surface && (other <= e || p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1])) return;
+        if (f_.tied_edges(relation, e, other)) return;
+        const double squared = closest_on_edges(p0, p1, place(q[0]), place(q[1])).squared;
+        if (squared > radius_ * radius_) return;
+        const auto &op = f_.edges[e].opposite, &oq = f_.edges[other].opposite;
+        const auto or_end = [](int corner, const int (&ends)[2]) { return corner >= 0 ? corner : ends[0]; };
+        list.edges.push_back({e, other, a, b.surface, {p[0], p[1], q[0], q[1], or_end(op[0], p), or_end(op[1], p), or_end(oq[0], q), or_end(oq[1], q)}, -1, std::sqrt(squared)});
+      });
+    }
+  }
+
+  // Keeps vertex v of surface `own`, at p, and a facet of surface `other`, at q, r, s, where they are near enough.
+  void meet(int v, int own, const Node& p, int facet, int other, const Node& q, const Node& r, const Node& s) {
+    if (f_.never_meet(v, own, facet, other)) return;
+    const double squared = f_.dimension == 2 ? closest_on_segment_facet(p, q, r).squared : closest_on_triangle(p, q, r, s).squared;
     if (squared <= radius_ * radius_) found_.push_back({v, facet, std::sqrt(squared)});
   }
 
@@ -184,20 +160,14 @@ class Builder {
   const Features& f_;
   const NodeField& x_;
   const PlacedTools& tools_;
-  double radius_;
+  const Encounters& encounters_;
+  const double radius_;
   struct Found {
     int vertex, facet;
     double distance;
   };
   std::vector<Found> found_;
 };
-
-// Of a box that is turned with its frame, one that holds it.
-Box moved(const Box& box, const ToolMotion& motion) {
-  Box all;
-  for (int i = 0; i < 8; ++i) all.add(node(pose0(motion, box.corner(i))));
-  return all;
-}
 
 }  // namespace
 
@@ -213,61 +183,12 @@ void NearList::watch(double reach, double travel) {
     }
 }
 
-Box box_of(const Features& f, int surface, const NodeField& x, const NodeField& place) {
-  Box box;
-  for (int v : f.surfaces[surface].vertices) box.add(v < f.body_nodes ? x[v] : place[v - f.body_nodes]);
-  return box;
-}
-
 NearList build_list(const Features& f, const NodeField& x, const PlacedTools& tools, const std::vector<Tie>& ties, double radius, Workspace& work) {
-  Builder build(f, x, tools, radius);
-  double clear = std::numeric_limits<double>::infinity();  // of all boxes from one another
-  bool any = false;
-  const double cell = std::max(f.mean_edge, 2 * radius);
-  // The part of either box in which the other can be met; empty: they cannot meet.
-  const auto part_near = [&](const Box& a, const Box& b) {
-    Box near;
-    if (a.empty() || b.empty()) return near;
-    const double distance = a.distance(b);
-    clear = std::min(clear, distance);
-    if (distance > radius) return near;
-    any = true;
-    Box wide_a = a, wide_b = b;
-    wide_a.grow(radius);
-    wide_b.grow(radius);
-    near.low = wide_a.low.cwiseMax(wide_b.low);
-    near.high = wide_a.high.cwiseMin(wide_b.high);
-    return near;
-  };
-  const auto search = [&](int a, const Indexed& b, const Box& near) {
-    build.vertices_against_facets(a, b, near);
-    if (a != b.surface) build.facets_against_vertices(a, b, near);
-    if (f.dimension == 3) build.edges_against_edges(a, b, near);
-  };
-  for (int a = 0; a < f.bodies; ++a) {
-    const Box body = box_of(f, a, x, NodeField());
-    for (size_t t = 0; t < tools.present.size(); ++t) {
-      const int b = f.bodies + static_cast<int>(t);
-      if (!tools.present[t] || !f.relation(a, b).meet) continue;
-      if (tools.is_plane[t]) {
-        build.vertices_against_plane(a, static_cast<int>(t), tools.planes[t]);
-        any = true;
-        continue;
-      }
-      const SurfaceIndex& index = tools.index.of(static_cast<int>(t));
-      if (index.box().empty()) continue;
-      const ToolMotion* motion = tools.motion.empty() ? nullptr : &tools.motion[t];
-      const Box near = part_near(body, motion ? moved(index.box(), *motion) : index.box());
-      if (!near.empty()) search(a, {b, &index, motion}, near);
-    }
-    for (int b = a; b < f.bodies; ++b) {
-      if (!f.relation(a, b).meet) continue;
-      const Box near = part_near(body, b == a ? body : box_of(f, b, x, NodeField()));
-      if (near.empty()) continue;
-      const SurfaceIndex index(f, b, [&](int v) -> const Node& { return x[v]; }, near, cell);
-      search(a, {b, &index}, near);
-    }
-  }
+  const Encounters encounters(f, x, tools, radius);
+  Builder build(f, x, tools, encounters);
+  double clear;
+  const bool any = encounters.each([&](int a, const Indexed& b, const Box& near) { build.search(a, b, near); },
+                                   [&](int a, int tool) { build.vertices_against_plane(a, tool); }, clear);
   std::sort(build.list.groups.begin(), build.list.groups.end(), [](const auto& p, const auto& q) {
     return p.vertex != q.vertex ? p.vertex < q.vertex : p.surface < q.surface;
   });

@@ -32,27 +32,40 @@ std::vector<double> Contact::gaps(const NodeField& x, const std::vector<ToolMoti
   const Features& f = m.features;
   const double reach = gap_reach();
   std::vector<double> gap(x.size(), reach);
-  NodeField place;
-  m.tools.place_all(f, motion, false, place);
-  const std::vector<PlanePose> planes = m.tools.planes(motion);
-  Workspace work;
-  const NearList list = build_list(f, x, {*m.tool_index, motion, ToolSet::present(motion), m.tools.is_plane, planes}, {}, reach + m.layer, work);
-  const auto at = [&](int v) -> const Node& { return v < f.body_nodes ? x[v] : place[v - f.body_nodes]; };
-  for (const auto& g : list.groups) {
-    if (f.rigid(g.vertex)) continue;
-    for (int i = g.first; i < g.last; ++i) {
-      const int facet = list.facets[i].facet;
-      const auto& c = f.facets[facet];
-      const Node& p = at(g.vertex);
-      const double squared = f.dimension == 2 ? closest_on_segment_facet(p, at(c[0]), at(c[1])).squared
-                                              : closest_on_triangle(p, at(c[0]), at(c[1]), at(c[2])).squared;
-      // A tool stands back by the layer from the surface that was given, where its side is known.
-      const bool stands_back = f.rigid(c[0]) && m.sides[facet] != 0;
-      gap[g.vertex] = std::min(gap[g.vertex], std::sqrt(squared) - (stands_back ? m.layer : 0));
+  const PlacedTools tools{*m.tool_index, motion, ToolSet::present(motion), m.tools.is_plane, m.tools.planes(motion)};
+  const Encounters encounters(f, x, tools, reach + m.layer);
+  // From the vertices of a body: the facets around them that are near are asked first, those farther off where none of these is.
+  const auto from_vertices = [&](int own, const Indexed& other, const Box& near) {
+    for (int v : f.surfaces[own].vertices) {
+      if (!near.holds(x[v])) continue;
+      const Node p = other.to_index(x[v]);
+      for (double within = reach / 64;; within *= 2) {
+        within = std::min(within, reach);
+        other.index->facets(Indexed::around(within + m.layer, p), [&](int facet) {
+          if (f.never_meet(v, own, facet, other.surface)) return;
+          const auto& c = f.facets[facet];
+          const auto at = [&](int k) -> const Node& { return encounters.place(c[k]); };
+          const double squared = f.dimension == 2 ? closest_on_segment_facet(p, at(0), at(1)).squared : closest_on_triangle(p, at(0), at(1), at(2)).squared;
+          // A tool stands back by the layer from the surface that was given, where its side is known.
+          const bool stands_back = f.rigid(c[0]) && m.sides[facet] != 0;
+          gap[v] = std::min(gap[v], std::sqrt(squared) - (stands_back ? m.layer : 0));
+        });
+        if (gap[v] <= within) break;
+      }
     }
-  }
-  for (const auto& p : list.planes)
-    gap[p.vertex] = std::min(gap[p.vertex], dot3(x[p.vertex] - planes[p.tool].point, planes[p.tool].normal) - m.layer);
+  };
+  const auto of_surfaces = [&](int a, const Indexed& b, const Box& near) {
+    from_vertices(a, b, near);
+    if (b.surface == a || b.surface >= f.bodies) return;
+    const SurfaceIndex index = encounters.index_of_body(a, near);
+    from_vertices(b.surface, {a, &index}, near);
+  };
+  double unused;
+  encounters.each(of_surfaces, [&](int a, int tool) {
+    const PlanePose& plane = tools.planes[tool];
+    for (int v : f.surfaces[a].vertices)
+      if (!f.tied_to_plane(f.relation(a, f.bodies + tool), v)) gap[v] = std::min(gap[v], dot3(x[v] - plane.point, plane.normal) - m.layer);
+  }, unused);
   return gap;
 }
 

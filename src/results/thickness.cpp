@@ -6,39 +6,19 @@
 #include <limits>
 #include <unsupported/Eigen/BVH>
 
+#include "forming_sim/contact/grid.h"
+
 namespace forming_sim {
 namespace {
 
-struct PlacedFacet {
-  Vec3 a, b, c;
-};
-
+/// What is in a tree; KdBVH and BVMinimize find bounding_box through the namespace.
 struct PlacedNode {
   Vec3 x;
   int index;
 };
-
-// What is in a tree; KdBVH and BVMinimize find these through their namespace.
-Eigen::AlignedBox3d bounding_box(const PlacedFacet& facet) { return Eigen::AlignedBox3d(facet.a).extend(facet.b).extend(facet.c); }
 Eigen::AlignedBox3d bounding_box(const PlacedNode& node) { return Eigen::AlignedBox3d(node.x); }
 
-template <class Object> Eigen::KdBVH<double, 3, Object> tree_of(const std::vector<Object>& objects) {
-  std::vector<Eigen::AlignedBox3d> boxes;
-  for (const Object& object : objects) boxes.push_back(bounding_box(object));
-  return {objects.begin(), objects.end(), boxes.begin(), boxes.end()};
-}
-
-/// What BVMinimize asks for: the distance of one point.
-struct DistanceFrom {
-  using Scalar = double;
-  Vec3 point;
-  double minimumOnVolume(const Eigen::AlignedBox3d& box) const { return box.exteriorDistance(point); }
-  double minimumOnObject(const PlacedFacet& facet) const {
-    return distance_to_facet(point, facet.a, facet.b, facet.c);
-  }
-};
-
-/// Likewise, and keeps which node was the nearest.
+/// What BVMinimize asks for: the distance from one point; keeps which node was the nearest.
 struct NearestNode {
   using Scalar = double;
   Vec3 point;
@@ -51,6 +31,13 @@ struct NearestNode {
     return distance;
   }
 };
+
+using NodeTree = Eigen::KdBVH<double, 3, PlacedNode>;
+int nearest_node(const NodeTree& tree, const Vec3& point) {
+  NearestNode nearest{point};
+  Eigen::BVMinimize(tree, nearest);
+  return nearest.index;
+}
 
 double distance_to_segment(const Vec3& point, const Vec3& a, const Vec3& b) {
   const Vec3 edge = b - a;
@@ -87,17 +74,15 @@ Thickness::Thickness(const Model& model) {
       sheet.bottom.push_back(nodes);
     }
     if (sheet.bottom.empty()) continue;
-    std::vector<PlacedNode> placed;
+    std::vector<PlacedNode> top_nodes, facets;  // these by their first nodes
     for (int node : top->second) {
-      placed.push_back({mesh.nodes[node], static_cast<int>(sheet.top.size())});
+      top_nodes.push_back({mesh.nodes[node], static_cast<int>(sheet.top.size())});
       sheet.top.push_back(body.first_node + node);
     }
-    const auto tree = tree_of(placed);
-    for (const Vec3& X : mesh.nodes) {
-      NearestNode nearest{X};
-      Eigen::BVMinimize(tree, nearest);
-      sheet.above.push_back(nearest.index);
-    }
+    for (std::size_t i = 0; i < sheet.bottom.size(); ++i) facets.push_back({mesh.nodes[sheet.bottom[i][0] - body.first_node], static_cast<int>(i)});
+    const NodeTree top_tree(top_nodes.begin(), top_nodes.end()), bottom_tree(facets.begin(), facets.end());
+    for (const Vec3& X : mesh.nodes) sheet.above.push_back(nearest_node(top_tree, X));
+    for (const PlacedNode& node : top_nodes) sheet.below.push_back(nearest_node(bottom_tree, node.x));
     sheets_.push_back(std::move(sheet));
   }
   if (any()) start_ = at(start);
@@ -105,14 +90,31 @@ Thickness::Thickness(const Model& model) {
 
 std::vector<double> Thickness::at(const NodeField& positions) const {
   std::vector<double> thickness(positions.size(), std::numeric_limits<double>::quiet_NaN());
+  const auto known = [&](int node) { return positions[node].allFinite(); };
   for (const Sheet& sheet : sheets_) {
-    std::vector<PlacedFacet> facets;
-    for (const auto& nodes : sheet.bottom) facets.push_back({vec3(positions[nodes[0]]), vec3(positions[nodes[1]]), vec3(positions[nodes[2]])});
-    const auto tree = tree_of(facets);
+    if (!std::all_of(sheet.top.begin(), sheet.top.end(), known)) continue;
+    if (!std::all_of(sheet.bottom.begin(), sheet.bottom.end(), [&](const auto& c) { return known(c[0]) && known(c[1]) && known(c[2]); })) continue;
+    std::vector<Box> boxes;
+    Box all;
+    double size = 0;
+    for (const auto& facet : sheet.bottom) {
+      boxes.push_back(Box::of(positions[facet[0]], positions[facet[1]], positions[facet[2]]));
+      all.add(boxes.back());
+      size += (boxes.back().high - boxes.back().low).norm() / sheet.bottom.size();
+    }
+    const Grid grid(std::move(boxes), all, std::max(size, std::numeric_limits<double>::min()));
+    const auto distance = [&](const Node& p, int facet) {
+      const auto& c = sheet.bottom[facet];
+      return distance_to_facet(vec3(p), vec3(positions[c[0]]), vec3(positions[c[1]]), vec3(positions[c[2]]));
+    };
     std::vector<double> of_top;
-    for (int node : sheet.top) {
-      DistanceFrom distance{vec3(positions[node])};
-      of_top.push_back(Eigen::BVMinimize(tree, distance));
+    for (std::size_t i = 0; i < sheet.top.size(); ++i) {
+      const Node& p = positions[sheet.top[i]];
+      double least = distance(p, sheet.below[i]);  // whatever is nearer lies within
+      Box around = Box::of(p);
+      around.grow(least);
+      grid.query(around, [&](int facet) { least = std::min(least, distance(p, facet)); });
+      of_top.push_back(least);
     }
     for (std::size_t i = 0; i < sheet.above.size(); ++i) thickness[sheet.first_node + i] = of_top[sheet.above[i]];
   }

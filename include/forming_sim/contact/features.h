@@ -74,6 +74,13 @@ struct Features {
   bool tied_to_facet(const Relation& relation, int vertex, int facet) const {
     return relation.tie >= 0 && tied_zones[relation.tie][vertex] && holds(touching_facets, key(vertex, facet));
   }
+  bool tied_to_plane(const Relation& relation, int vertex) const { return relation.tie >= 0 && tied_zones[relation.tie][vertex]; }
+  /// The vertex of surface `own` is one of the facet's, or tied to it.
+  bool never_meet(int vertex, int own, int facet, int other) const {
+    const auto& c = facets[facet];
+    if (own == other && (c[0] == vertex || c[1] == vertex || c[2] == vertex)) return true;
+    return tied_to_facet(relation(own, other), vertex, facet);
+  }
   bool tied_edges(const Relation& relation, int e, int other) const {
     return relation.tie >= 0 && tied_zones[relation.tie][edges[e].node[0]] && holds(touching_edges, key(std::min(e, other), std::max(e, other)));
   }

@@ -21,7 +21,14 @@ struct Box {
     low.array() -= r;
     high.array() += r;
   }
+  /// Around these points.
+  template <class... Points> static Box of(const Points&... points) {
+    Box box;
+    (box.add(points), ...);
+    return box;
+  }
   bool empty() const { return low[0] > high[0]; }
+  bool holds(const Node& p) const { return overlaps(of(p)); }
   /// i: 0 ... 7.
   Vec3 corner(int i) const { return Vec3(i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2]); }
   bool overlaps(const Box& b) const {

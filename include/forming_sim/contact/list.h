@@ -4,10 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include "forming_sim/contact/features.h"
-#include "forming_sim/contact/grid.h"
+#include "forming_sim/contact/encounters.h"
 #include "forming_sim/contact/pair.h"
-#include "forming_sim/contact/surface_index.h"
 
 namespace forming_sim {
 
@@ -58,25 +56,9 @@ struct NearList {
   long size() const { return static_cast<long>(facets.size() + edges.size() + planes.size() + ties.size()); }
 };
 
-/// A plane in the world as a step begins, and its normal as the step ends.
-struct PlanePose {
-  Node point = Node::Zero(), normal = Node::Zero(), end_normal = Node::Zero();
-};
-
-/// The tools of a search.
-struct PlacedTools {
-  const ToolIndex& index;
-  const std::vector<ToolMotion>& motion;   ///< position0, rotation0 take what the index has to the world; empty: it is of the world
-  std::vector<bool> present, is_plane;     ///< per tool
-  std::vector<PlanePose> planes;           ///< per tool, used where it is a plane
-};
-
 /// Lists all pairs of features within `radius` of a body and a tool, of two
 /// bodies, and of a body and itself where it meets itself and the features share no node;
 /// numbers the workspace (vertex, body_entries; the feet of planes, then those of ties, stand last).
 NearList build_list(const Features& features, const NodeField& x, const PlacedTools& tools, const std::vector<Tie>& ties, double radius, Workspace& work);
-
-/// Box of the vertices of a surface at their places now; place: of all tool vertices, index vertex - body_nodes.
-Box box_of(const Features& features, int surface, const NodeField& x, const NodeField& place);
 
 }  // namespace forming_sim

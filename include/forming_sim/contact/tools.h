@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "forming_sim/contact/features.h"
-#include "forming_sim/contact/list.h"
+#include "forming_sim/contact/encounters.h"
 
 namespace forming_sim {
 

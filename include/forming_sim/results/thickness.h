@@ -20,7 +20,7 @@ class Thickness {
   bool any() const { return !sheets_.empty(); }
 
   /// Per node of the model, m: that of a node of `top`, and below it that of the nearest node of `top` at the start.
-  /// NaN on bodies that are no sheets. Positions in the joined numbering.
+  /// NaN on bodies that are no sheets, or are lost to numbers that are not finite. Positions in the joined numbering.
   std::vector<double> at(const NodeField& positions) const;
   /// 1 - t/t0 of what at() gave, t0 at the start: 0.2 where a fifth is gone, below 0 where the sheet is thicker.
   std::vector<double> thinning(const std::vector<double>& thickness) const;
@@ -31,6 +31,7 @@ class Thickness {
     std::vector<int> top;
     std::vector<std::array<int, 3>> bottom;  ///< a segment repeats its second node
     std::vector<int> above;                  ///< per node of the body: place in top
+    std::vector<int> below;                  ///< per node of top: a facet of bottom that lay near it at the start
   };
   std::vector<Sheet> sheets_;
   std::vector<double> start_;  ///< at() of the start
