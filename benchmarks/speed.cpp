@@ -48,6 +48,8 @@ class SpeedReport {
     for (const SpeedFamily& family : kSpeedFamilies)
       for (const SpeedMotion& motion : kSpeedMotions)
         for (int threads : {1, 2}) add(family, motion, elements, threads, 1);
+    for (const SpeedFamily& family : kSpeedFamilies)
+      if (is_one_point(family.kind)) add(family, kBending, elements, 1, 1);
     std::printf("\nfive layers of plasticity\n\n");
     head();
     for (const SpeedFamily& family : kSpeedFamilies) add(family, kForming, elements, 1, 5);
@@ -88,7 +90,7 @@ class SpeedReport {
     line.elements = block.elements();
     line.times = block.measure(elements > 300000 ? 3 : 10);
     line.bytes = block.step_bytes() / static_cast<double>(line.elements);
-    line.operations = layers == 1 ? operations_of_step(family, motion) : kNothing;
+    line.operations = layers == 1 && motion.bending == 0 ? operations_of_step(family, motion) : kNothing;
     lines_.push_back(line);
     print_and_keep(line, clock.seconds());
   }

@@ -27,12 +27,14 @@ struct SpeedMotion {
   const char* name;
   double start;     ///< strain along the body before the first step
   double per_step;  ///< strain along the body in a step
+  double bending = 0;  ///< strain in a step that bending adds along its outermost fibres, towards y in the plane, z in space
 
   bool yields() const { return start > 0; }
 };
 constexpr SpeedMotion kElastic{"elastic", 0, 1e-9};          ///< far from the yield stress
 constexpr SpeedMotion kForming{"forming", 0.03, 1e-6};       ///< all of it yields, as in a forming run of some hundred thousand steps
 constexpr SpeedMotion kImpactFlow{"full flow", 0.03, 3e-4};  ///< all of it yields, as in an impact
+constexpr SpeedMotion kBending{"forming and bending", 0.03, 1e-6, 1e-6};  ///< one-point cells flow by what varies across them too
 constexpr SpeedMotion kSpeedMotions[] = {kElastic, kForming, kImpactFlow};
 
 /// Stretches of the axes of a body whose strain along itself is e: the volume stays to first order.

@@ -42,9 +42,15 @@ SteppedBlock::SteppedBlock(const SpeedFamily& family, const SpeedMotion& motion,
   engine_ = std::make_unique<Elements>(std::vector<BodyModel>{std::move(body)}, dimension, X, options, threads);
   for (const GroupPlan& group : engine_->plan()) elements_ += group.elements;
   const Vec3 start = stretches(family, dimension, motion.start), rate = (stretches(family, dimension, motion.per_step) - Vec3::Ones()) / kDt;
+  const int up = dimension - 1;
+  double height = 0;
+  for (const Node& at : X) height = std::max(height, at[up]);
   for (std::size_t i = 0; i < X.size(); ++i) {
     x_[i] = node(start.cwiseProduct(vec3(X[i])));
     v_[i] = node(rate.cwiseProduct(vec3(X[i])));
+    const double turned = motion.bending / kDt * X[i][0] / height;  // of the section at x, 1/s
+    v_[i][0] -= turned * X[i][up];
+    v_[i][up] += 0.5 * turned * X[i][0];
   }
   v_before_ = v_;
   turn(2);  // the memory follows the first stretch

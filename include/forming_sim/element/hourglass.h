@@ -28,6 +28,9 @@
 // curve along the flow and relaxes across it, as the points of a fine mesh would; where S = 0, s is bounded such that the moment
 // of the cell is that of the rectangle of yield stress. The last mode relaxes as the mean does.
 // What the variation dissipates beside the mean is s : d ep V0/3.
+#include <array>
+#include <utility>
+
 #include "forming_sim/element/hourglass_flow.h"
 #include "forming_sim/element/one_point_ring.h"
 #include "forming_sim/material/law.h"
@@ -163,22 +166,39 @@ template <class T, int D, bool Ring = false> class Hourglass {
     if constexpr (D == 3) store(memory, d * kPlaneItems<D> + 2, ep.shear);
   }
 
-  /// The cell's axes E_m turned as its edges are: the orthonormal vectors nearest to the edges' directions,
-  /// A <- (A + A^-T)/2, which ends at the rotation of the polar decomposition. Not F^-1 S F, in which shear
-  /// would grow with the ratio of the stretches.
+  /// The cell's axes E_m turned as its edges are: the orthonormal vectors nearest to the edges' directions, the rotation of their
+  /// polar decomposition. Not F^-1 S F, in which shear would grow with the ratio of the stretches.
   struct Axes {
     Vector<T, D> e[D];
     explicit Axes(const Edges<T, D, Ring>& edges) {
-      Edges<T, D> a;
-      for (int m = 0; m < D; ++m) a.x[m] = T(1) / sqrt(dot(edges.x[m], edges.x[m])) * edges.x[m];
-      for (int k = 0; k < 5; ++k) {
-        find_reciprocal(a);
-        for (int m = 0; m < D; ++m)
-          for (int i = 0; i < D; ++i) a.x[m][i] = T(0.5) * (a.x[m][i] + a.up[m][i]);
+      T length[D];
+      for (int m = 0; m < D; ++m) length[m] = sqrt(dot(edges.x[m], edges.x[m]));
+      if constexpr (D == 2) {  // e_1 and e_2 turned back by a quarter lie on either side of it
+        const Vector<T, 2>&x = edges.x[0], &y = edges.x[1];
+        const Vector<T, 2> a = {{length[1] * x[0] + length[0] * y[1], length[1] * x[1] - length[0] * y[0]}};
+        e[0] = T(1) / sqrt(dot(a, a)) * a;
+        e[1] = {{-e[0][1], e[0][0]}};
+      } else {  // A <- (A + A^-T)/2: what is apart by d is so by d^2/2 then
+        Edges<T, D> a;
+        T apart(1);
+        const T one = T(1) / (length[0] * length[1] * length[2]);
+        for (int m = 0; m < D; ++m) a.x[m] = one * length[(m + 1) % 3] * length[(m + 2) % 3] * edges.x[m];
+        for (int k = 0; k < 5 && any(apart > T(1e-16)); ++k) {
+          find_reciprocal(a);
+          apart = T(0);
+          for (int m = 0; m < D; ++m) {
+            const Vector<T, D> d = a.up[m] - a.x[m];
+            apart += dot(d, d);
+            a.x[m] += T(0.5) * d;
+          }
+        }
+        for (int m = 0; m < D; ++m) e[m] = a.x[m];
       }
-      for (int m = 0; m < D; ++m) e[m] = a.x[m];
     }
   };
+  template <std::size_t... d> static std::array<PlaneOf<T, D>, D> planes_of(const Fibres<T, D>& turned, const double* constants, std::index_sequence<d...>) {
+    return {PlaneOf<T, D>(turned, constants, static_cast<int>(d))...};
+  }
 
   /// A B + B A
   static Symmetric<T, D> twice_symmetric_product(const Symmetric<T, D>& A, const Symmetric<T, D>& B) {
@@ -244,7 +264,8 @@ template <class T, int D, bool Ring = false> class Hourglass {
       limit = point.yield.value;
       left = point.kept;
       if (may_yield(point, s, hourglass_memory)) {
-        const Flowed after = flow(m, constants_, Outside(edges_, strain_, point), factor, J, memory, hourglass_memory);
+        Outside outside(edges_, strain_, point);
+        const Flowed after = flow(m, moduli_, constants_, outside, factor, J, memory, hourglass_memory);
         point.S = after.S;
         point.dissipation = after.dissipation;
         limit = after.limit;
@@ -285,43 +306,50 @@ template <class T, int D, bool Ring = false> class Hourglass {
     }
   };
   /// All coordinates, one after the other. Out of line: what a step without such a flow has in registers stays there.
-  [[gnu::noinline]] static Flowed flow(const SolidConstants& m, const double* constants, Outside outside, T factor, T J, double* memory, double* hourglass_memory) {
+  [[gnu::noinline]] static Flowed flow(const SolidConstants& m, const PlaneModuli<T>& moduli, const double* constants, Outside& outside, const T& factor, const T& J,
+                                           double* memory, double* hourglass_memory) {
     const Strain& strain = outside.strain;
     PointResponse<T, D>& point = outside.point;
     Edges<T, D, Ring>& edges = outside.edges;
     find_reciprocal(edges);
     constexpr int size = Symmetric<T, D>::size;
-    const PlaneModuli<T> moduli(m);
     const Axes axes(edges);
     const Fibres<T, D> turned(constants, axes.e);
-    const auto plane = [&](int d) { return PlaneOf<T, D>(turned, constants, d); };
-    MeanFlow<T, D> mean{point.S, {}, T(2) * factor, point.yield.value, point.yield.slope, T(0)};
-    repeat<size>([&](auto i) { mean.strain[i] = T(0); });
+    MeanFlow<T, D> mean;
+    repeat<size>([&](auto i) { mean.S[i] = point.S[i]; });
+    mean.modulus = T(2) * factor;
+    mean.sigma = point.yield.value, mean.slope = point.yield.slope, mean.p = T(0);
+    const T over = T(1) / mean.sigma, SS = contract(mean.S, mean.S);
+    // Of every coordinate; share: 1 where its variation takes part, else 0.
+    const auto at = planes_of(turned, constants, std::make_index_sequence<D>());
     Plane<T> ep[D];
-    repeat<D>([&](auto d) { ep[d] = load_plane(hourglass_memory, d); });
-    T rise[D], share[D], most(0);  // p'; 1 where the coordinate's variation takes part, else 0
+    T rise[D], share[D], most(0);
     repeat<D>([&](auto d) {
+      ep[d] = load_plane(hourglass_memory, d);
       load(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise[d]);
-      const T excess = normal<T, D>(mean, moduli.stress(strain.plane[d] - ep[d]), rise[d], plane(d)).excess;
-      share[d] = select(excess > T(1e-12), T(1), T(0));
+      const Plane<T> s = moduli.stress(strain.plane[d] - ep[d]);
+      const Products<T> q{SS, work(s, at[d].part(mean.S)), work(s, deviatoric(s))};
+      share[d] = select(is_outside(Quadratic<T>(q, over, mean.slope * rise[d] * over), 1 + 1e-12), T(1), T(0));
       most = larger(most, share[d]);
     });
     if (any(most > T(0))) {
       // From the trial on: what the law has returned is taken back.
-      const T returned = most * (T(1) / point.kept - T(1));
-      const T dp = sqrt(T(1.5) * contract(mean.S, mean.S)) * returned / (T(1.5) * mean.modulus);
-      for (int i = 0; i < size; ++i) mean.flow(i, -(returned / mean.modulus * mean.S[i]));
-      mean.harden(-dp);
+      const T returned = most * (T(1) / point.kept - T(1)), softer = T(1) / mean.modulus;
+      for (int i = 0; i < size; ++i) mean.S[i] *= T(1) + returned;
+      mean.harden(-(T(2.0 / 3) * softer * returned * sqrt(T(1.5) * SS)));
       repeat<D>([&](auto d) {
         if (!any(share[d] > T(0))) return;
-        point.dissipation += flow_to_surface<T, D>(mean, moduli, strain.plane[d], share[d], ep[d], rise[d], plane(d));
+        point.dissipation += flow_to_surface<T, D>(mean, moduli, strain.plane[d], share[d], ep[d], rise[d], at[d]);
         store_plane(ep[d], hourglass_memory, d);
         store(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise[d]);
       });
       flow_of_mean(mean);
-      take_mean_flow(m, factor, J, edges, mean.strain, mean.p, point, memory);
+      Symmetric<T, D> plastic;
+      for (int i = 0; i < size; ++i) plastic[i] = softer * (point.S[i] - mean.S[i]);
+      take_mean_flow(m, factor, J, edges, plastic, mean.p, point, memory);
     }
-    const T left = smaller(point.kept * mean.sigma / larger(mean.sigma + T(3) * T(moduli.mu) * mean.p, T(0.5) * mean.sigma), T(1));
+    T left(1);
+    if constexpr (D == 3) left = smaller(point.kept * mean.sigma / larger(mean.sigma + T(3) * T(moduli.mu) * mean.p, T(0.5) * mean.sigma), T(1));
     return {point.S, point.dissipation, mean.sigma, left};
   }
 

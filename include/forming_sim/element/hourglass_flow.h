@@ -26,94 +26,112 @@ constexpr double kFaceStress = 2.0 / 3;
 
 /// The mean of a layer while its cell flows.
 template <class T, int D> struct MeanFlow {
-  Symmetric<T, D> S;       ///< Pa
-  Symmetric<T, D> strain;  ///< plastic, of this step
-  T modulus;               ///< of S: twice that of shear, Pa
-  T sigma, slope;          ///< sigma_s and H, Pa
-  T p;                     ///< d p of this step
+  Symmetric<T, D> S;  ///< Pa
+  T modulus;          ///< of S: twice that of shear, Pa
+  T sigma, slope;     ///< sigma_s and H, Pa
+  T p;                ///< d p of this step
 
-  void flow(int i, const T& rate) {
-    strain[i] += rate;
-    S[i] -= modulus * rate;
-  }
   void harden(const T& dp) {
     p += dp;
     sigma += slope * dp;
   }
 };
 
-/// What one coordinate's surface finds.
-template <class T, int D> struct Normal {
-  T excess;                     ///< Q_n + mu - 1
-  Symmetric<T, D> mean, varied;  ///< d(Q_n + mu) by S and by s, 1/Pa
-  T along;                      ///< varied : S
-  T edge;                       ///< |Q_nm| - Q_m/2: above 0 the surface has an edge ahead, where Q_nm changes its sign
+/// What the surface knows of S and s: S:S, S : dev s and dev s : dev s.
+template <class T> struct Products {
+  T SS, Ss, ss;
 };
+
+/// What one coordinate's surface finds. Its gradients lie between S and dev s:
+/// d(Q_n + mu)/dS = along_S S + across dev s, d(Q_n + mu)/ds = across S + along_s dev s, 1/Pa.
+template <class T> struct Normal {
+  T root, over_root;  ///< sqrt(Q_n + mu), at least 1, and 1 over it
+  T along_S, across, along_s;
+  T varied;  ///< d(Q_n + mu)/ds : S
+  T Sm;      ///< S : m/h
+  T edge;    ///< |Q_nm| - Q_m/2: above 0 the surface has an edge ahead, where Q_nm changes its sign
+};
+
+/// dev s as what works on strains of the plane: dev s : dev r = work(s, deviatoric(r)).
+template <class T> Plane<T> deviatoric(const Plane<T>& s) {
+  const T third(1.0 / 3), mean = third * (s.a + s.b);
+  return {s.a - mean, s.b - mean, T(2) * s.shear};
+}
 
 /// The plane in which s lies, of the unit vectors t_1 and t_2 (in 2D t_2 = e_3): where a body has turned, they have
 /// turned with it.
 template <class T, int D> struct PlaneOf {
-  Symmetric<T, D> first, second, across;  ///< t_1 t_1, t_2 t_2, sym(t_1 t_2)
+  Vector<T, D> t, v;  ///< t_1, and in 3D t_2
 
   /// fibres: those that take z, turned with the cell.
   PlaneOf(const Fibres<T, D>& turned, const double* constants, int d) {
     T slope;
     const int i = D == 2 ? d : (d + 1) % 3;
     load(constants, OnePoint<D>::slopes + i, slope);
-    const Vector<T, D> t = T(1) / slope * turned.along[i];
-    if constexpr (D == 2) {
-      first = dyad(t, t);
-      second = {{T(0), T(0), T(1), T(0)}};
-      across = {{T(0), T(0), T(0), T(0)}};
-    } else {
+    const T one = T(1) / slope;
+    t = one * turned.along[i];
+    if constexpr (D == 3) {
       const Skew<T> skew(constants, d);  // t_2 = (u_j - cos u_i)/sin
-      const Vector<T, 3> v = skew.second / slope * turned.along[(d + 2) % 3] - skew.cotangent * t;
-      first = dyad(t, t);
-      second = dyad(v, v);
-      across = dyad(t, v);
+      v = skew.second * one * turned.along[(d + 2) % 3] - skew.cotangent * t;
     }
   }
+  /// dev s: t_1 and t_2 with the tractions w = s t_1 and z = s t_2.
   Symmetric<T, D> deviator(const Plane<T>& s) const {
-    const T mean = T(1.0 / 3) * (s.a + s.b), twice = T(2) * s.shear;
-    Symmetric<T, D> r;
-    for (int n = 0; n < Symmetric<T, D>::size; ++n) r[n] = s.a * first[n] + s.b * second[n] + twice * across[n];
-    for (int n = 0; n < 3; ++n) r[n] -= mean;
-    return r;
+    const T mean = T(1.0 / 3) * (s.a + s.b);
+    if constexpr (D == 2) {
+      return {{s.a * t[0] * t[0] - mean, s.a * t[1] * t[1] - mean, s.b - mean, s.a * t[0] * t[1]}};
+    } else {
+      const Vector<T, 3> w = s.a * t + s.shear * v, z = s.shear * t + s.b * v;
+      return {{t[0] * w[0] + v[0] * z[0] - mean, t[1] * w[1] + v[1] * z[1] - mean, t[2] * w[2] + v[2] * z[2] - mean,
+               t[0] * w[1] + v[0] * z[1], t[1] * w[2] + v[1] * z[2], t[2] * w[0] + v[2] * z[0]}};
+    }
   }
   /// Components of a tensor in the plane, the shear twice.
-  Plane<T> part(const Symmetric<T, D>& a) const { return {contract(first, a), contract(second, a), T(2) * contract(across, a)}; }
-
- private:
-  static Symmetric<T, D> dyad(const Vector<T, D>& t, const Vector<T, D>& v) {
-    const T half(0.5);
-    if constexpr (D == 2) return {{t[0] * v[0], t[1] * v[1], T(0), half * (t[0] * v[1] + t[1] * v[0])}};
-    else return {{t[0] * v[0], t[1] * v[1], t[2] * v[2], half * (t[0] * v[1] + t[1] * v[0]), half * (t[1] * v[2] + t[2] * v[1]), half * (t[2] * v[0] + t[0] * v[2])}};
+  Plane<T> part(const Symmetric<T, D>& a) const {
+    if constexpr (D == 2) {
+      return {a[0] * t[0] * t[0] + a[1] * t[1] * t[1] + T(2) * a[3] * t[0] * t[1], a[2], T(0)};
+    } else {
+      const Vector<T, 3> at = a * t;
+      return {dot(t, at), dot(v, a * v), T(2) * dot(v, at)};
+    }
   }
 };
 
-/// m/h = dev s - H p'/sigma_s S.
-template <class T, int D> Symmetric<T, D> own_part(const MeanFlow<T, D>& mean, const Symmetric<T, D>& S, const Plane<T>& s, const T& rise, const PlaneOf<T, D>& at) {
-  const T back = mean.slope * rise / mean.sigma;
-  Symmetric<T, D> m = at.deviator(s);
-  for (int i = 0; i < Symmetric<T, D>::size; ++i) m[i] -= back * S[i];
-  return m;
+/// Q_n, Q_m and Q_nm; over: 1/sigma_s; back: H p'/sigma_s. m/h = dev s - back S.
+template <class T> struct Quadratic {
+  T scale, Sm, n, m, nm;
+  Quadratic(const Products<T>& q, const T& over, const T& back) {
+    constexpr double h = kFaceStress;
+    scale = T(1.5) * over * over;
+    Sm = q.Ss - back * q.SS;
+    n = scale * q.SS;
+    m = T(h * h) * scale * (q.ss - back * (q.Ss + Sm));
+    nm = T(h) * scale * Sm;
+  }
+  T under_root() const { return T(0.25) * m * m + nm * nm; }
+};
+
+/// Where Q_n + mu > limit, without a root.
+template <class T> auto is_outside(const Quadratic<T>& Q, double limit) {
+  const T left = T(limit) - Q.n - T(0.5) * Q.m;
+  return (left < T(0)) | (Q.under_root() > left * left);
 }
 
-template <class T, int D> Normal<T, D> normal(const MeanFlow<T, D>& mean, const Plane<T>& s, const T& rise, const PlaneOf<T, D>& at) {
+template <class T> [[gnu::always_inline]] inline Normal<T> normal(const Products<T>& q, const T& over, const T& back) {
   constexpr double h = kFaceStress;
-  const T one = T(1) / mean.sigma, scale = T(1.5) * one * one, back = mean.slope * rise * one;
-  const Symmetric<T, D> m = own_part<T, D>(mean, mean.S, s, rise, at);
-  const T Qn = scale * contract(mean.S, mean.S), Qm = T(h * h) * scale * contract(m, m), Qnm = T(h) * scale * contract(mean.S, m);
-  const T root = sqrt(T(0.25) * Qm * Qm + Qnm * Qnm), safe = T(1) / larger(root, T(1e-30));
-  Normal<T, D> r;
-  r.excess = Qn + T(0.5) * Qm + root - T(1);
-  const T cross = T(h) * scale * Qnm * safe, own = T(h * h) * scale * (T(1) + T(0.5) * Qm * safe);
-  for (int i = 0; i < Symmetric<T, D>::size; ++i) {
-    r.varied[i] = own * m[i] + cross * mean.S[i];
-    r.mean[i] = T(2) * scale * mean.S[i] + cross * m[i] - back * r.varied[i];
-  }
-  r.along = contract(r.varied, mean.S);
-  r.edge = absolute(Qnm) - T(0.5) * Qm;
+  const Quadratic<T> Q(q, over, back);
+  const T mu_root = larger(sqrt(Q.under_root()), T(1e-30));
+  Normal<T> r;
+  r.root = sqrt(larger(Q.n + T(0.5) * Q.m + mu_root, T(1)));
+  const T one = T(1) / (mu_root * r.root), safe = one * r.root;
+  r.over_root = one * mu_root;
+  const T by_S = T(h) * Q.scale * Q.nm * safe, by_m = T(h * h) * Q.scale * (T(1) + T(0.5) * Q.m * safe);  // of d mu/dm, by S and by m/h
+  r.along_s = by_m;
+  r.across = by_S - back * by_m;
+  r.along_S = T(2) * Q.scale - back * (by_S + r.across);
+  r.varied = r.along_s * q.Ss + r.across * q.SS;
+  r.Sm = Q.Sm;
+  r.edge = absolute(Q.nm) - T(0.5) * Q.m;
   return r;
 }
 
@@ -121,36 +139,42 @@ template <class T, int D> Normal<T, D> normal(const MeanFlow<T, D>& mean, const 
 /// At the edge where the whole cell flows one way and m comes to lie across S, it goes no further; where m is more than that,
 /// the surface is smooth there, and S, however small, is no reason to stop.
 template <class T, int D>
-T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli<T>& moduli, const Plane<T>& strain, const T& share, Plane<T>& ep, T& rise, const PlaneOf<T, D>& at) {
-  constexpr int size = Symmetric<T, D>::size;
-  const Plane<T> s = moduli.stress(strain - ep);
-  const Normal<T, D> n = normal<T, D>(mean, s, rise, at);
-  const Plane<T> direction = at.part(n.varied), softer = moduli.stress(direction);
+[[gnu::always_inline]] inline T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli<T>& moduli, const Plane<T>& strain, const T& share, Plane<T>& ep, T& rise, const PlaneOf<T, D>& at) {
+  const Plane<T> s = moduli.stress(strain - ep), dev_s = deviatoric(s), part = at.part(mean.S);
+  const Products<T> q{contract(mean.S, mean.S), work(s, part), work(s, dev_s)};
+  const T over = T(1) / mean.sigma, back = mean.slope * rise * over;
+  const Normal<T> n = normal(q, over, back);
+  const Plane<T> direction{n.across * part.a + n.along_s * dev_s.a, n.across * part.b + n.along_s * dev_s.b, n.across * part.shear + n.along_s * dev_s.shear};
+  const Plane<T> softer = moduli.stress(direction);
   // Newton's step on root = sqrt(Q_n + mu), which is of first degree in the stresses: far outside it is the radial return.
-  const T root = sqrt(larger(T(1) + n.excess, T(1))), over = T(1) / mean.sigma, to_root = T(1) / (root * mean.sigma);
-  const T resistance = mean.modulus * contract(n.mean, n.mean) + T(3) * work(softer, direction) +
-                       mean.slope * over * over * (T(4) * root * root * root + T(3) * n.along * n.along);
+  const T& root = n.root;
+  const T squared = n.along_S * (n.along_S * q.SS + T(2) * n.across * q.Ss) + n.across * n.across * q.ss;
+  const T resistance = mean.modulus * squared + T(3) * work(softer, direction) + mean.slope * over * over * (T(4) * root * root * root + T(3) * n.varied * n.varied);
   T L = share * T(2) * root * (root - T(1)) / resistance;
-  Symmetric<T, D> S = mean.S;
-  for (int i = 0; i < size; ++i) S[i] -= mean.modulus * L * n.mean[i];
-  const T three = T(3) * L;
-  const T before = contract(mean.S, own_part<T, D>(mean, mean.S, s, rise, at));
-  const T after = contract(S, own_part<T, D>(mean, S, s - Plane<T>{three * softer.a, three * softer.b, three * softer.shear}, rise, at));
-  const auto turned = (before * after < T(0)) & (n.edge > T(0));
-  L *= select(turned, before / select(turned, before - after, T(1)), T(1));
+  const auto kept = [&] { return T(1) - mean.modulus * L * n.along_S; };  // of S, which loses as much of dev s as
+  const auto lost = [&] { return mean.modulus * L * n.across; };
+  const T three = T(3) * L, S = kept(), m = lost();
+  const T after = S * (q.Ss - three * work(softer, part)) - m * (q.ss - three * work(softer, dev_s)) -
+                  back * (S * (S * q.SS - T(2) * m * q.Ss) + m * m * q.ss);
+  const auto turned = (n.Sm * after < T(0)) & (n.edge > T(0));
+  if (any(turned)) L *= select(turned, n.Sm / select(turned, n.Sm - after, T(1)), T(1));
   const Plane<T> rate{T(3) * L * direction.a, T(3) * L * direction.b, T(3) * L * direction.shear};
+  const Symmetric<T, D> deviator = at.deviator(s);
+  const T keeps = kept(), loses = lost();
+  for (int i = 0; i < Symmetric<T, D>::size; ++i) mean.S[i] = keeps * mean.S[i] - loses * deviator[i];
   ep = {ep.a + rate.a, ep.b + rate.b, ep.shear + rate.shear};
-  rise += T(3) * L * n.along * to_root;
-  for (int i = 0; i < size; ++i) mean.flow(i, L * n.mean[i]);
+  rise += T(3) * L * n.varied * over * n.over_root;
   mean.harden(T(2) * L * over * root);
   return T(1.0 / 3) * work(moduli.stress(strain - ep), rate);
 }
 
 /// The mean alone: back to Q_n = 1, along S.
-template <class T, int D> void flow_of_mean(MeanFlow<T, D>& mean) {
-  const T q = sqrt(T(1.5) * contract(mean.S, mean.S)), stiff = T(1.5) * mean.modulus;
-  const T dp = larger(q - mean.sigma, T(0)) / (stiff + mean.slope), factor = T(1.5) * dp / larger(q, mean.sigma);
-  for (int i = 0; i < Symmetric<T, D>::size; ++i) mean.flow(i, factor * mean.S[i]);
+template <class T, int D> [[gnu::always_inline]] inline void flow_of_mean(MeanFlow<T, D>& mean) {
+  const T q2 = T(1.5) * contract(mean.S, mean.S);
+  if (!any(q2 > mean.sigma * mean.sigma)) return;
+  const T q = sqrt(q2), stiff = T(1.5) * mean.modulus;
+  const T dp = larger(q - mean.sigma, T(0)) / (stiff + mean.slope), kept = T(1) - stiff * dp / larger(q, mean.sigma);
+  for (int i = 0; i < Symmetric<T, D>::size; ++i) mean.S[i] *= kept;
   mean.harden(dp);
 }
 
