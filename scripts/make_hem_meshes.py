@@ -20,7 +20,7 @@ import math
 import pathlib
 import sys
 
-from make_meshes import arc, sweep, write_msh, write_stl
+from make_meshes import arc, turned, write_msh, write_stl
 
 SECTOR_DEG, TOOL_DEG = 16.0, 20.0
 TOOL_FACETS, ARC_FACETS = 10, 8     # round the z axis; in 90 degrees of an edge
@@ -61,12 +61,6 @@ Physical Surface("top") = Surface In BoundingBox{box.format(low + thickness - e,
 """
 
 
-def turned(section):
-    """The closed surface of a convex section in r, z, counter-clockwise as seen from -y."""
-    angles = [math.radians(TOOL_DEG * (i / TOOL_FACETS - 0.5)) for i in range(TOOL_FACETS + 1)]
-    return sweep([[(r * math.cos(a), r * math.sin(a), z) for r, z in section] for a in angles])
-
-
 def anvil():
     return [(22, -HEIGHT), (29.97, -HEIGHT), *arc((29.67, -0.3), 0, 90, 0.3, ARC_FACETS), (22, 0)]
 
@@ -94,7 +88,7 @@ def main():
     write_msh(folder / "hem_outer.msh", panel_geometry(OUTER_PIECES, 0, OUTER, 3, 7))
     write_msh(folder / "hem_inner.msh", panel_geometry(INNER_PIECES, OUTER, INNER, 2, 6))
     for section in (anvil, die, flange_punch, steel, punch):
-        write_stl(folder / f"hem_{section.__name__}.stl", turned(section()))
+        write_stl(folder / f"hem_{section.__name__}.stl", turned(section(), -TOOL_DEG / 2, TOOL_DEG / 2, TOOL_FACETS))
     for path in sorted(folder.glob("hem_*")):
         print(path, path.stat().st_size, "bytes")
 

@@ -9,6 +9,7 @@ punch.stl        above the sheet, beside the wall: it moves down and folds the s
 
 It needs the command gmsh (Debian package gmsh) and numpy.
 """
+import math
 import pathlib
 import subprocess
 import sys
@@ -87,7 +88,7 @@ def punch_section():
 
 def sweep(rings):
     """The closed surface through rings of corners, one ring after the other; the first and
-    the last are closed by convex faces. Triangles n x 3 x 3."""
+    the last are closed by convex faces. Corners on an axis are the same in all rings. Triangles n x 3 x 3."""
     first, last = np.asarray(rings[0]), np.asarray(rings[-1])
     triangles = []
     for i in range(1, len(first) - 1):
@@ -96,12 +97,20 @@ def sweep(rings):
         for i in range(len(near)):
             j = (i + 1) % len(near)
             triangles += [(near[i], far[i], far[j]), (near[i], far[j], near[j])]
-    return np.array(triangles)
+    triangles = np.array(triangles)
+    edges = triangles[:, 1:] - triangles[:, :1]
+    return triangles[np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1) > 0]
 
 
 def straight(section):
     """A section in x, z swept over the tools' width."""
     return sweep([[(x, y, z) for x, z in section] for y in TOOL_WIDTH])
+
+
+def turned(section, start_deg, end_deg, facets):
+    """A convex section in r, z, counter-clockwise as seen from -y, turned about the z axis."""
+    angles = [math.radians((start_deg + end_deg) / 2 + (end_deg - start_deg) * (i / facets - 0.5)) for i in range(facets + 1)]
+    return sweep([[(r * math.cos(a), r * math.sin(a), z) for r, z in section] for a in angles])
 
 
 def write_stl(path, triangles):

@@ -1,4 +1,4 @@
-// The files in meshes/ are what scripts/make_meshes.py and scripts/make_hem_meshes.py say of them.
+// The files in meshes/ are what scripts/make_meshes.py, make_hem_meshes.py and make_cup_meshes.py say of them.
 #include <algorithm>
 #include <cmath>
 
@@ -126,6 +126,40 @@ TEST(MeshShipped, TheToolsOfTheHemAreClosedAndLeaveRoomForTheFlange) {
   EXPECT_NEAR(bounds(tools["anvil"]).max().z(), 0, 1e-9);
   EXPECT_NEAR(bounds(tools["die"]).min().z(), .93 * mm, 1e-9);
   EXPECT_NEAR(bounds(tools["punch"]).min().z(), 8.5 * mm, 1e-9);
+}
+
+// ---- the cup in 3D: the same, over a quarter and some more
+
+TEST(MeshShipped, TheToolsOfTheCupAreClosedAndHaveTheSectionsOfItsPlaneScene) {
+  struct Tool {
+    const char* name;
+    double wall, face, edge, inner;  ///< radius of the wall; z of the face; of its edge; where the axis of that lies
+    int up;                          ///< the face looks up, or down
+  };
+  for (const Tool& tool : {Tool{"cup_die.stl", 21.3, 0, 5, 26.3, 1}, Tool{"cup_holder.stl", 22, 1, 2, 24, -1}, Tool{"cup_punch.stl", 20, 1, 4, 16, -1}}) {
+    SCOPED_TRACE(tool.name);
+    std::vector<std::string> notes;
+    const Mesh mesh = load_tool_surface(file(tool.name), kMeshes, notes);
+    EXPECT_TRUE(notes.empty());
+    EXPECT_EQ(euler_characteristic(mesh), 2);
+    EXPECT_LT(sum_of_areas(mesh).norm(), 1e-9 * area(mesh));
+    EXPECT_GT(enclosed(mesh), 0);  // points outwards
+    int on_edge = 0, on_face = 0, on_wall = 0;
+    for (const Vec3& x : mesh.nodes) {
+      const double angle = std::atan2(x.y(), x.x()) * 180 / M_PI, deep = tool.up * (tool.face * mm - x.z());
+      EXPECT_TRUE(radius(x) < 1e-9 || (angle > -6.001 && angle < 96.001)) << angle;
+      EXPECT_GT(deep, -1e-9);  // nothing before the face
+      on_face += deep < 1e-9;
+      on_wall += std::abs(radius(x) - tool.wall * mm) < 1e-9;
+      const bool beside = tool.inner > tool.wall ? radius(x) < (tool.inner - .01) * mm : radius(x) > (tool.inner + .01) * mm;
+      if (!beside || deep > tool.edge * mm) continue;
+      EXPECT_NEAR(std::hypot(radius(x) - tool.inner * mm, deep - tool.edge * mm), tool.edge * mm, 1e-9);
+      ++on_edge;
+    }
+    EXPECT_EQ(on_edge, 9 * 35);
+    EXPECT_GE(on_face, 35);
+    EXPECT_EQ(on_wall, 2 * 35);
+  }
 }
 
 }  // namespace
