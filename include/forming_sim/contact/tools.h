@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "forming_sim/contact/features.h"
 #include "forming_sim/contact/encounters.h"
+#include "forming_sim/contact/features.h"
 
 namespace forming_sim {
 

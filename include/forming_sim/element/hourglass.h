@@ -307,7 +307,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
   };
   /// All coordinates, one after the other. Out of line: what a step without such a flow has in registers stays there.
   [[gnu::noinline]] static Flowed flow(const SolidConstants& m, const PlaneModuli<T>& moduli, const double* constants, Outside& outside, const T& factor, const T& J,
-                                           double* memory, double* hourglass_memory) {
+                                       double* memory, double* hourglass_memory) {
     const Strain& strain = outside.strain;
     PointResponse<T, D>& point = outside.point;
     Edges<T, D, Ring>& edges = outside.edges;

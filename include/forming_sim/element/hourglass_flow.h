@@ -139,7 +139,8 @@ template <class T> [[gnu::always_inline]] inline Normal<T> normal(const Products
 /// At the edge where the whole cell flows one way and m comes to lie across S, it goes no further; where m is more than that,
 /// the surface is smooth there, and S, however small, is no reason to stop.
 template <class T, int D>
-[[gnu::always_inline]] inline T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli<T>& moduli, const Plane<T>& strain, const T& share, Plane<T>& ep, T& rise, const PlaneOf<T, D>& at) {
+[[gnu::always_inline]] inline T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli<T>& moduli, const Plane<T>& strain, const T& share, Plane<T>& ep, T& rise,
+                                                const PlaneOf<T, D>& at) {
   const Plane<T> s = moduli.stress(strain - ep), dev_s = deviatoric(s), part = at.part(mean.S);
   const Products<T> q{contract(mean.S, mean.S), work(s, part), work(s, dev_s)};
   const T over = T(1) / mean.sigma, back = mean.slope * rise * over;
@@ -151,17 +152,15 @@ template <class T, int D>
   const T squared = n.along_S * (n.along_S * q.SS + T(2) * n.across * q.Ss) + n.across * n.across * q.ss;
   const T resistance = mean.modulus * squared + T(3) * work(softer, direction) + mean.slope * over * over * (T(4) * root * root * root + T(3) * n.varied * n.varied);
   T L = share * T(2) * root * (root - T(1)) / resistance;
-  const auto kept = [&] { return T(1) - mean.modulus * L * n.along_S; };  // of S, which loses as much of dev s as
-  const auto lost = [&] { return mean.modulus * L * n.across; };
-  const T three = T(3) * L, S = kept(), m = lost();
-  const T after = S * (q.Ss - three * work(softer, part)) - m * (q.ss - three * work(softer, dev_s)) -
-                  back * (S * (S * q.SS - T(2) * m * q.Ss) + m * m * q.ss);
+  const T of_S = mean.modulus * n.along_S, of_s = mean.modulus * n.across;  // S becomes (1 - L of_S) S - L of_s dev s
+  const T kept = T(1) - L * of_S, lost = L * of_s, three = T(3) * L;
+  const T after = kept * (q.Ss - three * work(softer, part)) - lost * (q.ss - three * work(softer, dev_s)) -
+                  back * (kept * (kept * q.SS - T(2) * lost * q.Ss) + lost * lost * q.ss);
   const auto turned = (n.Sm * after < T(0)) & (n.edge > T(0));
   if (any(turned)) L *= select(turned, n.Sm / select(turned, n.Sm - after, T(1)), T(1));
   const Plane<T> rate{T(3) * L * direction.a, T(3) * L * direction.b, T(3) * L * direction.shear};
   const Symmetric<T, D> deviator = at.deviator(s);
-  const T keeps = kept(), loses = lost();
-  for (int i = 0; i < Symmetric<T, D>::size; ++i) mean.S[i] = keeps * mean.S[i] - loses * deviator[i];
+  for (int i = 0; i < Symmetric<T, D>::size; ++i) mean.S[i] = (T(1) - L * of_S) * mean.S[i] - L * of_s * deviator[i];
   ep = {ep.a + rate.a, ep.b + rate.b, ep.shear + rate.shear};
   rise += T(3) * L * n.varied * over * n.over_root;
   mean.harden(T(2) * L * over * root);
