@@ -82,8 +82,7 @@ bool meet(int split, int count, const Node* x, const Node* d, double least, Clos
 
 bool point_meets_facet(int corners, const Node* x, const Node* d, double least) {
   return meet(1, 1 + corners, x, d, least, [corners](const Node* at) -> Node {
-    const Closest c = corners == 2 ? closest_on_segment_facet(at[0], at[1], at[2]) : closest_on_triangle(at[0], at[1], at[2], at[3]);
-    return c.apart;
+    return closest_on_facet(corners, at[0], at[1], at[2], at[corners]).apart;
   });
 }
 

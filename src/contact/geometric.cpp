@@ -38,7 +38,7 @@ double Contact::Impl::nearest_side(const NearList::VertexGroup& g, double deepes
   for (int i = g.first; i < g.last; ++i) {
     const NearList::FacetEntry& e = list.facets[i];
     const Node &a = work.x[e.node[0]], &b = work.x[e.node[1]], &c = work.x[e.node[features.corners() - 1]];
-    const Closest q = features.dimension == 2 ? closest_on_segment_facet(p, a, b) : closest_on_triangle(p, a, b, c);
+    const Closest q = closest_on_facet(features.corners(), p, a, b, c);
     if (q.squared > best * (1 + 1e-9)) continue;
     const Node outward = sides[e.facet] * facet_normal(features.dimension, a, b, c);
     const double along = dot3(q.apart, outward), distance = std::sqrt(q.squared);

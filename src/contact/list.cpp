@@ -135,7 +135,7 @@ class Builder {
   // Keeps vertex v of surface `own`, at p, and a facet of surface `other`, at q, r, s, where they are near enough.
   void meet(int v, int own, const Node& p, int facet, int other, const Node& q, const Node& r, const Node& s) {
     if (f_.never_meet(v, own, facet, other)) return;
-    const double squared = f_.dimension == 2 ? closest_on_segment_facet(p, q, r).squared : closest_on_triangle(p, q, r, s).squared;
+    const double squared = closest_on_facet(f_.corners(), p, q, r, s).squared;
     if (squared <= radius_ * radius_) found_.push_back({v, facet, std::sqrt(squared)});
   }
 

@@ -146,7 +146,7 @@ std::vector<Verdict> vote(const Features& f, int surface, const Patches& patches
     for (int i = s.first_facet; i < s.last_facet; ++i) {
       const auto& c = f.facets[i];
       const Node& third = f.dimension == 2 ? at(c[1]) : at(c[2]);
-      const Closest q = f.dimension == 2 ? closest_on_segment_facet(p, at(c[0]), at(c[1])) : closest_on_triangle(p, at(c[0]), at(c[1]), third);
+      const Closest q = closest_on_facet(f.corners(), p, at(c[0]), at(c[1]), third);
       Nearest& best = nearest[patches.of_facet[i - s.first_facet]];
       if (q.squared > best.squared * (1 + 1e-9)) continue;
       const Node& d = q.apart;

@@ -54,7 +54,7 @@ class Start {
         const auto& c = f_.facets[facet];
         if (f_.about_ties(f_.relation(f_.vertex_surface[g.vertex], g.surface), std::array<int, 1>{g.vertex}, c)) continue;
         const Node& third = at(c[f_.corners() - 1]);
-        const Closest q = f_.dimension == 2 ? closest_on_segment_facet(p, at(c[0]), at(c[1])) : closest_on_triangle(p, at(c[0]), at(c[1]), third);
+        const Closest q = closest_on_facet(f_.corners(), p, at(c[0]), at(c[1]), third);
         const Node& d = q.apart;
         const int side = f_.rigid(c[0]) ? sides_[facet] : f_.facet_outward[facet];
         const Node n = side * facet_normal(f_.dimension, at(c[0]), at(c[1]), third);

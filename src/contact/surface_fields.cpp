@@ -44,8 +44,7 @@ std::vector<double> Contact::gaps(const NodeField& x, const std::vector<ToolMoti
         other.index->facets(Indexed::around(within + m.layer, p), [&](int facet) {
           if (f.never_meet(v, own, facet, other.surface)) return;
           const auto& c = f.facets[facet];
-          const auto at = [&](int k) -> const Node& { return encounters.place(c[k]); };
-          const double squared = f.dimension == 2 ? closest_on_segment_facet(p, at(0), at(1)).squared : closest_on_triangle(p, at(0), at(1), at(2)).squared;
+          const double squared = closest_on_facet(f.corners(), p, encounters.place(c[0]), encounters.place(c[1]), encounters.place(c[f.corners() - 1])).squared;
           // A tool stands back by the layer from the surface that was given, where its side is known.
           const bool stands_back = f.rigid(c[0]) && m.sides[facet] != 0;
           gap[v] = std::min(gap[v], std::sqrt(squared) - (stands_back ? m.layer : 0));

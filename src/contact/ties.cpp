@@ -42,10 +42,6 @@ struct TiedPair {
   double near = 0;          ///< up to which features that touch the other surface do not meet its features, m
 };
 
-Closest closest_on_facet(const Features& f, const Node& p, const Node* const corner[3]) {
-  return f.dimension == 2 ? closest_on_segment_facet(p, *corner[0], *corner[1]) : closest_on_triangle(p, *corner[0], *corner[1], *corner[2]);
-}
-
 // The frame that goes with the second feature of a tie: of a facet, or of an edge and the direction of the one across it.
 // place(k): of the k-th node.
 template <class Place> Mat3 frame_of(const Tie& tie, Place&& place) {
@@ -183,7 +179,7 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
       for (int i = g.first; i < g.last; ++i) {
         const auto& c = f.facets[list.facets[i].facet];
         const Node* const corner[3] = {&at(c[0]), &at(c[1]), &at(c[f.corners() - 1])};
-        const Closest q = closest_on_facet(f, at(g.vertex), corner);
+        const Closest q = closest_on_facet(f.corners(), at(g.vertex), *corner[0], *corner[1], *corner[f.corners() - 1]);
         if (q.squared <= pair.near * pair.near) near.push_back(list.facets[i].facet);
         if (q.squared > pair.distance * pair.distance || (facet >= 0 && q.squared >= nearest.squared)) continue;
         nearest = q;

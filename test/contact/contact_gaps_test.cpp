@@ -38,7 +38,7 @@ std::vector<double> all_distances(const World& world, double reach) {
           if (s.surface->plane) gap[n] = std::min(gap[n], (vec3(p) - pose0(motion[other - world.bodies.size()], s.surface->point)).dot(s.surface->normal));
           for (const Facet& f : s.surface->facets) {
             const auto at = [&](int i) -> const Node& { return s.x[f.nodes[i]]; };
-            const double squared = world.dimension == 2 ? closest_on_segment_facet(p, at(0), at(1)).squared : closest_on_triangle(p, at(0), at(1), at(2)).squared;
+            const double squared = closest_on_facet(world.dimension, p, at(0), at(1), at(world.dimension - 1)).squared;
             gap[n] = std::min(gap[n], std::sqrt(squared));
           }
         }

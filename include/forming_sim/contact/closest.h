@@ -82,6 +82,11 @@ inline Closest closest_on_triangle(const Node& p, const Node& a, const Node& b, 
   return found;
 }
 
+/// Of a facet of 2 corners, which is its segment ab, or 3.
+inline Closest closest_on_facet(int corners, const Node& p, const Node& a, const Node& b, const Node& c) {
+  return corners == 2 ? closest_on_segment_facet(p, a, b) : closest_on_triangle(p, a, b, c);
+}
+
 /// Closest points a0 + s (a1 - a0) and b0 + t (b1 - b0) of two segments.
 struct ClosestEdges {
   double s = 0, t = 0;
