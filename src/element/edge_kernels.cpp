@@ -1,4 +1,6 @@
 // The loops over the points at edges (element/edge_points.h), compiled once per vector width (see CMakeLists.txt).
+#include <algorithm>
+
 #include "element/block.h"
 #include "forming_sim/element/edge_points.h"
 #include "forming_sim/element/time_step.h"
@@ -41,48 +43,60 @@ template <int D, bool Ring, class Pull> void add_forces(const CellGroup& g, long
 
 double* memory_of_point(const CellGroup& g, long block) { return g.memory + block * g.items * kLanes; }
 
-/// The points of N blocks from `block` on, for material/von_mises_points.h.
-template <int D, bool Ring, int N> struct BlocksOfPoints {
-  const CellGroup& g;
+/// The points of a block: a bundle for material/von_mises_points.h.
+template <int D, bool Ring> struct BlockOfPoints {
+  const CellGroup* group;
+  const NodalView* view;
   long block;
-  Vector<Pack, D> x[N][kEdges<D, Ring>];
-  Pack dissipated[N];
+  Vector<Pack, D> x[kEdges<D, Ring>];
+  Pack dissipated;
 
-  BlocksOfPoints(const CellGroup& g, const NodalView& view, long block) : g(g), block(block) {
-    for (int i = 0; i < N; ++i) {
-      fetch_memory(g, memory(i), 8);
-      const long row = g.rows[block + i], weights = (g.rows[block + i + 1] - row) * edge_weights(D, Ring);
-      fetch_ahead(weights_of<D, Ring>(g, row), 8 * weights * static_cast<long>(sizeof(Lane)), weights);
-      const Edges<Pack, D, Ring> e = edges_of_point<D, Ring>(g, view, block + i);
-      for (int m = 0; m < kEdges<D, Ring>; ++m) x[i][m] = e.x[m];
-      dissipated[i] = Pack(0.0);
-    }
+  void set(const CellGroup& g, const NodalView& of, long b) {
+    group = &g;
+    view = &of;
+    block = b;
   }
-  double* memory(int i) const { return memory_of_point(g, block + i); }
-  void edges(int i, Edges<Pack, D, Ring>& e) const {
-    for (int m = 0; m < kEdges<D, Ring>; ++m) e.x[m] = x[i][m];
+  const CellGroup& g() const { return *group; }
+  void open() {
+    fetch_memory(g(), memory(0), 8);
+    const long row = g().rows[block], weights = (g().rows[block + 1] - row) * edge_weights(D, Ring);
+    fetch_ahead(weights_of<D, Ring>(g(), row), 8 * weights * static_cast<long>(sizeof(Lane)), weights);
+    const Edges<Pack, D, Ring> e = edges_of_point<D, Ring>(g(), *view, block);
+    for (int m = 0; m < kEdges<D, Ring>; ++m) x[m] = e.x[m];
+    dissipated = Pack(0.0);
   }
-  Pack ratio(int i, const Edges<Pack, D, Ring>& e) const {
-    const Pack J = simplex_volume<Pack, D, Ring>(e.x) / initial_volume(g, memory(i));
-    g.upright[block + i] = all(J > Pack(0.0));
+  double* memory(int) const { return memory_of_point(g(), block); }
+  void edges(int, Edges<Pack, D, Ring>& e) const {
+    for (int m = 0; m < kEdges<D, Ring>; ++m) e.x[m] = x[m];
+  }
+  Pack ratio(int, const Edges<Pack, D, Ring>& e) const {
+    const Pack J = simplex_volume<Pack, D, Ring>(e.x) / initial_volume(g(), memory(0));
+    g().upright[block] = all(J > Pack(0.0));
     return J;
   }
-  void dissipate(int i, const Pack& what) { dissipated[i] += what * initial_volume(g, memory(i)); }
-  template <class Pull> void respond(int i, const Edges<Pack, D, Ring>& e, const Pull& pull, const CellGroup& group) const { add_forces(group, block + i, e, pull); }
+  void dissipate(int, const Pack& what) { dissipated += what * initial_volume(g(), memory(0)); }
+  const CellGroup& start_forces() const { return g(); }
+  template <class Pull> void respond(int, const Edges<Pack, D, Ring>& e, const Pull& pull, const CellGroup& sums) const { add_forces(sums, block, e, pull); }
+  void close(const CellGroup&) const { g().plastic_work[block] += sum_of_first(dissipated, lanes_in_use(g(), block)); }
 };
 
-template <int D, bool Ring, int N> [[gnu::flatten]] void forces_of_blocks(const CellGroup& g, const NodalView& view, long block) {
-  BlocksOfPoints<D, Ring, N> points(g, view, block);
-  von_mises_points<N, Pack, D, Ring>(g.solid, points, g);
-  for (int i = 0; i < N; ++i) g.plastic_work[block + i] += sum_of_first(points.dissipated[i], lanes_in_use(g, block + i));
+/// Blocks that go through the law together.
+constexpr int kTogether = 4;
+
+template <int D, bool Ring> [[gnu::flatten]] void forces_of_blocks(const CellGroup& g, const NodalView& view, long block, int count) {
+  BlockOfPoints<D, Ring> blocks[kTogether];
+  for (int b = 0; b < count; ++b) blocks[b].set(g, view, block + b);
+  von_mises_points<1, kTogether, Pack, D, Ring>(g.solid, blocks, count);
 }
 
 template <int D, bool Ring> [[gnu::flatten]] void hyperelastic_forces_of_block(const CellGroup& g, const NodalView& view, long block) {
-  BlocksOfPoints<D, Ring, 1> points(g, view, block);
+  BlockOfPoints<D, Ring> at;
+  at.set(g, view, block);
+  at.open();
   Edges<Pack, D, Ring> e;
-  points.edges(0, e);
+  at.edges(0, e);
   find_normals(e);
-  points.respond(0, e, pull_of<D, Ring>(hyperelastic_step(g.solid, e, points.ratio(0, e), points.memory(0)).S), g);
+  at.respond(0, e, pull_of<D, Ring>(hyperelastic_step(g.solid, e, at.ratio(0, e), at.memory(0)).S), g);
 }
 
 template <int D, bool Ring> void observe_block(const CellGroup& g, const NodalView& view, long block, double* stress, double* ratio, double* energy) {
@@ -138,14 +152,10 @@ template <class Work> void with_dimension(const CellGroup& g, Work&& work) {
 
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
   with_dimension(g, [&](auto D, auto ring) {
-    constexpr int together = 4;
-    int b = first;
-    if (!of_von_mises(g.solid.law)) {
-      for (; b < last; ++b) hyperelastic_forces_of_block<D, ring>(g, view, b);
-      return;
-    }
-    for (; b + together <= last; b += together) forces_of_blocks<D, ring, together>(g, view, b);
-    for (; b < last; ++b) forces_of_blocks<D, ring, 1>(g, view, b);
+    if (of_von_mises(g.solid.law))
+      for (int b = first; b < last; b += kTogether) forces_of_blocks<D, ring>(g, view, b, std::min(kTogether, last - b));
+    else
+      for (int b = first; b < last; ++b) hyperelastic_forces_of_block<D, ring>(g, view, b);
   });
 }
 void observe(const CellGroup& g, const NodalView& view, int first, int last, double* stress, double* ratio, double* energy) {

@@ -1,6 +1,8 @@
 // The loops over elements, compiled once per vector width (see CMakeLists.txt).
 // Only raw arrays and types of this width's namespace are used here, so that no
 // inline function of a wider instruction set can leak into the rest of the program.
+#include <algorithm>
+
 #include "element/bulk_viscosity.h"
 #include "element/classical_block.h"
 #include "element/one_point_block.h"
@@ -52,8 +54,10 @@ void pressures(const CellGroup& g, long block, const double* constants, const Pa
   }
 }
 
-/// Simplices of a cell that go through the law at a time.
+/// Simplices of a cell that go through the law at a time, and blocks of cells: about eight points together keep a processor busy while
+/// each waits for its own roots and divisions, and fit into its first cache.
 template <class Cell> constexpr int kPoints = Cell::simplices % 6 == 0 ? 6 : Cell::simplices;
+template <class Cell> constexpr int kBlocks = kD<Cell> == 2 ? 8 / Cell::simplices : 1;
 
 /// Forces of the simplices of a block, summed by its nodes.
 template <class Cell> struct BlockForces {
@@ -61,9 +65,12 @@ template <class Cell> struct BlockForces {
   const double* constants;
   const Vector<Pack, D>* x;
   Vector<Pack, D> on_node[Cell::nodes], on_drawn[kDrawn<Cell>];
-  Pack hoops{0.0};
+  Pack hoops;
 
-  BlockForces(const double* constants, const Vector<Pack, D>* x) : constants(constants), x(x) {
+  [[gnu::always_inline]] void start(const double* its_constants, const Vector<Pack, D>* its_x) {
+    constants = its_constants;
+    x = its_x;
+    hoops = Pack(0.0);
     repeat<Cell::nodes>([&](auto a) { repeat<D>([&](auto i) { on_node[a][i] = Pack(0.0); }); });
     repeat<kDrawn<Cell>>([&](auto a) { repeat<D>([&](auto i) { on_drawn[a][i] = Pack(0.0); }); });
   }
@@ -96,93 +103,129 @@ template <class Cell> struct BlockForces {
   }
 };
 
-/// What the law sees of a block of cells of simplices: n of them from `first` on are points of material/von_mises_points.h.
-template <class Cell, int n> struct BlockPoints {
-  static constexpr int D = kD<Cell>;
-  const CellGroup& g;
+/// A block of cells of simplices in a step: n of its simplices from `first` on are a bundle of material/von_mises_points.h.
+template <class Cell, int n> struct BlockInStep {
+  static constexpr int D = kD<Cell>, simplices = Cell::simplices;
+  const CellGroup* group;
+  const NodalView* view;
   long block;
   const double* constants;
-  const Vector<Pack, D>* x;
-  const Pack *J, *p;  ///< of each simplex: of its volume
-  Vector<Pack, D> drawn[kDrawn<Cell>];
-  Pack dissipated{0.0};  ///< J
+  Vector<Pack, D> x[Cell::nodes], drawn[kDrawn<Cell>];
+  Pack J[simplices], p[simplices];  ///< of each simplex: of its volume
+  Pack dissipated;  ///< J
   Mask upright;
   int first = 0;
+  BlockForces<Cell> kept[n == simplices ? 0 : 1];  ///< from bundle to bundle
 
-  BlockPoints(const CellGroup& g, long block, const double* constants, const Vector<Pack, D>* x, const Pack* J, const Pack* p)
-      : g(g), block(block), constants(constants), x(x), J(J), p(p), upright(J[0] > Pack(0.0)) {
+  void set(const CellGroup& g, const NodalView& of, long b) {
+    group = &g;
+    view = &of;
+    block = b;
+  }
+  const CellGroup& g() const { return *group; }
+  const int* nodes() const { return g().nodes + block * Cell::nodes * kLanes; }
+
+  [[gnu::always_inline]] void open() {
+    if (first > 0) return;
+    Pack V[simplices];
+    gather(V);
+    pressures<Cell>(g(), block, constants, V, J, p);
+    if (is_viscous(g())) add_viscosity();
+  }
+  [[gnu::always_inline]] void gather(Pack* V) {
+    constants = constants_of<Cell>(g(), block);
+    gather_ways<Cell>(nodes(), view->x, x);
+    find_volumes<Cell>(g(), block, constants, x, V, J);
     if constexpr (Cell::drawn) draw<Cell>(constants, x, drawn);
+    upright = J[0] > Pack(0.0);
+    dissipated = Pack(0.0);
+  }
+  void add_viscosity() {
+    const Pack q = viscosity_of_block<Cell>(g(), *view, block);
+    for (int s = 0; s < simplices; ++s) p[s] += q;
   }
 
   /// Simplex of point i; without a sum where they are all of the cell's, so that the compiler knows it.
-  [[gnu::always_inline]] int simplex(int i) const { return n == Cell::simplices ? i : first + i; }
-  [[gnu::always_inline]] double* memory(int i) const { return memory_of<Cell>(g, block, simplex(i)); }
+  [[gnu::always_inline]] int simplex(int i) const { return n == simplices ? i : first + i; }
+  [[gnu::always_inline]] double* memory(int i) const { return memory_of<Cell>(g(), block, simplex(i)); }
   [[gnu::always_inline]] void edges(int i, CellEdges<Cell>& e) const { law_edges<Cell>(constants, x, drawn, simplex(i), e.x); }
   /// J that the law sees.
   [[gnu::always_inline]] Pack ratio(int i, const CellEdges<Cell>& e) {
-    fetch_memory(g, memory(i), 16);
-    const Pack of_law = Cell::drawn ? simplex_volume<Pack, D, Cell::ring>(e.x) / initial_volume(g, memory(i)) : J[simplex(i)];
+    fetch_memory(g(), memory(i), 16);
+    const Pack of_law = Cell::drawn ? simplex_volume<Pack, D, Cell::ring>(e.x) / initial_volume(g(), memory(i)) : J[simplex(i)];
     upright = upright & (J[simplex(i)] > Pack(0.0)) & (of_law > Pack(0.0));
     return of_law;
   }
-  [[gnu::always_inline]] void dissipate(int i, const Pack& what) { dissipated += what * initial_volume(g, memory(i)); }
+  [[gnu::always_inline]] void dissipate(int i, const Pack& what) { dissipated += what * initial_volume(g(), memory(i)); }
   template <class Pull> [[gnu::always_inline]] void respond(int i, const CellEdges<Cell>& e, const Pull& pull, BlockForces<Cell>& forces) const {
-    fetch_initial_volume(g, memory(i), Cell::simplices);  // for the pressures of the next block
+    fetch_initial_volume(g(), memory(i), simplices);  // for the pressures of the next block
     forces.add(simplex(i), e, pull, p[simplex(i)]);
+  }
+  [[gnu::always_inline]] decltype(auto) start_forces() {
+    if constexpr (n == simplices) {
+      BlockForces<Cell> forces;
+      forces.start(constants, x);
+      return forces;
+    } else {
+      if (first == 0) kept[0].start(constants, x);
+      return (kept[0]);
+    }
+  }
+  [[gnu::always_inline]] void close(BlockForces<Cell>& forces) const {
+    if (first + n < simplices) return;
+    if constexpr (Cell::drawn) hand_back<Cell>(constants, forces.on_drawn, forces.on_node);
+    balance_apex<Cell>(forces.hoops, forces.on_node);
+    g().plastic_work[block] += sum_of_first(dissipated, lanes_in_use(g(), block));
+    g().upright[block] = all(upright);
+    const int* slots = g().slots + block * Cell::nodes * kLanes;
+    for (int a = 0; a < Cell::nodes; ++a) add_vectors(forces.on_node[a], slots + a * kLanes, g().sums);
   }
 };
 
-template <class Cell, Made made>
-[[gnu::flatten]] void forces_of_block(const CellGroup& g, const NodalView& view, long block) {
+/// Of the law of material/von_mises.h.
+template <class Cell, Made made> [[gnu::flatten]] void forces_of_several(const CellGroup& g, const NodalView& view, long block, int count) {
+  constexpr int n = kPoints<Cell>, most = kBlocks<Cell>, D = kD<Cell>;
+  BlockInStep<Cell, n> blocks[most];
+  for (int b = 0; b < count; ++b) blocks[b].set(g, view, block + b);
+  for (int first = 0; first < Cell::simplices; first += n) {
+    blocks[0].first = first;
+    if constexpr (made == Made::one_layer) one_layer_of_points<n, most, Pack, D, Cell::ring>(g.solid, blocks, count);
+    else layers_of_points<n, most, Pack, D, Cell::ring>(g.solid, blocks, count);
+  }
+}
+
+/// Of any other, one simplex after the other.
+template <class Cell> [[gnu::flatten]] void forces_of_any_law(const CellGroup& g, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
-  const double* constants = constants_of<Cell>(g, block);
-  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
-  Vector<Pack, D> x[Cell::nodes];
-  gather_ways<Cell>(nodes, view.x, x);
-
-  Pack V[Cell::simplices], J[Cell::simplices], p[Cell::simplices];
-  find_volumes<Cell>(g, block, constants, x, V, J);
-  Vector<Pack, D> v[Cell::nodes];  // only where the law asks for velocities
-  const bool classical = made == Made::any && g.solid.law == Law::classical;
-  if (classical) gather_ways<Cell>(nodes, view.v, v);
-  if (classical) classical_pressures<Cell>(g, view, block, x, v, p);
-  else pressures<Cell>(g, block, constants, V, J, p);
-  Vector<Pack, D> drawn_v[kDrawn<Cell>];
-  if constexpr (Cell::drawn)
-    if (classical) draw<Cell>(constants, v, drawn_v);
-  const int in_use = lanes_in_use(g, block);
-  if (is_viscous(g)) {
-    const Pack q = viscosity_of_block<Cell>(g, view, block);
-    for (int s = 0; s < Cell::simplices; ++s) p[s] += q;
+  BlockInStep<Cell, 1> at;
+  at.set(g, view, block);
+  Vector<Pack, D> v[Cell::nodes], drawn_v[kDrawn<Cell>];  // only where the law asks for velocities
+  const bool classical = g.solid.law == Law::classical;
+  if (classical) {
+    Pack V[Cell::simplices];
+    at.gather(V);
+    gather_ways<Cell>(at.nodes(), view.v, v);
+    classical_pressures<Cell>(g, view, block, at.x, v, at.p);
+    if (is_viscous(g)) at.add_viscosity();
+    if constexpr (Cell::drawn) draw<Cell>(at.constants, v, drawn_v);
+  } else {
+    at.open();
   }
-
-  constexpr int n = made == Made::any ? 1 : kPoints<Cell>;
-  BlockForces<Cell> forces(constants, x);
-  BlockPoints<Cell, n> points(g, block, constants, x, J, p);
-  for (; points.first < Cell::simplices; points.first += n) {
-    if constexpr (made == Made::one_layer) one_layer_of_points<n, Pack, D, Cell::ring>(g.solid, points, forces);
-    if constexpr (made == Made::layers) layers_of_points<n, Pack, D, Cell::ring>(g.solid, points, forces);
-    if constexpr (made == Made::any) {
-      CellEdges<Cell> e;
-      points.edges(0, e);
-      find_reciprocal(e);
-      Vector<Pack, D> w[kE<Cell>];
-      if (classical) {
-        law_edges<Cell>(constants, v, drawn_v, points.first, w);
-        moved<Cell>(view, w);
-      }
-      const PointResponse<Pack, D> point = point_step(g.solid, e, classical ? w : nullptr, points.ratio(0, e), points.memory(0), Keep::yes);
-      points.dissipate(0, point.dissipation);
-      points.respond(0, e, pull_of<D, Cell::ring>(point.S), forces);
+  auto&& forces = at.start_forces();
+  for (; at.first < Cell::simplices; ++at.first) {
+    CellEdges<Cell> e;
+    at.edges(0, e);
+    find_reciprocal(e);
+    Vector<Pack, D> w[kE<Cell>];
+    if (classical) {
+      law_edges<Cell>(at.constants, v, drawn_v, at.first, w);
+      moved<Cell>(view, w);
     }
+    const PointResponse<Pack, D> point = point_step(g.solid, e, classical ? w : nullptr, at.ratio(0, e), at.memory(0), Keep::yes);
+    at.dissipate(0, point.dissipation);
+    at.respond(0, e, pull_of<D, Cell::ring>(point.S), forces);
   }
-  if constexpr (Cell::drawn) hand_back<Cell>(constants, forces.on_drawn, forces.on_node);
-  balance_apex<Cell>(forces.hoops, forces.on_node);
-  g.plastic_work[block] += sum_of_first(points.dissipated, in_use);
-  g.upright[block] = all(points.upright);
-
-  const int* slots = g.slots + block * Cell::nodes * kLanes;
-  for (int a = 0; a < Cell::nodes; ++a) add_vectors(forces.on_node[a], slots + a * kLanes, g.sums);
+  at.close(forces);
 }
 
 template <class Cell>
@@ -296,9 +339,12 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
 
 template <class Cell, Made made> void forces_of_blocks(const CellGroup& g, const NodalView& view, int first, int last) {
   const PlaneModuli<Pack> moduli(g.solid);
-  for (int b = first; b < last; ++b) {
-    if constexpr (Cell::one_point) forces_of_one_point_block<Cell, made>(g, moduli, view, b);
-    else forces_of_block<Cell, made>(g, view, b);
+  if constexpr (Cell::one_point) {
+    for (int b = first; b < last; ++b) forces_of_one_point_block<Cell, made>(g, moduli, view, b);
+  } else if constexpr (made == Made::any) {
+    for (int b = first; b < last; ++b) forces_of_any_law<Cell>(g, view, b);
+  } else {
+    for (int b = first; b < last; b += kBlocks<Cell>) forces_of_several<Cell, made>(g, view, b, std::min(kBlocks<Cell>, last - b));
   }
 }
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
