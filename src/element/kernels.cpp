@@ -54,10 +54,10 @@ void pressures(const CellGroup& g, long block, const double* constants, const Pa
   }
 }
 
-/// Simplices of a cell that go through the law at a time, and blocks of cells: about eight points together keep a processor busy while
-/// each waits for its own roots and divisions, and fit into its first cache.
+/// Simplices of a cell that go through the law at a time, and blocks of cells: some eight points keep a processor busy while each
+/// waits for its own roots and divisions; of several layers there is more to keep of a point, and half of them fill its first cache.
 template <class Cell> constexpr int kPoints = Cell::simplices % 6 == 0 ? 6 : Cell::simplices;
-template <class Cell> constexpr int kBlocks = kD<Cell> == 2 ? 8 / Cell::simplices : 1;
+template <class Cell, Made made> constexpr int kBlocks = kD<Cell> == 2 ? (made == Made::one_layer ? 8 : 4) / Cell::simplices : 1;
 
 /// Forces of the simplices of a block, summed by its nodes.
 template <class Cell> struct BlockForces {
@@ -184,7 +184,7 @@ template <class Cell, int n> struct BlockInStep {
 
 /// Of the law of material/von_mises.h.
 template <class Cell, Made made> [[gnu::flatten]] void forces_of_several(const CellGroup& g, const NodalView& view, long block, int count) {
-  constexpr int n = kPoints<Cell>, most = kBlocks<Cell>, D = kD<Cell>;
+  constexpr int n = kPoints<Cell>, most = kBlocks<Cell, made>, D = kD<Cell>;
   BlockInStep<Cell, n> blocks[most];
   for (int b = 0; b < count; ++b) blocks[b].set(g, view, block + b);
   for (int first = 0; first < Cell::simplices; first += n) {
@@ -344,7 +344,8 @@ template <class Cell, Made made> void forces_of_blocks(const CellGroup& g, const
   } else if constexpr (made == Made::any) {
     for (int b = first; b < last; ++b) forces_of_any_law<Cell>(g, view, b);
   } else {
-    for (int b = first; b < last; b += kBlocks<Cell>) forces_of_several<Cell, made>(g, view, b, std::min(kBlocks<Cell>, last - b));
+    for (int b = first; b < last; b += kBlocks<Cell, made>)
+      forces_of_several<Cell, made>(g, view, b, std::min(kBlocks<Cell, made>, last - b));
   }
 }
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {

@@ -171,66 +171,80 @@ TEST(VonMises, EightPointsAtOnceAreEightPoints) {
 using OnEdges = std::array<Vector<double, 3>, 3>;  ///< V sigma . x^m
 constexpr double kPressure = 3e7;
 
-/// Points for material/von_mises_points.h, and what they are told.
-struct SomePoints {
-  std::vector<Edges<double, 3>> e;
-  std::vector<double> J, dissipated;
-  std::vector<std::vector<double>> items;
+/// N points, a bundle of material/von_mises_points.h, and what they are told.
+template <int N> struct SomePoints {
+  Edges<double, 3> e[N];
+  double J[N], dissipated[N];
+  std::vector<double> items[N];
+  OnEdges forces[N];
+  bool is_open = false, is_closed = false;
 
+  void open() { is_open = true; }
   void edges(int i, Edges<double, 3>& to) const { std::copy(e[i].x, e[i].x + 3, to.x); }
-  double ratio(int i, const Edges<double, 3>&) const { return J[i]; }
+  double ratio(int i, const Edges<double, 3>&) const {
+    EXPECT_TRUE(is_open);
+    return J[i];
+  }
   double* memory(int i) { return items[i].data(); }
   void dissipate(int i, double what) { dissipated[i] += what; }
-  template <class Pull> void respond(int i, const Edges<double, 3>& with_normals, Pull pull, std::vector<OnEdges>& forces) const {
+  OnEdges* start_forces() { return forces; }
+  template <class Pull> void respond(int i, const Edges<double, 3>& with_normals, Pull pull, OnEdges* sums) const {
     EXPECT_DOUBLE_EQ(with_normals.det, e[i].det);
     pull.add(kPressure);
-    for (int m = 0; m < 3; ++m) forces[i][m] = pull.on(with_normals, m);
+    for (int m = 0; m < 3; ++m) sums[i][m] = pull.on(with_normals, m);
   }
+  void close(OnEdges*) { is_closed = true; }
 };
 
-/// A step of N points in passes, of which some or all yield, against one after the other.
-template <int N> void compare_with_one_after_the_other(int layers, double last) {
+/// A step of `count` bundles of N points, at most M, of which some or all yield, in passes, against one point after the other.
+template <int N, int M> void compare_with_one_after_the_other(int count, int layers, double last) {
   SolidConstants solid = solid_of(70.5e9, 0.34, voce(192.1e6, 429.8e6, 8.504));
   solid.layers = layers;
   for (int k = 0; k < layers; ++k) solid.layer[k].weight = 1.0 / layers;
   if (layers > 1) solid.layer[1].hardening = perfect(300e6);
-  SomePoints points;
-  double stretch[N];
-  for (int i = 0; i < N; ++i) {
-    stretch[i] = i + 1 == N ? last : 0.01 + 0.002 * i;
+  SomePoints<N> bundles[M];
+  double stretch[N * M];
+  for (int i = 0; i < count * N; ++i) {
+    stretch[i] = i + 1 == count * N ? last : 0.01 + 0.002 * i;
+    SomePoints<N>& points = bundles[i / N];
+    const int s = i % N;
     Edges<double, 3> e;
     e.x[0] = {{1 + stretch[i], 0.2 * stretch[i], 0}};
     e.x[1] = {{0, 1 - 0.5 * stretch[i], 0}};
     e.x[2] = {{0, 0, 1}};
     find_reciprocal(e);
-    points.e.push_back(e);
-    points.J.push_back(6 * e.volume);
-    points.items.emplace_back();
-    for (int k = 0; k < layers; ++k) points.items[i].insert(points.items[i].end(), {1, 1, 1, 0, 0, 0, 0.01 * k});
+    points.e[s] = e;
+    points.J[s] = 6 * e.volume;
+    points.dissipated[s] = 0;
+    for (int k = 0; k < layers; ++k) points.items[s].insert(points.items[s].end(), {1, 1, 1, 0, 0, 0, 0.01 * k});
   }
-  points.dissipated.assign(N, 0.0);
-  std::vector<OnEdges> forces(N);
-  std::vector<std::vector<double>> alone = points.items;
-  von_mises_points<N, double, 3, false>(solid, points, forces);
-  for (int i = 0; i < N; ++i) {
-    const PointResponse<double, 3> one = von_mises_step(solid, points.e[i], points.J[i], alone[i].data(), Keep::yes);
+  std::vector<std::vector<double>> alone;
+  for (int i = 0; i < count * N; ++i) alone.push_back(bundles[i / N].items[i % N]);
+  von_mises_points<N, M, double, 3, false>(solid, bundles, count);
+  for (int i = 0; i < count * N; ++i) {
+    const SomePoints<N>& points = bundles[i / N];
+    const int s = i % N;
+    EXPECT_TRUE(points.is_closed);
+    const PointResponse<double, 3> one = von_mises_step(solid, points.e[s], points.J[s], alone[i].data(), Keep::yes);
     EXPECT_EQ(alone[i][6] > 0, stretch[i] > 0) << "point " << i;
     Symmetric<double, 3> sigma = one.S;
     for (int c = 0; c < 3; ++c) sigma[c] += kPressure;
     for (int m = 0; m < 3; ++m) {
-      const Vector<double, 3> exact = points.e[i].volume * (sigma * points.e[i].up[m]);
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(forces[i][m][c], exact[c], 1e-3);
+      const Vector<double, 3> exact = points.e[s].volume * (sigma * points.e[s].up[m]);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(points.forces[s][m][c], exact[c], 1e-3);
     }
-    EXPECT_NEAR(points.dissipated[i], one.dissipation, 1e-11 * one.dissipation);
-    for (std::size_t item = 0; item < alone[i].size(); ++item) EXPECT_NEAR(points.items[i][item], alone[i][item], 1e-13);
+    EXPECT_NEAR(points.dissipated[s], one.dissipation, 1e-11 * one.dissipation);
+    for (std::size_t item = 0; item < alone[i].size(); ++item) EXPECT_NEAR(points.items[s][item], alone[i][item], 1e-13);
   }
 }
 TEST(VonMises, PointsInPassesArePointsOneAfterTheOther) {
   for (int layers : {1, 2})
     for (double last : {0.0, 0.004, 0.02}) {
-      compare_with_one_after_the_other<1>(layers, last);
-      compare_with_one_after_the_other<4>(layers, last);
-      compare_with_one_after_the_other<6>(layers, last);
+      compare_with_one_after_the_other<1, 1>(1, layers, last);
+      compare_with_one_after_the_other<1, 4>(4, layers, last);
+      compare_with_one_after_the_other<1, 4>(3, layers, last);
+      compare_with_one_after_the_other<6, 1>(1, layers, last);
+      compare_with_one_after_the_other<2, 3>(2, layers, last);
     }
 }
 

@@ -48,11 +48,11 @@ template <class T> YieldStress<T> yield_stress(const HardeningCurve& h, const T&
   return {T(1e300), T(0), T(0)};
 }
 
-/// (1 - e^-s)/s for |s| <= kShortWay, by its Taylor polynomial, to round-off.
-constexpr double kShortWay = 1.0 / 64;
+/// (1 - e^-s)/s for |s| <= kShortWay, by its Taylor polynomial, to 1.4e-15.
+constexpr double kShortWay = 1.0 / 256;
 template <class T> T mean_decay(const T& s) {
-  const T s2 = s * s, s4 = s2 * s2;
-  return (T(1) - T(1.0 / 2) * s) + s2 * (T(1.0 / 6) - T(1.0 / 24) * s) + s4 * (T(1.0 / 120) - T(1.0 / 720) * s + s2 * T(1.0 / 5040));
+  const T s2 = s * s;
+  return (T(1) - T(1.0 / 2) * s) + s2 * ((T(1.0 / 6) - T(1.0 / 24) * s) + s2 * T(1.0 / 120));
 }
 
 /// sigma_s at p + dp, given what it is at p: after the short way of one step the exponential of
