@@ -23,7 +23,7 @@ def main():
     rows = [
         ("scene", f"{s['scene']} ({kinematics})"),
         ("status", s["status"]["message"]),
-        ("mesh", f"{s['elements']} elements, {s['nodes']} nodes"),
+        ("mesh", f"{s['cells']} cells, {s['elements']} elements, {s['nodes']} nodes"),
         ("time", f"{number(s['sim_time_s'], 1e3)} ms simulated in {s['steps']} steps, {number(s['wall_time_s'])} s of solving"),
         ("speed", f"{number(s['ns_per_element_step'])} ns per element and step"),
         ("time step", f"{number(s['time_step_s']['first'])} s at first, {number(s['time_step_s']['min'])} s at least, limited by {s['time_step_s']['limited_by']}"),

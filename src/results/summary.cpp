@@ -151,13 +151,19 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
                const std::string& message) {
   const Model& model = simulation.model();
   const Measures& now = gauge.at(simulation);
-  const double element_steps = static_cast<double>(model.element_count()) * static_cast<double>(simulation.steps());
+  long cells = 0, stepped = 0;
+  for (const GroupPlan& group : simulation.groups()) {
+    cells += group.cells;
+    stepped += group.elements;
+  }
+  const double element_steps = static_cast<double>(stepped) * static_cast<double>(simulation.steps());
   const StepLimit smallest = simulation.smallest_step();
   const ContactStatus contact = simulation.contact_status();
 
   Json j = head(scene, code, message);
   j["per_metre_of_width"] = model.per_width();
   j["nodes"] = model.node_count();
+  j["cells"] = cells;
   j["elements"] = model.element_count();
   j["steps"] = simulation.steps();
   j["sim_time_s"] = number(simulation.time());

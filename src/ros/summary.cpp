@@ -58,6 +58,7 @@ RunSummary read_summary(const std::string& directory) {
   summary.dimension = static_cast<int>(count(root, "/dimension"));
   summary.axisymmetric = root.value("axisymmetric", false);
   summary.nodes = count(root, "/nodes");
+  summary.cells = count(root, "/cells");
   summary.elements = count(root, "/elements");
   summary.steps = count(root, "/steps");
   summary.sim_time_s = number(root, "/sim_time_s");

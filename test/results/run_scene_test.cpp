@@ -77,6 +77,20 @@ void expect_same_frames(const std::string& path, const std::string& expected_pat
   }
 }
 
+// A one-point cell is shown as two triangles, and stepped as one element.
+TEST(RunScene, TellsCellsFromElements) {
+  const TemporaryDirectory directory;
+  Scene scene = small_scene();
+  scene.bodies[0].blank->pattern = "one_point";
+  scene.stages.resize(1);
+  scene.stages[0].duration = 1e-5;
+  run_scene(scene, directory.path(), 1, "", kNever);
+  const json summary = read_json(directory.file("summary.json"));
+  EXPECT_EQ(summary["cells"], 20);
+  EXPECT_EQ(summary["elements"], 40);
+  EXPECT_NEAR(summary["ns_per_element_step"].get<double>() * 20 * summary["steps"].get<double>(), 1e9 * summary["wall_time_s"].get<double>(), 1);
+}
+
 TEST(RunScene, LeavesFilesThatAgreeWithEachOther) {
   const TemporaryDirectory directory;
   const Outcome outcome = run_scene(small_scene(), directory.path(), 1, "", kNever);
@@ -84,7 +98,9 @@ TEST(RunScene, LeavesFilesThatAgreeWithEachOther) {
   const json summary = read_json(directory.file("summary.json"));
   EXPECT_EQ(summary["status"]["code"], static_cast<int>(outcome.code));
   EXPECT_EQ(summary["scene"], "small");
+  EXPECT_EQ(summary["cells"], 20);
   EXPECT_EQ(summary["elements"], 80);
+  EXPECT_NEAR(summary["ns_per_element_step"].get<double>() * 80 * summary["steps"].get<double>(), 1e9 * summary["wall_time_s"].get<double>(), 1);
   EXPECT_EQ(summary["nodes"], 53);
   EXPECT_LT(summary["energy_J"]["balance_error"].get<double>(), 0.02);
   EXPECT_EQ(summary["contact"]["crossings"], 0);

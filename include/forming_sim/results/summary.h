@@ -2,7 +2,8 @@
 // summary.json: what came of a run. Written at its end, whatever the end was.
 //
 //   status {code, name, message}, version, scene, dimension, axisymmetric, resumed_at_s, warnings
-//   nodes, elements, steps, sim_time_s, wall_time_s, ns_per_element_step
+//   nodes, cells, elements, steps, sim_time_s, wall_time_s, ns_per_element_step
+//                   elements: the triangles or tetrahedra of result.h5; speed: of a one-point cell as one element
 //   time_step_s {first, min, limited_by}
 //   energy_J {kinetic, elastic, plastic, contact, friction, damping, work, initial,
 //             balance_error, kinetic_over_internal, kinetic_over_internal_formed,
