@@ -115,7 +115,8 @@ template <class Cell, int n> struct BlockInStep {
   Pack dissipated;  ///< J
   Mask upright;
   int first = 0;
-  BlockForces<Cell> kept[n == simplices ? 0 : 1];  ///< from bundle to bundle
+  struct Nothing {};
+  std::conditional_t<n == simplices, Nothing, BlockForces<Cell>> sums;  ///< of a block that is several bundles
 
   void set(const CellGroup& g, const NodalView& of, long b) {
     group = &g;
@@ -167,8 +168,8 @@ template <class Cell, int n> struct BlockInStep {
       forces.start(constants, x);
       return forces;
     } else {
-      if (first == 0) kept[0].start(constants, x);
-      return (kept[0]);
+      if (first == 0) sums.start(constants, x);
+      return (sums);
     }
   }
   [[gnu::always_inline]] void close(BlockForces<Cell>& forces) const {
