@@ -162,12 +162,32 @@ bool make_tool(const Scene& scene, std::size_t i, const std::vector<Fault>& know
                  [&] { mesh = load_tool_surface(*tool.mesh, scene.base_directory, geometry.model.notes); });
 }
 
+/// A strip of crossed triangles whose own bending is too soft (docs/elements.md): of cells higher than long, and about the axis of a ring.
+/// The own bending of n cells through a sheet is 1/n^2 of the whole.
+void note_soft_strip(const BodyConfig& config, Model& model) {
+  constexpr double kHigh = 1.2;      // times as high as long
+  constexpr double kSheet = 4;       // times as long as thick
+  constexpr double kToBeTold = 0.06; // of the stiffness
+  if (!config.blank || config.blank->shape != "strip" || config.blank->pattern != "fine") return;
+  const BlankConfig& blank = *config.blank;
+  if (!(blank.length > kSheet * blank.thickness)) return;
+  const double n = blank.cells_through, high = blank.thickness / n * blank.cells_along / blank.length;
+  const bool at_axis = model.axisymmetric && blank.origin.x() < blank.thickness;
+  const double lost = (at_axis ? 0.9 : high > kHigh ? 0.5 : 0) / (n * n);
+  if (lost < kToBeTold) return;
+  const std::string softer = number_text(std::round(100 * lost)) + " % of its stiffness in bending";
+  model.notes.push_back("body " + config.name + ": a strip of " + number_text(n) + " crossed triangles' cells through its thickness" +
+                        (at_axis ? ", bent about the axis," : ", " + number_text(0.1 * std::round(10 * high)) + " times as high as they are long,") + " lacks some " + softer +
+                        " (docs/elements.md): set its pattern to one_point, or give it more cells through" + (at_axis ? "" : " or fewer along"));
+}
+
 void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
   if (const std::size_t held = model.axisymmetric ? axis_nodes(mesh).size() : 0; held > 0)
     model.notes.push_back(std::to_string(held) + " nodes of body " + config.name + " lie on the axis of symmetry and stay on it");
   if (const int parts = config.self_contact ? 1 : count_parts(mesh); parts > 1)
     model.notes.push_back("body " + config.name + " consists of " + std::to_string(parts) +
                           " parts that share no node, and they pass through each other: set its self_contact to true, or give them as bodies of their own");
+  note_soft_strip(config, model);
   constexpr double kFlat = 1.5;
   if (const double flat = flatness(mesh); flat > kFlat)
     model.notes.push_back("the cells of body " + config.name + " are " + number_text(0.1 * std::round(10 * flat)) +

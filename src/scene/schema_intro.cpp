@@ -69,7 +69,8 @@ A tool of kind `force` is a blank holder: guided along the line of its force, it
 and yields as a flange thickens. Its force is all that acts on it: gravity does not. How fast it goes is found together with the forces of
 contact, so that it may be light, down to a thousandth of the mass of the bodies (what is lighter is refused);
 a light one follows at once, a heavy one takes time to start and to stop. Let the force rise smoothly, and lay the holder on the blank:
-what falls on it rattles. A set that is held rigidly does not stop it, but ends the run: keep it off what is clamped.
+what falls on it rattles. A flat sheet that slides beneath it swings, and its friction on the whole is less than Coulomb's
+(docs/contact.md, limits): compare the forces of the tools along and across the sheet in `history.csv`. A set that is held rigidly does not stop it, but ends the run: keep it off what is clamped.
 Its place is in `history.csv`. A `withdraw` stage takes it away like any other tool, from rest where it has come to.
 
 ## Stages
@@ -115,7 +116,7 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom` |
 | `thinning` | the largest 1 - t/t0 of a node of `top`, t its thickness, t0 that of the start; where and when it is |
 | `bodies` | for each body: name, mass, centre, momentum, angular momentum, `bounding_box` (`min`, `max`) |
-| `tools` | for each tool: name and the vector of its peak force |
+| `tools` | for each tool: name and the vector of its peak force, of means over some 50 steps: shorter peaks are in `history.csv`, as means from row to row |
 | `springback` | `angle_deg_formed`, `angle_deg_released`, `change_deg`, `probe`, `kinetic_over_internal` |
 )";
 }

@@ -91,11 +91,16 @@ const Energies& Simulation::energies() const {
   return e;
 }
 
-// Where nothing happens there is no energy to refer to but what positions cannot tell: that of a strain of 1e-12.
+// What positions cannot tell: the energy of a strain of 1e-11.
+double Simulation::Impl::least_energy() const {
+  const double mass = std::accumulate(physical_mass.begin(), physical_mass.end(), 0.0), c = elements.slowest_wave();
+  return 1e-22 * mass * c * c;
+}
+
+// Where nothing happens there is no other energy to refer to.
 double Simulation::balance_error() const {
   const Impl& s = *impl_;
-  const double mass = std::accumulate(s.physical_mass.begin(), s.physical_mass.end(), 0.0), c = s.elements.slowest_wave();
-  return std::fabs(energies().residual()) / std::max(s.most, 1e-24 * mass * c * c);
+  return std::fabs(energies().residual()) / std::max(s.most, s.least_energy());
 }
 
 ContactStatus Simulation::contact_status() const {

@@ -133,6 +133,7 @@ struct Simulation::Impl {
   void check_crossings();
   /// Warns, once, of energies that do not add up at the end of a stage; residual, J, and error: of Simulation.
   void check_ledger(double residual, double error);
+  double least_energy() const;  ///< J
 
   // checkpoint.cpp
   template <class Archive> void exchange(Archive& a);

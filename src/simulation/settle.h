@@ -10,7 +10,7 @@
 // The body rests when its kinetic energy and the energy that the forces out of
 // balance could still set free, f . M^-1 f / (2 omega^2), have together stayed below a
 // fraction of the elastic energy for a while. A body that returns to its shape keeps
-// none: then a millionth of all the energy that was put in stands for it.
+// none: then a millionth of all the energy that was put in stands for it; and what positions cannot tell is no unrest.
 #include <algorithm>
 #include <cmath>
 
@@ -22,8 +22,8 @@ class Settle {
 
   Settle() = default;
   /// shortest: s, time for which the body must be quiet (size^2 / (thickness wave
-  /// speed), about the slowest swing of a strip).
-  Settle(double start, double shortest, double fraction) : shortest_(shortest), fraction_(fraction), quiet_since_(start) {}
+  /// speed), about the slowest swing of a strip). least: J, of which positions tell nothing: what has less rests.
+  Settle(double start, double shortest, double fraction, double least) : shortest_(shortest), fraction_(fraction), least_(least), quiet_since_(start) {}
 
   /// v . (f_n - f_(n-1)) and v . M v of the free motion over a step dt.
   void estimate(double v_df, double v_Mv, double dt) {
@@ -36,8 +36,8 @@ class Settle {
   /// True when the body rests.
   bool at_rest(double t, double f_Mf, double kinetic, double elastic, double put_in) {
     restless_ = kinetic + (omega_ > 0 ? 0.5 * f_Mf / (omega_ * omega_) : 0);
-    quiet_ = fraction_ * std::max(elastic, 1e-6 * put_in);
-    if (omega_ == 0 || restless_ > quiet_) quiet_since_ = t;
+    quiet_ = std::max(fraction_ * std::max(elastic, 1e-6 * put_in), least_);
+    if ((omega_ == 0 && restless_ > least_) || restless_ > quiet_) quiet_since_ = t;
     return t - quiet_since_ > shortest_;
   }
   /// Kinetic and releasable energy when it was last looked at, and what it should be below, J.
@@ -45,7 +45,7 @@ class Settle {
   double quiet() const { return quiet_; }
 
  private:
-  double shortest_ = 0, fraction_ = 0, quiet_since_ = 0, omega_ = 0, restless_ = 0, quiet_ = 0;
+  double shortest_ = 0, fraction_ = 0, least_ = 0, quiet_since_ = 0, omega_ = 0, restless_ = 0, quiet_ = 0;
 };
 
 }  // namespace forming_sim

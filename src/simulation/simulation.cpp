@@ -27,7 +27,7 @@ void Simulation::Impl::begin_stage() {
     thin = std::min(thin, thickness_of(body, model.axisymmetric));
     speed = std::min(speed, std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling));
   }
-  settle = Settle(time, size * size / (thin * speed), stages.stage().kinetic_fraction);
+  settle = Settle(time, size * size / (thin * speed), stages.stage().kinetic_fraction, least_energy());
 }
 
 void Simulation::Impl::check_ledger(double residual, double error) {

@@ -77,6 +77,19 @@ void expect_same_frames(const std::string& path, const std::string& expected_pat
   }
 }
 
+// A body that nothing has touched rests at once, and its ledger is not open: what rounding makes of nothing is nothing.
+TEST(RunScene, NothingHappensAndAllIsWell) {
+  const TemporaryDirectory directory;
+  Scene scene = small_scene();
+  scene.tools.clear();
+  scene.bodies[0].blank->origin = Vec3(0.05, 0.3, 0);
+  scene.stages.erase(scene.stages.begin() + 1);  // withdraw
+  const Outcome outcome = run_scene(scene, directory.path(), 1, "", kNever);
+  EXPECT_EQ(outcome.code, Code::success) << outcome.message;
+  const json summary = read_json(directory.file("summary.json"));
+  for (const json& warning : summary["warnings"]) EXPECT_EQ(warning.get<std::string>().find("do not add up"), std::string::npos) << warning;
+}
+
 // A one-point cell is shown as two triangles, and stepped as one element.
 TEST(RunScene, TellsCellsFromElements) {
   const TemporaryDirectory directory;

@@ -258,6 +258,32 @@ TEST(SceneBuild, FlatCellsOfTetrahedraAreTold) {
   EXPECT_TRUE(build_model(scene).notes.empty());
 }
 
+// Crossed triangles are too soft where a sheet's cells are higher than long, and about the axis.
+TEST(SceneBuild, SoftStripsAreTold) {
+  Scene scene = plate_scene();
+  scene.tools.clear();
+  scene.dimension = 2;
+  BlankConfig& blank = *scene.bodies[0].blank;
+  blank.shape = "strip";
+  blank.length = 0.02, blank.thickness = 0.001;
+  const auto notes = [&](int along, int through, const char* pattern, bool axisymmetric, double x) {
+    blank.cells_along = along, blank.cells_through = through, blank.pattern = pattern;
+    blank.origin = Vec3(x, 0, 0);
+    scene.axisymmetric = axisymmetric;
+    std::vector<std::string> all = build_model(scene).notes;
+    all.erase(std::remove_if(all.begin(), all.end(), [](const std::string& note) { return note.find("in bending") == std::string::npos; }), all.end());
+    return all;
+  };
+  EXPECT_TRUE(notes(20, 1, "fine", false, 0).empty());
+  ASSERT_EQ(notes(80, 2, "fine", false, 0).size(), 1u);
+  EXPECT_NE(notes(80, 2, "fine", false, 0)[0].find("2 times as high as they are long, lacks some 13 % of its stiffness in bending"), std::string::npos) << notes(80, 2, "fine", false, 0)[0];
+  EXPECT_TRUE(notes(80, 2, "one_point", false, 0).empty());
+  EXPECT_TRUE(notes(320, 4, "fine", false, 0).empty());  // 3 %
+  ASSERT_EQ(notes(40, 2, "fine", true, 0).size(), 1u);
+  EXPECT_NE(notes(40, 2, "fine", true, 0)[0].find("bent about the axis"), std::string::npos);
+  EXPECT_TRUE(notes(40, 2, "fine", true, 0.02).empty());
+}
+
 TEST(SceneBuild, ABodyInTwoPartsIsTold) {
   Scene scene = plate_scene();
   scene.tools.clear();
