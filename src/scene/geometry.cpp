@@ -175,10 +175,9 @@ void note_soft_strip(const BodyConfig& config, Model& model) {
   const bool at_axis = model.axisymmetric && blank.origin.x() < blank.thickness;
   const double lost = (at_axis ? 0.9 : high > kHigh ? 0.5 : 0) / (n * n);
   if (lost < kToBeTold) return;
-  const std::string softer = number_text(std::round(100 * lost)) + " % of its stiffness in bending";
-  model.notes.push_back("body " + config.name + ": a strip of " + number_text(n) + " crossed triangles' cells through its thickness" +
-                        (at_axis ? ", bent about the axis," : ", " + number_text(0.1 * std::round(10 * high)) + " times as high as they are long,") + " lacks some " + softer +
-                        " (docs/elements.md): set its pattern to one_point, or give it more cells through" + (at_axis ? "" : " or fewer along"));
+  model.notes.push_back("body " + config.name + " has " + number_text(n) + " cells of crossed triangles through its thickness" +
+                        (at_axis ? " and reaches the axis" : ", " + number_text(0.1 * std::round(10 * high)) + " times as high as they are long") + ": it lacks some " + number_text(std::round(100 * lost)) +
+                        " % of its stiffness in bending (docs/elements.md); set its pattern to one_point, or give more cells through" + (at_axis ? "" : " or fewer along"));
 }
 
 void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
