@@ -153,6 +153,22 @@ template <class Cell> double* memory_of(const CellGroup& g, long block, int s) {
 [[gnu::always_inline]] inline void fetch_initial_volume(const CellGroup& g, const double* memory, int simplices) {
   fetch_ahead(memory, (static_cast<long>(simplices) * g.items + g.items - 1) * static_cast<long>(sizeof(Lane)), 1);
 }
+/// A block in a step: what every bundle of material/von_mises_points.h that is a block knows of itself.
+struct BlockOfGroup {
+  const CellGroup* group;
+  const NodalView* view;
+  long block;
+
+  const CellGroup& g() const { return *group; }
+};
+/// Those from `block` on, `count` of them.
+template <class Block> void set_blocks(const CellGroup& g, const NodalView& view, long block, int count, Block* blocks) {
+  for (int b = 0; b < count; ++b) static_cast<BlockOfGroup&>(blocks[b]) = {&g, &view, block + b};
+}
+/// Calls work(block, count) with the blocks from `first` on, `most` at a time.
+template <class Work> void several_at_a_time(int first, int last, int most, Work&& work) {
+  for (int b = first; b < last; b += most) work(b, last - b < most ? last - b : most);
+}
 /// Lanes of a block that are not copies.
 inline int lanes_in_use(const CellGroup& g, long block) { return block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes; }
 inline Pack initial_volume(const CellGroup& g, const double* memory) { return Pack::load(memory + (g.items - 1) * kLanes); }

@@ -1,6 +1,4 @@
 // The loops over the points at edges (element/edge_points.h), compiled once per vector width (see CMakeLists.txt).
-#include <algorithm>
-
 #include "element/block.h"
 #include "forming_sim/element/edge_points.h"
 #include "forming_sim/element/time_step.h"
@@ -44,19 +42,10 @@ template <int D, bool Ring, class Pull> void add_forces(const CellGroup& g, long
 double* memory_of_point(const CellGroup& g, long block) { return g.memory + block * g.items * kLanes; }
 
 /// The points of a block: a bundle for material/von_mises_points.h.
-template <int D, bool Ring> struct BlockOfPoints {
-  const CellGroup* group;
-  const NodalView* view;
-  long block;
+template <int D, bool Ring> struct BlockOfPoints : BlockOfGroup {
   Vector<Pack, D> x[kEdges<D, Ring>];
   Pack dissipated;
 
-  void set(const CellGroup& g, const NodalView& of, long b) {
-    group = &g;
-    view = &of;
-    block = b;
-  }
-  const CellGroup& g() const { return *group; }
   void open() {
     fetch_memory(g(), memory(0), 8);
     const long row = g().rows[block], weights = (g().rows[block + 1] - row) * edge_weights(D, Ring);
@@ -85,13 +74,13 @@ constexpr int kTogether = 4;
 
 template <int D, bool Ring> [[gnu::flatten]] void forces_of_blocks(const CellGroup& g, const NodalView& view, long block, int count) {
   BlockOfPoints<D, Ring> blocks[kTogether];
-  for (int b = 0; b < count; ++b) blocks[b].set(g, view, block + b);
+  set_blocks(g, view, block, count, blocks);
   von_mises_points<1, kTogether, Pack, D, Ring>(g.solid, blocks, count);
 }
 
 template <int D, bool Ring> [[gnu::flatten]] void hyperelastic_forces_of_block(const CellGroup& g, const NodalView& view, long block) {
   BlockOfPoints<D, Ring> at;
-  at.set(g, view, block);
+  set_blocks(g, view, block, 1, &at);
   at.open();
   Edges<Pack, D, Ring> e;
   at.edges(0, e);
@@ -153,7 +142,7 @@ template <class Work> void with_dimension(const CellGroup& g, Work&& work) {
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
   with_dimension(g, [&](auto D, auto ring) {
     if (of_von_mises(g.solid.law))
-      for (int b = first; b < last; b += kTogether) forces_of_blocks<D, ring>(g, view, b, std::min(kTogether, last - b));
+      several_at_a_time(first, last, kTogether, [&](int block, int count) { forces_of_blocks<D, ring>(g, view, block, count); });
     else
       for (int b = first; b < last; ++b) hyperelastic_forces_of_block<D, ring>(g, view, b);
   });

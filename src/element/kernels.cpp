@@ -1,8 +1,6 @@
 // The loops over elements, compiled once per vector width (see CMakeLists.txt).
 // Only raw arrays and types of this width's namespace are used here, so that no
 // inline function of a wider instruction set can leak into the rest of the program.
-#include <algorithm>
-
 #include "element/bulk_viscosity.h"
 #include "element/classical_block.h"
 #include "element/one_point_block.h"
@@ -104,11 +102,8 @@ template <class Cell> struct BlockForces {
 };
 
 /// A block of cells of simplices in a step: n of its simplices from `first` on are a bundle of material/von_mises_points.h.
-template <class Cell, int n> struct BlockInStep {
+template <class Cell, int n> struct BlockInStep : BlockOfGroup {
   static constexpr int D = kD<Cell>, simplices = Cell::simplices;
-  const CellGroup* group;
-  const NodalView* view;
-  long block;
   const double* constants;
   Vector<Pack, D> x[Cell::nodes], drawn[kDrawn<Cell>];
   Pack J[simplices], p[simplices];  ///< of each simplex: of its volume
@@ -118,12 +113,6 @@ template <class Cell, int n> struct BlockInStep {
   struct Nothing {};
   std::conditional_t<n == simplices, Nothing, BlockForces<Cell>> sums;  ///< of a block that is several bundles
 
-  void set(const CellGroup& g, const NodalView& of, long b) {
-    group = &g;
-    view = &of;
-    block = b;
-  }
-  const CellGroup& g() const { return *group; }
   const int* nodes() const { return g().nodes + block * Cell::nodes * kLanes; }
 
   [[gnu::always_inline]] void open() {
@@ -187,7 +176,7 @@ template <class Cell, int n> struct BlockInStep {
 template <class Cell, Made made> [[gnu::flatten]] void forces_of_several(const CellGroup& g, const NodalView& view, long block, int count) {
   constexpr int n = kPoints<Cell>, most = kBlocks<Cell, made>, D = kD<Cell>;
   BlockInStep<Cell, n> blocks[most];
-  for (int b = 0; b < count; ++b) blocks[b].set(g, view, block + b);
+  set_blocks(g, view, block, count, blocks);
   for (int first = 0; first < Cell::simplices; first += n) {
     blocks[0].first = first;
     if constexpr (made == Made::one_layer) one_layer_of_points<n, most, Pack, D, Cell::ring>(g.solid, blocks, count);
@@ -199,7 +188,7 @@ template <class Cell, Made made> [[gnu::flatten]] void forces_of_several(const C
 template <class Cell> [[gnu::flatten]] void forces_of_any_law(const CellGroup& g, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
   BlockInStep<Cell, 1> at;
-  at.set(g, view, block);
+  set_blocks(g, view, block, 1, &at);
   Vector<Pack, D> v[Cell::nodes], drawn_v[kDrawn<Cell>];  // only where the law asks for velocities
   const bool classical = g.solid.law == Law::classical;
   if (classical) {
@@ -345,8 +334,7 @@ template <class Cell, Made made> void forces_of_blocks(const CellGroup& g, const
   } else if constexpr (made == Made::any) {
     for (int b = first; b < last; ++b) forces_of_any_law<Cell>(g, view, b);
   } else {
-    for (int b = first; b < last; b += kBlocks<Cell, made>)
-      forces_of_several<Cell, made>(g, view, b, std::min(kBlocks<Cell, made>, last - b));
+    several_at_a_time(first, last, kBlocks<Cell, made>, [&](int block, int count) { forces_of_several<Cell, made>(g, view, block, count); });
   }
 }
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
