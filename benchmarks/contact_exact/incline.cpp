@@ -89,11 +89,14 @@ void incline_problem(Report& report) {
   incline::Block sliding;
   sliding.mu = 0.49;
   sliding.belt = 0.5;
+  sliding.damping = 0;
+  sliding.pause = 0.1;
   report.begin("incline slides", "A block on an incline of tan = .5 with friction .49", slides(sliding));
   all_kinds(report, sliding);
   swings(report);
   incline::Block swinging;
   swinging.damping = 0;
+  swinging.swing = "free";
   swinging.mu = 0.51;
   report.begin("incline undamped sticks", "The same block without damping, friction .51", sticks);
   for (int cells : {3, 6, 12}) {

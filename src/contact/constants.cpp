@@ -1,6 +1,7 @@
 #include "forming_sim/contact/constants.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/impulse.h"
@@ -24,6 +25,24 @@ double PairConstants::held_w(const ContactPair& pair) const {
     w += projector ? b2m * dot3(pair.normal, project(*projector, pair.normal)) : b2m;
   }
   return w;
+}
+
+// phi of the pair: the mean of its nodes of bodies by their weights.
+void PairConstants::let_waves_leave(const ContactPair& pair, Rub& rub) const {
+  double phi = 0, sum = 0;
+  for (int k = 0; k < pair.nodes; ++k) {
+    if (pair.node[k] >= work.body_entries) continue;
+    phi += std::abs(pair.weight[k]) * work.steady[pair.node[k]][3];
+    sum += std::abs(pair.weight[k]);
+  }
+  if (sum == 0) return;
+  const double area = pair.stiffness / (modulus * layer);
+  rub.lasting = phi / sum;
+  const WaveBody& body = waves->of_pair(pair.own, pair.surface);
+  rub.kick = work.kick;
+  rub.beta = body.impedance * rub.lasting * area * rub.kick;
+  rub.memory = kMemoryShare * body.time;
+  rub.steady = relative(pair, work.steady);
 }
 
 void PairConstants::set(ContactPair& pair, std::vector<Rub>& rubs) const {

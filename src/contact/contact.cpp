@@ -34,6 +34,17 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
   for (const Features::Relation& relation : m.features.relations)
     if (relation.meet && relation.friction > 0) m.slip.assign(at.size(), 0.0);
   m.both = m.features.bodies_meet() ? 2 : 1;
+  if (m.method == Impl::Method::implicit && m.config.swing == "damped" && !m.slip.empty()) {
+    std::vector<WaveBody> bodies;
+    std::vector<std::vector<int>> vertices;
+    bool any = false;
+    for (int b = 0; b < m.features.bodies; ++b) {
+      bodies.push_back(setup.bodies[b].waves);
+      vertices.push_back(m.features.surfaces[b].vertices);
+      any = any || bodies.back().impedance > 0;
+    }
+    if (any) m.waves = ShearWaves(std::move(bodies), std::move(vertices), at.size(), setup.axisymmetric);
+  }
   NodeField x = at, place;
   m.tools.place_all(m.features, at_start, false, place);
   m.ties = find_ties(setup, x, place, m.tools.is_plane, m.tools.planes(at_start), m.features);
@@ -81,6 +92,29 @@ void Contact::Impl::end(double dt, const Move& move, NodeField& x, NodeField& v,
   for (size_t i = 0; i < work.mean.size(); ++i) work.mean[i] = 0.5 * (work.before[i] + work.v[i]);
   v.swap(v_star);
   move(dt, v, x);
+}
+
+void Contact::Impl::follow_steady_motion(double dt, const NodeField& x, const NodeField& before, const NodeField& v) {
+  if (!waves.any()) return;
+  std::vector<RubbedNode> of_entry(work.body_entries);
+  for (const ContactPair& pair : near.pairs) {
+    if (pair.rub < 0 || pair.impulse == 0) continue;
+    for (int k = 0; k < pair.nodes; ++k) {
+      if (pair.node[k] >= work.body_entries) continue;
+      RubbedNode& rubbed = of_entry[pair.node[k]];
+      rubbed.node = work.vertex[pair.node[k]];
+      rubbed.normal += pair.weight[k] * pair.impulse * pair.normal;
+      rubbed.radiated += pair.weight[k] * near.rubs[pair.rub].radiated;
+    }
+  }
+  pressed.clear();
+  for (RubbedNode& rubbed : of_entry) {
+    if (rubbed.node < 0) continue;
+    rubbed.area = features.area[rubbed.node];
+    pressed.push_back(rubbed);
+  }
+  delay.follow(work, near.pairs, near.rubs, x.size(), waves);
+  waves.follow(dt, previous_dt > 0 ? previous_dt : dt, inverse_mass, x, before, v, pressed);
 }
 
 Books Contact::Impl::open_books(ContactStep& step) {
@@ -152,9 +186,9 @@ const std::vector<Vec3>& Contact::body_shifts() const { return impl_->body_shift
 const std::vector<std::string>& Contact::warnings() const { return impl_->warnings; }
 
 namespace {
-constexpr std::uint64_t kMagic = 0x38746361746e6f43u;  // "Contact8"
+constexpr std::uint64_t kMagic = 0x39746361746e6f43u;  // "Contact9"
 struct SavedHeader {
-  std::uint64_t magic, vertices, facets, records, drags, tools, slip;
+  std::uint64_t magic, vertices, facets, records, drags, tools, slip, steady, delayed;
   double potential, previous_dt;
 
   std::size_t size() const;
@@ -165,7 +199,7 @@ static_assert(std::is_trivially_copyable<PairRecord>::value && std::is_trivially
 constexpr std::size_t kPose = 12;
 
 std::size_t SavedHeader::size() const {
-  return sizeof *this + records * sizeof(PairRecord) + drags * sizeof(Drag) + (tools * kPose + slip) * sizeof(double);
+  return sizeof *this + records * sizeof(PairRecord) + drags * sizeof(Drag) + (tools * kPose + slip + delayed) * sizeof(double) + steady * sizeof(Node);
 }
 
 template <class Items> void append(const Items& items, std::vector<char>& data) {
@@ -182,7 +216,8 @@ template <class Items> void take(std::size_t count, const char*& from, Items& it
 
 std::vector<char> Contact::save() const {
   const Impl& m = *impl_;
-  const SavedHeader header{kMagic, static_cast<std::uint64_t>(m.features.vertex_count), m.features.facets.size(), m.records.pairs.size(), m.records.drags.size(), m.previous_motion.size(), m.slip.size(), m.potential, m.previous_dt};
+  const NodeField steady = m.waves.save();
+  const SavedHeader header{kMagic, static_cast<std::uint64_t>(m.features.vertex_count), m.features.facets.size(), m.records.pairs.size(), m.records.drags.size(), m.previous_motion.size(), m.slip.size(), steady.size(), m.delay.delayed().size(), m.potential, m.previous_dt};
   std::vector<double> poses;
   for (const ToolMotion& tool : m.previous_motion) {
     poses.insert(poses.end(), tool.position0.data(), tool.position0.data() + 3);
@@ -195,6 +230,8 @@ std::vector<char> Contact::save() const {
   append(m.records.drags, data);
   append(poses, data);
   append(m.slip, data);
+  append(steady, data);
+  append(m.delay.delayed(), data);
   return data;
 }
 
@@ -219,6 +256,10 @@ void Contact::restore(const std::vector<char>& data) {
     m.previous_motion[t].rotation0 = Eigen::Map<const Mat3>(&poses[t * kPose + 3]);
   }
   take(header.slip, from, m.slip);
+  NodeField steady;
+  take(header.steady, from, steady);
+  m.waves.restore(steady);
+  take(header.delayed, from, m.delay.delayed());
   m.potential = header.potential;
   m.previous_dt = header.previous_dt;
   m.listed = false;

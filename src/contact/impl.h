@@ -8,9 +8,11 @@
 #include "forming_sim/contact/books.h"
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/contact.h"
+#include "forming_sim/contact/friction_delay.h"
 #include "forming_sim/contact/layers.h"
 #include "forming_sim/contact/list.h"
 #include "forming_sim/contact/narrow.h"
+#include "forming_sim/contact/shear_waves.h"
 #include "forming_sim/contact/sweeps.h"
 #include "forming_sim/contact/ties.h"
 #include "forming_sim/contact/tools.h"
@@ -47,6 +49,8 @@ struct Contact::Impl {
   double thickest = 0;      ///< of their layers, at least `layer`
   double potential = 0;
   std::vector<double> slip; ///< of the bodies' nodes, m; empty where nothing rubs
+  ShearWaves waves;
+  FrictionDelay delay;
   double previous_dt = 0;   ///< of the step before, s; 0 at the start
   std::vector<ToolMotion> previous_motion;  ///< of the tools: position0, rotation0 at the start of the step before
   // ---- the list and how much of its margin is used
@@ -67,6 +71,7 @@ struct Contact::Impl {
   PairRecords tried;  ///< pairs of the last attempt at this step that failed
   std::vector<double> moved;
   std::vector<double> sum, weighted, total;  ///< per entry of the workspace
+  std::vector<RubbedNode> pressed;
 
   // search.cpp
   double fastest(const NodeField& v) const;
@@ -76,7 +81,7 @@ struct Contact::Impl {
   void ensure_list(const NodeField& x, const std::vector<ToolMotion>& motion, double reach, double step_bound);
   /// Into the workspace: x at the start, v_star, v before the kick (of tools: over the step before).
   void gather(const NodeField& x, const NodeField& v, const NodeField& v_star, double dt, const std::vector<ToolMotion>& motion, const std::vector<PlanePose>& planes);
-  PairConstants constants() const { return {features, work, modulus, layer}; }
+  PairConstants constants() const { return {features, work, modulus, layer, &waves}; }
   /// Counts `way` of relative motion towards the list's margin.
   void moved_by(double way);
 
@@ -87,6 +92,9 @@ struct Contact::Impl {
   /// caller adds the pairs.
   Books open_books(ContactStep& step);
   Books empty_books(ContactStep& step) const { return Books(work, near.rubs, features.bodies, static_cast<int>(tools.names.size()), layer, step); }
+
+  /// What of the bodies' motion lasts, after a step from `before` to v.
+  void follow_steady_motion(double dt, const NodeField& x, const NodeField& before, const NodeField& v);
 
   // surface_fields.cpp
   /// Adds to the slip of every node that rubs what its pairs slid in the step,

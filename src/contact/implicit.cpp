@@ -202,11 +202,13 @@ void Contact::Impl::close_books(ContactStep& step) {
 ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at) {
   ContactStep step;
   Laps laps(times);
+  if (waves.any() && !waves.has_begun()) waves.begin(v);
   bool all = false;  // let pairs that push askew act before they are in their layer
   tried.resize(0, false);
   for (;;) {
     const std::vector<ToolMotion> motion = tools_at(dt);
     predict(dt, v_star);
+    work.kick = previous_dt > 0 ? 0.5 * (previous_dt + dt) : dt;
     laps.start();
     std::vector<DrivenTool> driven = driven_tools(motion, dt);
     // How far a driven tool goes is known afterwards: what its force alone would do to a light one is far more than what it does while that lies on something.
@@ -229,6 +231,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
         const Layers layers(records, tried, work, dt, previous_dt, layer, ceiling);
         narrow_phase(constants(), &layers, planes, all, {reach, bound, travel}, team, list, near);
         layers.hand_over(near.born, near.pairs);
+        if (waves.any()) delay.recall(work, near.pairs, near.rubs);
         laps.done(&ContactTimes::narrow);
         swept = SweepResult();
         for (DrivenTool& tool : driven) gather_driven(tool);
@@ -274,6 +277,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
 
   laps.start();
   close_books(step);
+  follow_steady_motion(dt, x, v_star, v);
   laps.done(&ContactTimes::books);
   check_resolution(time, dt, step.min_gap_over_layer * layer);
   return step;

@@ -12,9 +12,15 @@ struct Triple {
   Pack x, y, z;
 };
 inline Triple load3(const double (*from)[kLanes]) { return {Pack::load(from[0]), Pack::load(from[1]), Pack::load(from[2])}; }
+inline void store3(const Triple& a, double (*to)[kLanes]) {
+  a.x.store(to[0]);
+  a.y.store(to[1]);
+  a.z.store(to[2]);
+}
 inline Triple operator*(Pack s, const Triple& a) { return {s * a.x, s * a.y, s * a.z}; }
 inline Triple operator+(const Triple& a, const Triple& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline Triple operator-(const Triple& a, const Triple& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Triple only(Mask where, const Triple& a) { return {select(where, a.x, Pack(0.0)), select(where, a.y, Pack(0.0)), select(where, a.z, Pack(0.0))}; }
 inline Pack dot(const Triple& a, const Triple& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 /// u = sum_k b_k v_k; factor: b_k / m_k.
@@ -70,16 +76,19 @@ inline Pack visit(double dt, double omega, const Movers& movers, PairPack& p, Ru
   j.store(p.impulse);
   Triple impulse = (j - before) * normal;
   if (rub) {
-    const Triple had = load3(rub->slip), slip = u - vn * normal;
-    const Pack rub_w = Pack::load(rub->w), most = Pack::load(rub->friction) * j;
-    Triple q = had - Pack(omega) / rub_w * slip;
+    // Along the surface friction q and what takes waves away, e: u = u0 + w (q + e), e = -beta (u - u_s).
+    const Triple had_q = load3(rub->slip), had_e = load3(rub->radiated), slip = u - vn * normal, steady = load3(rub->steady);
+    const Pack rub_w = Pack::load(rub->w), most = Pack::load(rub->friction) * select(j > zero, Pack::load(rub->own) * j + Pack::load(rub->before), zero);
+    const Pack beta = select(j > zero, Pack::load(rub->beta), zero);
+    const Triple free = slip - rub_w * (had_q + had_e) + (beta * rub_w) * steady;  // (1 + beta w) u without friction
+    Triple q = had_q - Pack(omega) * (had_q + Pack(1.0) / rub_w * free);
     const Pack size = sqrt(dot(q, q));
-    q = select(size > most, most / size, Pack(1.0)) * q;
-    q = {select(movable, q.x, zero), select(movable, q.y, zero), select(movable, q.z, zero)};
-    q.x.store(rub->slip[0]);
-    q.y.store(rub->slip[1]);
-    q.z.store(rub->slip[2]);
-    const Triple more = q - had;
+    q = only(movable, select(size > most, most / size, Pack(1.0)) * q);
+    const Triple end = Pack(1.0) / (Pack(1.0) + beta * rub_w) * (free + rub_w * q);
+    const Triple e = only(movable, beta * (steady - end));
+    store3(q, rub->slip);
+    store3(e, rub->radiated);
+    const Triple more = (q - had_q) + (e - had_e);
     impulse = impulse + more;
     change = larger(change, sqrt(dot(more, more)) * rub_w * Pack(dt));
   }

@@ -157,7 +157,14 @@ void Sweeps::pack(Tile& tile, const LargeArray<ContactPair>& pairs, const std::v
     if (pair.rub < 0) continue;
     const Rub& rub = rubs[pair.rub];
     RubPack& r = tile.rubs[place_[i] / kLanes];
-    for (int j = 0; j < 3; ++j) r.slip[j][l] = rub.slip[j];
+    const double along = pair.normal.dot(rub.steady);
+    for (int j = 0; j < 3; ++j) {
+      r.slip[j][l] = rub.slip[j];
+      r.steady[j][l] = rub.steady[j] - along * pair.normal[j];
+    }
+    r.beta[l] = rub.beta;
+    r.own[l] = rub.own;
+    r.before[l] = rub.before;
     r.friction[l] = rub.friction;
     r.w[l] = rub.w;
   }
@@ -167,7 +174,12 @@ double Sweeps::impulse(long i) const { return tiles_[i / tile_size_].packs[place
 Node Sweeps::slip(long i) const {
   const RubPack& r = tiles_[i / tile_size_].rubs[place_[i] / kLanes];
   const long l = place_[i] % kLanes;
-  return Node(r.slip[0][l], r.slip[1][l], r.slip[2][l], 0);
+  return Node(r.slip[0][l], r.slip[1][l], r.slip[2][l], 0) + radiated(i);
+}
+Node Sweeps::radiated(long i) const {
+  const RubPack& r = tiles_[i / tile_size_].rubs[place_[i] / kLanes];
+  const long l = place_[i] % kLanes;
+  return Node(r.radiated[0][l], r.radiated[1][l], r.radiated[2][l], 0);
 }
 
 void Sweeps::take_back(long first, long last, LargeArray<ContactPair>& pairs, std::vector<Rub>& rubs) const {
@@ -175,7 +187,9 @@ void Sweeps::take_back(long first, long last, LargeArray<ContactPair>& pairs, st
     ContactPair& pair = pairs[i];
     pair.impulse = impulse(i);
     pair.end_gap = tiles_[i / tile_size_].packs[place_[i] / kLanes].end_gap[place_[i] % kLanes];
-    if (pair.rub >= 0) rubs[pair.rub].slip = slip(i);
+    if (pair.rub < 0) continue;
+    rubs[pair.rub].slip = slip(i);
+    rubs[pair.rub].radiated = radiated(i);
   }
 }
 

@@ -69,8 +69,7 @@ A tool of kind `force` is a blank holder: guided along the line of its force, it
 and yields as a flange thickens. Its force is all that acts on it: gravity does not. How fast it goes is found together with the forces of
 contact, so that it may be light, down to a thousandth of the mass of the bodies (what is lighter is refused);
 a light one follows at once, a heavy one takes time to start and to stop. Let the force rise smoothly, and lay the holder on the blank:
-what falls on it rattles. A flat sheet that slides beneath it swings, and its friction on the whole is less than Coulomb's
-(docs/contact.md, limits): compare the forces of the tools along and across the sheet in `history.csv`. A set that is held rigidly does not stop it, but ends the run: keep it off what is clamped.
+what falls on it rattles. A set that is held rigidly does not stop it, but ends the run: keep it off what is clamped.
 Its place is in `history.csv`. A `withdraw` stage takes it away like any other tool, from rest where it has come to.
 
 ## Stages

@@ -139,12 +139,14 @@ void Simulation::Impl::set_up_contact() {
     const std::size_t count = body.mesh.surface.size();
     s.facets.assign(surface.begin() + first_facet, surface.begin() + first_facet + count);
     first_facet += count;
-    setup.bodies.push_back(std::move(s));
     const MaterialConfig& m = body.material;
+    const double density = m.density * plan.time_step.mass_scaling, shear_speed = std::sqrt(m.mu() / density);
+    s.waves = {density * shear_speed, kSteadyTime * thickness_of(body, model.axisymmetric) / shear_speed, body.first_node, body.node_count};
+    setup.bodies.push_back(std::move(s));
     setup.softest_modulus = std::min(setup.softest_modulus, m.E());
     setup.thinnest = std::min(setup.thinnest, thickness_of(body, model.axisymmetric));
     setup.wave_speed = std::min(
-        setup.wave_speed, std::sqrt((m.K() + 4. / 3 * m.mu()) / m.density / plan.time_step.mass_scaling));
+        setup.wave_speed, std::sqrt((m.K() + 4. / 3 * m.mu()) / density));
   }
   for (const ToolModel& tool : model.tools) {
     ContactSurface s;

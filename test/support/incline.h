@@ -24,9 +24,11 @@ struct Block {
   double belt = 0;           ///< speed of the slope up along itself, m/s
   double settling = 500;     ///< damping while it settles, 1/s; a sixth of critical of the slowest swing
   double damping = 500;      ///< after settling, 1/s
-  double after = 0.4;        ///< time after settling, s
+  double pause = 0;          ///< after settling, until what damping gave to each impulse is forgotten, s; then the measuring begins
+  double after = 0.4;        ///< time after settling, pause and measuring, s
   double longest_step = 0;   ///< s; 0: the stable one
   double viscosity = 0;      ///< coefficient of the linear bulk viscosity
+  std::string swing = "damped";
 };
 
 struct Found {
@@ -106,6 +108,7 @@ inline OneBody run_of(const Block& block) {
   run.plan.stages.push_back(form_for(block.after));
   run.plan.gravity = -kGravity * Vec3::Unit(block.dimension - 1);
   run.plan.contact.layer = block.layer;
+  run.plan.contact.swing = block.swing;
   run.plan.time_step.damping = block.damping;
   run.plan.time_step.maximum = block.longest_step;
   run.plan.time_step.linear_viscosity = block.viscosity;
@@ -150,7 +153,9 @@ inline Found rest_or_slide(const Block& block) {
   double settling_time = 0;
   const std::unique_ptr<Simulation> run = settled(block, &settling_time);
   Simulation& sim = *run;
-  const double mass = mass_of(sim);
+  const double mass = mass_of(sim), begin = sim.time();
+  while (sim.time() < begin + block.pause && sim.step()) {
+  }
   const auto mean = [&](const NodeField& field) {
     double sum = 0;
     for (std::size_t i = 0; i < field.size(); ++i) sum += sim.nodal_mass()[i] * vec3(field[i]).dot(down);

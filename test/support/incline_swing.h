@@ -9,7 +9,7 @@
 
 namespace forming_sim::incline {
 
-/// A block that slides at .5 m/s, faster than it swings, so that no node slips back.
+/// A block that slides at .5 m/s, faster than it swings, so that no node slips back. Its swing is free.
 inline Block sliding_block(int cells, int rows, double mu, double damping) {
   Block block;
   block.cells = cells;
@@ -20,6 +20,7 @@ inline Block sliding_block(int cells, int rows, double mu, double damping) {
   block.belt = 0.5;
   block.settling = 2000;
   block.damping = damping;
+  block.swing = "free";
   return block;
 }
 

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <complex>
 
+#include "forming_sim/contact/shear_waves.h"
 #include "support/dense_limit.h"
 
 namespace forming_sim::slide {
@@ -33,6 +34,43 @@ inline Eigen::VectorXcd eigenvalues(Elements& elements, const NodeField& x, cons
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) A(r, c) = K(free[r], free[c]) + (of_base(free[r]) ? mu * K(free[r] + 1, free[c]) : 0.0);
   return Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
+}
+
+/// What damps the swing (contact/shear_waves.h), where contact has lasted; without what v_s owes to the body as a whole.
+struct Damped {
+  bool waves = true, delay = true;
+  double impedance, time;  ///< rho c_s, Pa s/m; T, s
+};
+
+/// The largest real part of s, 1/s, with it. area: that the nodes of the base stand for, m2 per m of width.
+///   m u_x'' = -(K u)_x - mu N_m - z A (u_x' - s),   N_m' = ((K u)_y - N_m)/T_N,   s' = (u_x' - s)/T     at the base
+inline double fastest_growth(Elements& elements, const NodeField& x, const std::vector<int>& base, const std::vector<double>& area, double mu, const Damped& damped) {
+  const Eigen::MatrixXd K = stiffness_over_mass(elements, x, 2);
+  const auto of_base = [&](int component) { return std::find(base.begin(), base.end(), component / 2) != base.end(); };
+  std::vector<int> free;
+  for (int c = 0; c < K.rows(); ++c)
+    if (!of_base(c) || c % 2 == 0) free.push_back(c);
+  const int n = static_cast<int>(free.size()), b = static_cast<int>(base.size());
+  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(2 * n + 2 * b, 2 * n + 2 * b);  // u, u', N_m over the root of m, s
+  S.block(0, n, n, n).setIdentity();
+  for (int r = 0, k = 0; r < n; ++r) {
+    for (int c = 0; c < n; ++c) S(n + r, c) = -K(free[r], free[c]);
+    if (!of_base(free[r])) continue;
+    const int memory = 2 * n + k, steady = 2 * n + b + k;
+    for (int c = 0; c < n; ++c) {
+      const double N = K(free[r] + 1, free[c]);
+      (damped.delay ? S(memory, c) : S(n + r, c)) += damped.delay ? N / (kMemoryShare * damped.time) : -mu * N;
+    }
+    S(memory, memory) = -1 / (kMemoryShare * damped.time);
+    if (damped.delay) S(n + r, memory) = -mu;
+    const double beta = damped.waves ? damped.impedance * area[k] / elements.nodal_mass()[free[r] / 2] : 0;
+    S(n + r, n + r) -= beta;
+    S(n + r, steady) = beta;
+    S(steady, n + r) = 1 / damped.time;
+    S(steady, steady) = -1 / damped.time;
+    ++k;
+  }
+  return Eigen::EigenSolver<Eigen::MatrixXd>(S, false).eigenvalues().real().maxCoeff();
 }
 
 /// s of the solution e^(s t) that grows faster, 1/s.

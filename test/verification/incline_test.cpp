@@ -11,7 +11,11 @@ TEST(Incline, StickingAndSlidingBlock) {
       incline::Block block;
       block.dimension = dimension;
       block.mu = mu;
-      block.belt = mu < .5 ? .5 : 0;
+      if (mu < .5) {
+        block.belt = .5;
+        block.damping = 0;
+        block.pause = .1;
+      }
       const incline::Found found = incline::rest_or_slide(block);
       const double exact = incline::exact(block);
       std::printf("  %dD, friction %g: a/g %.7f (exact %.7f), creep %.1e m/s, tangential / normal %.8f\n", dimension, mu, found.acceleration, exact, found.creep, found.ratio);

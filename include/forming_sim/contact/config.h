@@ -32,6 +32,7 @@ struct ContactConfig {
   std::string pairing = "node_side";    ///< node_side | node_node
   double push_speed = 0;                ///< v_push
   double friction = 0;                  ///< of bodies against each other and themselves
+  std::string swing = "damped";         ///< damped | free (shear_waves.h)
   std::vector<PairConfig> pairs;
   int max_sweeps = 100;
   int max_halvings = 30;
@@ -45,6 +46,7 @@ struct ContactConfig {
     visit(FORMING_SIM_FIELD(pairing), Field().choices({"node_side", "node_node"}).when("method", {"explicit"}).doc("what repels a node: node_side: the nearest points of the other surface's sides; node_node: its nearest node, so that meshes have to match"));
     visit(FORMING_SIM_FIELD(push_speed), Field().unit("m/s").at_least(0).when("method", {"implicit"}).computed("the smaller of 0.1 m/s and 1e-3 of the wave speed").doc("speed at which the soft start lets the layer of a pair that is born close grow"));
     visit(FORMING_SIM_FIELD(friction), Field().at_least(0).at_most(10).doc("Coulomb friction of bodies against each other and against themselves; that of tools is theirs"));
+    visit(FORMING_SIM_FIELD(swing), Field().choices({"damped", "free"}).when("method", {"implicit"}).doc("of a body that slides under friction: damped: waves of shear leave where it rubs, as into tools of its own material, and friction follows the normal force with a delay of four times the way of such a wave through the thickness; steady sliding feels neither; free: rigid tools throw all waves back, so that a body that slides begins to swing, and its friction on the whole is too small"));
     visit(FORMING_SIM_FIELD(pairs), Field().doc("pairs of surfaces that meet in another way than the rest"));
     visit(FORMING_SIM_FIELD(max_sweeps), Field().at_least(1).at_most(1000).when("method", {"implicit"}).doc("most Gauss-Seidel sweeps in a step; most steps need fewer"));
     visit(FORMING_SIM_FIELD(max_halvings), Field().at_least(1).at_most(60).when("method", {"implicit"}).doc("most halvings of a step, with those of the steps before it that it has not risen from again, before the run ends with a named error"));

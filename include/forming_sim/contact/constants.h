@@ -7,6 +7,7 @@
 #include "forming_sim/contact/features.h"
 #include "forming_sim/contact/pair.h"
 #include "forming_sim/contact/pair_shares.h"
+#include "forming_sim/contact/shear_waves.h"
 
 namespace forming_sim {
 
@@ -14,6 +15,7 @@ struct PairConstants {
   const Features& features;
   const Workspace& work;
   double modulus, layer;  ///< E, Pa; h0, m
+  const ShearWaves* waves = nullptr;  ///< where the workspace has a steady motion
 
   /// Sets stiffness, tool, w and, where the surfaces rub, adds a Rub. A is the mean
   /// area of the pair's deformable nodes. A pair that nothing can move gets
@@ -38,7 +40,9 @@ struct PairConstants {
     if (!(friction > 0)) return;
     pair.rub = static_cast<int>(rubs.size());
     rubs.push_back({Node::Zero(), friction, any});
+    if (!work.steady.empty()) let_waves_leave(pair, rubs.back());
   }
+  void let_waves_leave(const ContactPair& pair, Rub& rub) const;
   /// Along the normal, held directions removed.
   double held_w(const ContactPair& pair) const;
 };

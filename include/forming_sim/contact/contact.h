@@ -19,6 +19,7 @@
 
 #include "forming_sim/config/fault.h"
 #include "forming_sim/contact/config.h"
+#include "forming_sim/contact/shear_waves.h"
 #include "forming_sim/mesh/mesh.h"
 #include "forming_sim/parallel/team.h"
 #include "forming_sim/tensor/vec.h"
@@ -33,6 +34,7 @@ struct ContactSurface {
   std::vector<Facet> facets;  ///< bodies: joined numbering; tools: the tool mesh's own numbering. Orientation is used of bodies only
   double friction = 0;        ///< tools: Coulomb coefficient against every body
   bool meets_itself = false;  ///< bodies: contact with itself
+  WaveBody waves;             ///< bodies: of a body that is given none, no waves leave
   bool plane = false;         ///< rigid half space without facets
   Vec3 point = Vec3::Zero(), normal = Vec3::Zero();  ///< plane, in the tool's frame; normal of length 1 towards the bodies
 };

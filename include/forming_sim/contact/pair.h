@@ -42,11 +42,19 @@ struct Link {
   }
 };
 
-/// Friction of a pair that rubs.
+/// What acts along the surfaces of a pair that rubs: friction, and what takes waves away (shear_waves.h).
 struct Rub {
-  Node slip = Node::Zero();    ///< friction impulse, N s; before the sweeps: to start from
+  Node slip = Node::Zero();    ///< impulse of both, N s; before the sweeps: of friction, to start from
   double friction = 0;
   double w = 0;                ///< inverse mass of the pair, 1/kg
+  // Where waves leave
+  double kick = 0;             ///< time over which the impulses act, s
+  double lasting = 0;          ///< phi
+  double beta = 0;             ///< z phi A times the kick, kg
+  Node steady = Node::Zero();  ///< steady motion u_s, m/s
+  double memory = 0;           ///< T_N (friction_delay.h), s
+  Node radiated = Node::Zero();  ///< the part of slip that takes waves away, N s
+  double own = 1, before = 0;  ///< friction follows own j + before, N s
 };
 
 /// There are hundreds of thousands of them, written and read once a step: a byte here is time.
@@ -100,6 +108,8 @@ struct Workspace {
   int body_entries = 0;        ///< the first so many are nodes of bodies
   NodeField x, v, before;      ///< at the start of the step; running; before the kick
   NodeField mean;              ///< of the velocities before the kick and at the end, once a step is taken
+  double kick = 0;             ///< from the middle of the step before to that of this one, s: what forces act over
+  NodeField steady;            ///< of bodies v_s and phi (shear_waves.h), of tools the velocity; empty where no waves leave
   std::vector<Share> share;
   std::vector<const Mat3*> projector;  ///< of held nodes, else null
 };

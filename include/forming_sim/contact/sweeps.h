@@ -38,7 +38,7 @@ class Sweeps {
   /// work.v, the ties' impulses and the tools' pushes; what was found of the pairs is for take_back to fetch.
   SweepResult solve(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, const LargeArray<ContactPair>& pairs,
                     const std::vector<Rub>& rubs, std::vector<DrivenTool>& driven);
-  /// Sets impulse and end_gap of the pairs first ... last - 1, and their slips in `rubs`.
+  /// Sets impulse and end_gap of the pairs first ... last - 1, and slip and radiated of their rubs.
   void take_back(long first, long last, LargeArray<ContactPair>& pairs, std::vector<Rub>& rubs) const;
 
  private:
@@ -57,6 +57,7 @@ class Sweeps {
   /// Of pair i, which rubs or not, as it stands.
   double impulse(long i) const;
   Node slip(long i) const;
+  Node radiated(long i) const;
   /// Calls work(tile) for all tiles, colour by colour; tiles of a colour by all threads.
   template <class Work> void each_tile(Work&& work);
 

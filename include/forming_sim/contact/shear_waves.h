@@ -1,0 +1,81 @@
+#pragma once
+// Where surfaces rub, waves of shear leave a body, as they do into a tool of steel.
+//
+// A rigid tool throws every wave back, and Coulomb's law adds to it: friction takes mu times the force across
+// the surface into the motion along it. So the swings of a body that slides grow, by a part mu at each way
+// through its thickness, until nodes lift off and slip back and friction on the whole is less than mu N.
+// Two things that steel does and a rigid tool does not keep them down.
+//
+// A tool that has the impedance of the body takes such waves away. Its traction on a surface that moves
+// with u along it is that of a half space, rho c_s u. Here it is, while the surfaces are pressed together,
+//   tau = -z phi (u - u_s),   z = rho c_s
+// beside friction and not within its cone. u_s is what of u is steady while the surfaces are pressed, so that tau is nothing over a time longer than T:
+//   v_s <- v_s + dv_r - e/(z A T) + (1 - phi) dt/(T + dt) (v - v_s)   of either surface; e: impulse of tau on what it stands for, A
+//   phi <- phi + dt/(T + dt) (1 or 0 - phi)                             1: pressed
+// as if masses of z A T were dragged along by dashpots: over a long time they take no impulse, however contact comes and goes.
+// Across the surface v_s follows as where phi is 0. v_s goes with its body as a rigid one, whose velocity there changes by dv_r: a body that gathers speed or turns as a whole
+// feels nothing. phi grows as contact lasts: a strike that is over long before T keeps Coulomb's impulse.
+// (A washout of first order, rho c_s sT/(1 + sT): it takes energy at every frequency and gives it at none.)
+//
+// And friction answers to a change of the normal force with a delay T_N (friction_delay.h; Prakash and Clifton 1993; that sliding is
+// well-posed with it: Ranjith and Rice, J. Mech. Phys. Solids 49, 2001).
+// Either alone is not enough: without the delay friction above .2 feeds more than leaves, with the delay alone it feeds
+// slower and as surely (test/support/slide_eigenvalues.h).
+#include <vector>
+
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+constexpr double kSteadyTime = 16;    ///< T, of the time H/c_s that a wave of shear takes through the thickness H: long enough for the slowest swings that friction feeds in long strips, short beside what a forming takes
+constexpr double kMemoryShare = .25;  ///< T_N / T
+
+/// A body whose waves leave.
+struct WaveBody {
+  double impedance = 0;          ///< rho c_s, Pa s/m; 0: they stay
+  double time = 0;               ///< T, s
+  int first_node = 0, nodes = 0; ///< all of its nodes
+};
+
+/// What a step did to a vertex of a surface that rubs.
+struct RubbedNode {
+  int node = -1;
+  double area = 0;                  ///< m2
+  Node normal = Node::Zero();       ///< impulse across the surface, N s
+  Node radiated = Node::Zero();     ///< e, N s
+};
+
+/// The steady motion of the surfaces' vertices.
+class ShearWaves {
+ public:
+  ShearWaves() = default;
+  /// vertices: those of the surfaces, body by body as in `bodies`; nodes: of all bodies.
+  ShearWaves(std::vector<WaveBody> bodies, std::vector<std::vector<int>> vertices, std::size_t nodes, bool axisymmetric);
+
+  bool any() const { return !bodies_.empty(); }
+  bool has_begun() const { return !steady_.empty(); }
+  /// v_s of a node at the end of a step that is `steps` times as long as the last one, if its body goes on to change its speed as it did in that; last: phi.
+  Node steady(int node, double steps) const { return steady_[node] + steps * change_[node]; }
+  /// Of a pair of surfaces, those of tools after those of bodies: the body, or of two the one with the smaller impedance.
+  const WaveBody& of_pair(int first, int second) const;
+
+  const WaveBody& of_node(int n) const;
+
+  void begin(const NodeField& v);
+  /// After a step of dt, behind one of last_dt, that took the velocities from `before` to `after` and the nodes to x. pressed: the vertices with 1 in phi's law, each once.
+  void follow(double dt, double last_dt, const std::vector<double>& inverse_mass, const NodeField& x, const NodeField& before, const NodeField& after, const std::vector<RubbedNode>& pressed);
+
+  // For checkpoints: of the surfaces' vertices in their order, two entries each; none before the first step.
+  NodeField save() const;
+  void restore(const NodeField& saved);
+
+ private:
+  std::vector<WaveBody> bodies_;
+  std::vector<std::vector<int>> vertices_;
+  NodeField steady_, change_;  ///< v_s and phi; dv_r of the last step
+  std::size_t nodes_ = 0;
+  bool axisymmetric_ = false;
+  std::vector<int> pressed_at_;  ///< scratch: place in the list of pressed ones, -1 between steps
+};
+
+}  // namespace forming_sim

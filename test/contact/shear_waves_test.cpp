@@ -1,0 +1,155 @@
+// Waves of shear that leave where surfaces rub: what is steady is not braked, what swings is, a strike keeps Coulomb's impulse.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "contact/point_bodies.h"
+
+using contact_test::World;
+using namespace forming_sim;
+
+namespace {
+
+/// Eight corners of a box of 2 x 1 x .5 m, and their masses.
+struct Box {
+  NodeField X;
+  std::vector<double> inverse_mass;
+  Box() {
+    for (int k = 0; k < 8; ++k) {
+      X.emplace_back(k & 1 ? 2 : 0, k & 2 ? 1 : 0, k & 4 ? .5 : 0, 0);
+      inverse_mass.push_back(1 / (1 + .3 * k));
+    }
+  }
+  ShearWaves waves(double time) const { return ShearWaves({{1e6, time, 0, 8}}, {{0, 1, 2, 3, 4, 5, 6, 7}}, 8, false); }
+};
+
+RubbedNode rubbed(int node) {
+  RubbedNode of;
+  of.node = node;
+  return of;
+}
+
+/// A strip above a rough plane, with waves that leave.
+World strip_over_plane(double mu, double impedance, double time) {
+  World world;
+  world.config.layer = 1e-4;
+  world.add_strip(Vec3(0, 2e-4, 0), 12, 4, .01, .01, 2700, 2e9);
+  world.bodies[0].waves = {impedance, time, 0, static_cast<int>(world.x.size())};
+  world.add_plane("table", Vec3::Zero(), Vec3::UnitY(), mu, [](double) -> Vec3 { return Vec3::Zero(); });
+  return world;
+}
+
+}  // namespace
+
+TEST(ShearWaves, ABodyThatGathersSpeedAndTurnsIsSteady) {
+  const Box box;
+  ShearWaves waves = box.waves(.02);
+  const double dt = 1e-3;
+  const auto place = [&](double t, int n) -> Node {
+    const Mat3 turn = Eigen::AngleAxisd(30 * t + 200 * t * t, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    return node(turn * vec3(box.X[n]) + Vec3(5 * t * t, 40 * t * t * t, t));
+  };
+  NodeField before(8), after(8), x(8);
+  for (int step = 0; step < 100; ++step) {
+    for (int n = 0; n < 8; ++n) {
+      x[n] = place((step + 1) * dt, n);
+      after[n] = (x[n] - place(step * dt, n)) / dt;
+    }
+    if (step == 0)
+      waves.begin(after);
+    else
+      waves.follow(dt, dt, box.inverse_mass, x, before, after, {});
+    for (int n = 0; n < 8; ++n) EXPECT_LT((waves.steady(n, 0) - after[n]).norm(), 1e-9 * after[n].norm());
+    if (step == 50)
+      for (int n = 0; n < 8; ++n) EXPECT_LT((waves.steady(n, 1) - (place((step + 2) * dt, n) - x[n]) / dt).norm(), 5e-3 * after[n].norm());  // what is to come
+    before = after;
+  }
+}
+
+// Of a vertex that swings as sin(w t) in a body that does not move otherwise: (w T)^2/(1 + (w T)^2) of z v^2 at every frequency.
+TEST(ShearWaves, WhatSwingsLosesEnergyAtEveryFrequency) {
+  Box box;
+  box.inverse_mass.assign(8, 0);  // held: no motion of the body as a whole
+  const double T = 1e-3;
+  for (const double w : {100., 300., 1000., 1e4, 1e5}) {
+    ShearWaves waves = box.waves(T);
+    const double dt = 1e-4 / std::max(w, 1 / T);
+    const long round = std::lround(2 * M_PI / (w * dt));
+    NodeField v(8, Node::Zero());
+    waves.begin(v);
+    double taken = 0, all = 0;
+    const long settled = static_cast<long>(std::ceil(20 * T / dt / round)) * round;
+    for (long step = 0; step < settled + round; ++step) {
+      const NodeField before = v;
+      v[3][0] = std::sin(w * dt * static_cast<double>(step));
+      waves.follow(dt, dt, box.inverse_mass, box.X, before, v, {});
+      if (step < settled) continue;
+      taken += (v[3][0] - waves.steady(3, 0)[0]) * v[3][0];
+      all += v[3][0] * v[3][0];
+    }
+    const double exact = w * T * w * T / (1 + w * T * w * T);
+    EXPECT_NEAR(taken / all, exact, .01 * exact) << w;
+  }
+}
+
+TEST(ShearWaves, CountsHowLongContactLasts) {
+  const Box box;
+  ShearWaves waves = box.waves(1);
+  const NodeField v(8, Node::Zero());
+  waves.begin(v);
+  for (int step = 0; step < 1000; ++step) waves.follow(1e-3, 1e-3, box.inverse_mass, box.X, v, v, {rubbed(2), rubbed(5)});
+  for (int n = 0; n < 8; ++n) EXPECT_NEAR(waves.steady(n, 0)[3], n == 2 || n == 5 ? 1 - std::exp(-1.) : 0, 1e-3) << n;
+}
+
+TEST(ShearWaves, OfTwoBodiesTheSofterTakesThem) {
+  const ShearWaves waves({{3e6, 1, 0, 4}, {2e6, 2, 4, 4}}, {{0}, {4}}, 8, false);
+  EXPECT_EQ(waves.of_pair(0, 1).impedance, 2e6);
+  EXPECT_EQ(waves.of_pair(1, 0).impedance, 2e6);
+  EXPECT_EQ(waves.of_pair(0, 2).impedance, 3e6);  // a tool
+  EXPECT_EQ(waves.of_pair(2, 0).impedance, 3e6);
+}
+
+// A strip thrown at a plane at an angle: over in a thousandth of T, friction is mu times the normal impulse; over in many T it is not.
+TEST(ShearWaves, AStrikeKeepsCoulombsImpulse) {
+  for (const double time : {1., 1e-6}) {
+    World world = strip_over_plane(.1, 3e6, time);
+    for (Node& v : world.v) v = Node(40, -10, 0, 0);
+    Contact contact = world.make();
+    const Vec3 p0 = world.momentum();
+    double pressed = 0;
+    for (int i = 0; i < 3000; ++i) {
+      world.step(contact, 5e-7, false);
+      ASSERT_NEAR(world.closure(), 0, 1e-11 * world.exchanged + 1e-300);
+      if (world.last.active > 0) pressed += world.last.dt;
+    }
+    const Vec3 change = world.momentum() - p0;
+    EXPECT_GT(change.y(), 0);
+    const double ratio = -change.x() / change.y();
+    std::printf("  T %g s: pressed for %.1e s, friction over normal impulse %.5f\n", time, pressed, ratio);
+    EXPECT_LT(pressed, 1e-3);
+    if (time == 1) EXPECT_NEAR(ratio, .1, 2e-4);
+  }
+}
+
+// Two strips rub on each other: what leaves the one goes to the other.
+TEST(ShearWaves, BetweenBodiesMomentumIsKept) {
+  World world;
+  world.config.layer = 1e-4;
+  world.config.friction = .3;
+  world.add_strip(Vec3(0, 0, 0), 12, 3, .01, .01, 2700, 2e9);
+  const int first = static_cast<int>(world.x.size());
+  world.add_strip(Vec3(.013, .0302, 0), 7, 3, .012, .01, 5000, 3e9);
+  world.bodies[0].waves = {3e6, 1e-5, 0, first};
+  world.bodies[1].waves = {4e6, 2e-5, first, static_cast<int>(world.x.size()) - first};
+  for (int n = 0; n < static_cast<int>(world.x.size()); ++n) world.v[n] = n < first ? Node(3, 1, 0, 0) : Node(-4, -2, 0, 0);
+  Contact contact = world.make();
+  const Vec3 p0 = world.momentum();
+  double scale = 0;
+  for (std::size_t n = 0; n < world.x.size(); ++n) scale += world.mass[n] * world.v[n].norm();
+  for (int i = 0; i < 2000; ++i) {
+    world.step(contact, 5e-7, false);
+    ASSERT_NEAR(world.closure(), 0, 1e-11 * world.exchanged + 1e-300);
+    ASSERT_LT((world.momentum() - p0).norm(), 1e-12 * scale);
+  }
+  EXPECT_GT(world.friction, 0);
+}
