@@ -68,11 +68,6 @@ void Contact::set_masses(const std::vector<double>& inverse_mass, const std::vec
   impl_->held = held;
   impl_->held_of.assign(inverse_mass.size(), -1);
   for (size_t i = 0; i < held.size(); ++i) impl_->held_of[held[i].node] = static_cast<int>(i);
-  if (impl_->waves.any()) {
-    std::vector<int> nodes;
-    for (const HeldNode& h : held) nodes.push_back(h.node);
-    impl_->waves.hold(nodes);
-  }
   impl_->listed = false;
 }
 

@@ -67,7 +67,7 @@ template <class Place> RigidMotion rigid_motion(const WaveBody& body, const std:
 }  // namespace
 
 ShearWaves::ShearWaves(std::vector<WaveBody> bodies, std::vector<std::vector<int>> vertices, std::size_t nodes, bool axisymmetric)
-    : bodies_(std::move(bodies)), vertices_(std::move(vertices)), nodes_(nodes), axisymmetric_(axisymmetric), held_(bodies_.size(), 0), pressed_at_(nodes, -1) {}
+    : bodies_(std::move(bodies)), vertices_(std::move(vertices)), nodes_(nodes), axisymmetric_(axisymmetric), pressed_at_(nodes, -1) {}
 
 const WaveBody& ShearWaves::of_pair(int first, int second) const {
   const int bodies = static_cast<int>(bodies_.size());
@@ -78,11 +78,6 @@ const WaveBody& ShearWaves::of_pair(int first, int second) const {
 
 const WaveBody& ShearWaves::of_node(int n) const {
   return *std::find_if(bodies_.begin(), bodies_.end(), [n](const WaveBody& body) { return n < body.first_node + body.nodes; });
-}
-
-void ShearWaves::hold(const std::vector<int>& nodes) {
-  std::fill(held_.begin(), held_.end(), 0);
-  for (const int n : nodes) held_[&of_node(n) - bodies_.data()] = 1;
 }
 
 void ShearWaves::begin(const NodeField& v) {
@@ -100,11 +95,7 @@ void ShearWaves::follow(double dt, double last_dt, const std::vector<double>& in
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const WaveBody& body = bodies_[b];
     if (body.impedance == 0) continue;
-    RigidMotion was, is;
-    if (!held_[b]) {
-      was = rigid_motion(body, inverse_mass, axisymmetric_, before, place_before);
-      is = rigid_motion(body, inverse_mass, axisymmetric_, after, place_after);
-    }
+    const RigidMotion was = rigid_motion(body, inverse_mass, axisymmetric_, before, place_before), is = rigid_motion(body, inverse_mass, axisymmetric_, after, place_after);
     const double part = dt / (body.time + dt);
     for (const int n : vertices_[b]) {
       Node& s = steady_[n];

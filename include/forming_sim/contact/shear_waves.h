@@ -61,8 +61,6 @@ class ShearWaves {
 
   const WaveBody& of_node(int n) const;
 
-  /// Of bodies with such nodes dv_r is nothing: what is held or driven does not gather speed as a whole, and with a dv_r of its swing tau could give energy to it.
-  void hold(const std::vector<int>& nodes);
   void begin(const NodeField& v);
   /// After a step of dt, behind one of last_dt, that took the velocities from `before` to `after` and the nodes to x. pressed: the vertices with 1 in phi's law, each once.
   void follow(double dt, double last_dt, const std::vector<double>& inverse_mass, const NodeField& x, const NodeField& before, const NodeField& after, const std::vector<RubbedNode>& pressed);
@@ -77,7 +75,6 @@ class ShearWaves {
   NodeField steady_, change_;  ///< v_s and phi; dv_r of the last step
   std::size_t nodes_ = 0;
   bool axisymmetric_ = false;
-  std::vector<char> held_;  ///< bodies
   std::vector<int> pressed_at_;  ///< scratch: place in the list of pressed ones, -1 between steps
 };
 
