@@ -96,19 +96,19 @@ void Contact::Impl::end(double dt, const Move& move, NodeField& x, NodeField& v,
 
 void Contact::Impl::follow_steady_motion(double dt, const NodeField& x, const NodeField& before, const NodeField& v) {
   if (!waves.any()) return;
-  std::vector<RubbedNode> of_entry(work.body_entries);
+  rubbed_entries.assign(work.body_entries, RubbedNode());
   for (const ContactPair& pair : near.pairs) {
     if (pair.rub < 0 || pair.impulse == 0) continue;
     for (int k = 0; k < pair.nodes; ++k) {
       if (pair.node[k] >= work.body_entries) continue;
-      RubbedNode& rubbed = of_entry[pair.node[k]];
+      RubbedNode& rubbed = rubbed_entries[pair.node[k]];
       rubbed.node = work.vertex[pair.node[k]];
       rubbed.normal += pair.weight[k] * pair.impulse * pair.normal;
       rubbed.radiated += pair.weight[k] * near.rubs[pair.rub].radiated;
     }
   }
   pressed.clear();
-  for (RubbedNode& rubbed : of_entry) {
+  for (RubbedNode& rubbed : rubbed_entries) {
     if (rubbed.node < 0) continue;
     rubbed.area = features.area[rubbed.node];
     pressed.push_back(rubbed);

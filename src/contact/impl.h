@@ -71,7 +71,7 @@ struct Contact::Impl {
   PairRecords tried;  ///< pairs of the last attempt at this step that failed
   std::vector<double> moved;
   std::vector<double> sum, weighted, total;  ///< per entry of the workspace
-  std::vector<RubbedNode> pressed;
+  std::vector<RubbedNode> rubbed_entries, pressed;
 
   // search.cpp
   double fastest(const NodeField& v) const;

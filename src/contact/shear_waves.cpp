@@ -31,7 +31,7 @@ struct RigidMotion {
   }
 };
 
-/// x - back v: where the nodes were when they had the velocity v. Nodes that are held in all directions do not count.
+/// place(n): where node n was when it had the velocity v. Nodes that are held in all directions do not count.
 template <class Place> RigidMotion rigid_motion(const WaveBody& body, const std::vector<double>& inverse_mass, bool axisymmetric, const NodeField& v, Place&& place) {
   RigidMotion motion;
   double mass = 0;

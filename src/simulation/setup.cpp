@@ -141,10 +141,11 @@ void Simulation::Impl::set_up_contact() {
     first_facet += count;
     const MaterialConfig& m = body.material;
     const double density = m.density * plan.time_step.mass_scaling, shear_speed = std::sqrt(m.mu() / density);
-    s.waves = {density * shear_speed, kSteadyTime * thickness_of(body, model.axisymmetric) / shear_speed, body.first_node, body.node_count};
+    const double thickness = thickness_of(body, model.axisymmetric);
+    s.waves = {density * shear_speed, kSteadyTime * thickness / shear_speed, body.first_node, body.node_count};
     setup.bodies.push_back(std::move(s));
     setup.softest_modulus = std::min(setup.softest_modulus, m.E());
-    setup.thinnest = std::min(setup.thinnest, thickness_of(body, model.axisymmetric));
+    setup.thinnest = std::min(setup.thinnest, thickness);
     setup.wave_speed = std::min(
         setup.wave_speed, std::sqrt((m.K() + 4. / 3 * m.mu()) / density));
   }

@@ -48,7 +48,6 @@ struct Rub {
   double friction = 0;
   double w = 0;                ///< inverse mass of the pair, 1/kg
   // Where waves leave
-  double kick = 0;             ///< time over which the impulses act, s
   double lasting = 0;          ///< phi
   double beta = 0;             ///< z phi A times the kick, kg
   Node steady = Node::Zero();  ///< steady motion u_s, m/s
