@@ -30,12 +30,11 @@ double PairConstants::held_w(const ContactPair& pair) const {
 // phi of the pair: the mean of its nodes of bodies by their weights.
 void PairConstants::let_waves_leave(const ContactPair& pair, Rub& rub) const {
   double phi = 0, sum = 0;
-  for (int k = 0; k < pair.nodes; ++k) {
-    if (pair.node[k] >= work.body_entries) continue;
-    phi += std::abs(pair.weight[k]) * work.steady[pair.node[k]][3];
-    sum += std::abs(pair.weight[k]);
-  }
-  if (sum == 0) return;
+  work.each_of_bodies(pair, [&](int i, double b) {
+    phi += std::abs(b) * work.steady[i][3];
+    sum += std::abs(b);
+  });
+  if (phi == 0) return;
   const double area = pair.stiffness / (modulus * layer);
   rub.lasting = phi / sum;
   const WaveBody& body = waves->of_pair(pair.own, pair.surface);

@@ -36,14 +36,12 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
   m.both = m.features.bodies_meet() ? 2 : 1;
   if (m.method == Impl::Method::implicit && m.config.swing == "damped" && !m.slip.empty()) {
     std::vector<WaveBody> bodies;
-    std::vector<std::vector<int>> vertices;
     bool any = false;
-    for (int b = 0; b < m.features.bodies; ++b) {
-      bodies.push_back(setup.bodies[b].waves);
-      vertices.push_back(m.features.surfaces[b].vertices);
-      any = any || bodies.back().impedance > 0;
+    for (const ContactSurface& body : setup.bodies) {
+      bodies.push_back(body.waves);
+      any = any || body.waves.impedance > 0;
     }
-    if (any) m.waves = ShearWaves(std::move(bodies), std::move(vertices), at.size(), setup.axisymmetric);
+    if (any) m.waves = ShearWaves(bodies, at.size(), setup.axisymmetric);
   }
   NodeField x = at, place;
   m.tools.place_all(m.features, at_start, false, place);
@@ -68,6 +66,7 @@ void Contact::set_masses(const std::vector<double>& inverse_mass, const std::vec
   impl_->held = held;
   impl_->held_of.assign(inverse_mass.size(), -1);
   for (size_t i = 0; i < held.size(); ++i) impl_->held_of[held[i].node] = static_cast<int>(i);
+  impl_->waves.hold(held);
   impl_->listed = false;
 }
 
@@ -99,13 +98,12 @@ void Contact::Impl::follow_steady_motion(double dt, const NodeField& x, const No
   rubbed_entries.assign(work.body_entries, RubbedNode());
   for (const ContactPair& pair : near.pairs) {
     if (pair.rub < 0 || pair.impulse == 0) continue;
-    for (int k = 0; k < pair.nodes; ++k) {
-      if (pair.node[k] >= work.body_entries) continue;
-      RubbedNode& rubbed = rubbed_entries[pair.node[k]];
-      rubbed.node = work.vertex[pair.node[k]];
-      rubbed.normal += pair.weight[k] * pair.impulse * pair.normal;
-      rubbed.radiated += pair.weight[k] * near.rubs[pair.rub].radiated;
-    }
+    work.each_of_bodies(pair, [&](int i, double b) {
+      RubbedNode& rubbed = rubbed_entries[i];
+      rubbed.node = work.vertex[i];
+      rubbed.normal += b * pair.impulse * pair.normal;
+      rubbed.radiated += b * near.rubs[pair.rub].radiated;
+    });
   }
   pressed.clear();
   for (RubbedNode& rubbed : rubbed_entries) {
@@ -186,7 +184,7 @@ const std::vector<Vec3>& Contact::body_shifts() const { return impl_->body_shift
 const std::vector<std::string>& Contact::warnings() const { return impl_->warnings; }
 
 namespace {
-constexpr std::uint64_t kMagic = 0x39746361746e6f43u;  // "Contact9"
+constexpr std::uint64_t kMagic = 0x41746361746e6f43u;  // "ContactA"
 struct SavedHeader {
   std::uint64_t magic, vertices, facets, records, drags, tools, slip, steady, delayed;
   double potential, previous_dt;
@@ -199,7 +197,7 @@ static_assert(std::is_trivially_copyable<PairRecord>::value && std::is_trivially
 constexpr std::size_t kPose = 12;
 
 std::size_t SavedHeader::size() const {
-  return sizeof *this + records * sizeof(PairRecord) + drags * sizeof(Drag) + (tools * kPose + slip + delayed) * sizeof(double) + steady * sizeof(Node);
+  return sizeof *this + records * sizeof(PairRecord) + drags * sizeof(Drag) + (tools * kPose + slip + steady + delayed) * sizeof(double);
 }
 
 template <class Items> void append(const Items& items, std::vector<char>& data) {
@@ -216,7 +214,7 @@ template <class Items> void take(std::size_t count, const char*& from, Items& it
 
 std::vector<char> Contact::save() const {
   const Impl& m = *impl_;
-  const NodeField steady = m.waves.save();
+  const std::vector<double> steady = m.waves.save();
   const SavedHeader header{kMagic, static_cast<std::uint64_t>(m.features.vertex_count), m.features.facets.size(), m.records.pairs.size(), m.records.drags.size(), m.previous_motion.size(), m.slip.size(), steady.size(), m.delay.delayed().size(), m.potential, m.previous_dt};
   std::vector<double> poses;
   for (const ToolMotion& tool : m.previous_motion) {
@@ -256,7 +254,7 @@ void Contact::restore(const std::vector<char>& data) {
     m.previous_motion[t].rotation0 = Eigen::Map<const Mat3>(&poses[t * kPose + 3]);
   }
   take(header.slip, from, m.slip);
-  NodeField steady;
+  std::vector<double> steady;
   take(header.steady, from, steady);
   m.waves.restore(steady);
   take(header.delayed, from, m.delay.delayed());

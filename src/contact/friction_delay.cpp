@@ -5,24 +5,17 @@
 
 namespace forming_sim {
 
-namespace {
-/// Calls visit(entry, |b|) for the nodes of a pair that are of bodies.
-template <class Visit> void each_of_bodies(const Workspace& work, const ContactPair& pair, Visit&& visit) {
-  for (int k = 0; k < pair.nodes; ++k)
-    if (pair.node[k] < work.body_entries) visit(pair.node[k], std::abs(pair.weight[k]));
-}
-}  // namespace
-
 void FrictionDelay::recall(const Workspace& work, const LargeArray<ContactPair>& pairs, std::vector<Rub>& rubs) {
   if (delayed_.empty()) return;
   sum_.assign(work.body_entries, 0.0);
   for (const ContactPair& pair : pairs)
-    if (pair.rub >= 0 && pair.impulse > 0) each_of_bodies(work, pair, [&](int i, double b) { sum_[i] += b * pair.impulse; });
+    if (pair.rub >= 0 && pair.impulse > 0) work.each_of_bodies(pair, [&](int i, double b) { sum_[i] += std::abs(b) * pair.impulse; });
   for (const ContactPair& pair : pairs) {
     if (pair.rub < 0 || rubs[pair.rub].lasting == 0) continue;
     double share = 0, weights = 0;  // of the pair's impulse, 1/s
     bool pressed = false;
-    each_of_bodies(work, pair, [&](int i, double b) {
+    work.each_of_bodies(pair, [&](int i, double signed_b) {
+      const double b = std::abs(signed_b);
       weights += b;
       if (sum_[i] == 0) return;
       pressed = true;
@@ -43,7 +36,7 @@ void FrictionDelay::follow(const Workspace& work, const LargeArray<ContactPair>&
     if (pair.rub < 0 || !(pair.impulse > 0)) continue;
     const Rub& rub = rubs[pair.rub];
     const double left = pair.impulse - (rub.own * pair.impulse + rub.before);
-    each_of_bodies(work, pair, [&](int i, double b) { sum_[i] += b * left; });
+    work.each_of_bodies(pair, [&](int i, double b) { sum_[i] += std::abs(b) * left; });
   }
   for (int i = 0; i < work.body_entries; ++i) {
     if (sum_[i] == 0) continue;

@@ -202,7 +202,6 @@ void Contact::Impl::close_books(ContactStep& step) {
 ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at) {
   ContactStep step;
   Laps laps(times);
-  if (waves.any() && !waves.has_begun()) waves.begin(v);
   bool all = false;  // let pairs that push askew act before they are in their layer
   tried.resize(0, false);
   for (;;) {

@@ -127,7 +127,7 @@ void Contact::Impl::gather(const NodeField& x, const NodeField& v, const NodeFie
   if (waves.any()) {
     work.steady.resize(work.v.size());
     const double steps = previous_dt > 0 ? dt / previous_dt : 0;
-    for (int i = 0; i < work.body_entries; ++i) work.steady[i] = waves.steady(work.vertex[i], steps);
+    for (int i = 0; i < work.body_entries; ++i) work.steady[i] = waves.steady(work.vertex[i], steps, work.before[i]);
     std::copy(work.v.begin() + work.body_entries, work.v.end(), work.steady.begin() + work.body_entries);
   }
   for (TiePair& tie : tie_pairs) aim_tie(ties[tie.tie], work, motion, tie);

@@ -12,12 +12,11 @@ void Contact::Impl::add_slip(double dt) {
     if (pair.impulse == 0 || pair.rub < 0) continue;
     const Node u = relative(pair, work.v);
     const double speed = (u - dot3(pair.normal, u) * pair.normal).norm();
-    for (int k = 0; k < pair.nodes; ++k) {
-      if (pair.node[k] >= work.body_entries) continue;
-      const double share = std::abs(pair.weight[k]) * pair.impulse;
-      weighted[pair.node[k]] += share * speed;
-      total[pair.node[k]] += share;
-    }
+    work.each_of_bodies(pair, [&](int i, double b) {
+      const double share = std::abs(b) * pair.impulse;
+      weighted[i] += share * speed;
+      total[i] += share;
+    });
   }
   for (int i = 0; i < work.body_entries; ++i)
     if (total[i] > 0) slip[work.vertex[i]] += dt * weighted[i] / total[i];

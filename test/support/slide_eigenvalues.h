@@ -36,14 +36,14 @@ inline Eigen::VectorXcd eigenvalues(Elements& elements, const NodeField& x, cons
   return Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
 }
 
-/// What damps the swing (contact/shear_waves.h), where contact has lasted; without what v_s owes to the body as a whole.
+/// What damps the swing (contact/shear_waves.h), where contact has lasted, of a body that does not move as a whole.
 struct Damped {
   bool waves = true, delay = true;
   double impedance, time;  ///< rho c_s, Pa s/m; T, s
 };
 
 /// The largest real part of s, 1/s, with it. area: that the nodes of the base stand for, m2 per m of width.
-///   m u_x'' = -(K u)_x - mu N_m - z A (u_x' - s),   N_m' = ((K u)_y - N_m)/T_N,   s' = (u_x' - s)/T     at the base
+///   m u_x'' = -(K u)_x - mu N_d - z A (u_x' - s),   N_d' = ((K u)_y - N_d)/T_N,   s' = (u_x' - s)/T     at the base
 inline double fastest_growth(Elements& elements, const NodeField& x, const std::vector<int>& base, const std::vector<double>& area, double mu, const Damped& damped) {
   const Eigen::MatrixXd K = stiffness_over_mass(elements, x, 2);
   const auto of_base = [&](int component) { return std::find(base.begin(), base.end(), component / 2) != base.end(); };
@@ -51,7 +51,7 @@ inline double fastest_growth(Elements& elements, const NodeField& x, const std::
   for (int c = 0; c < K.rows(); ++c)
     if (!of_base(c) || c % 2 == 0) free.push_back(c);
   const int n = static_cast<int>(free.size()), b = static_cast<int>(base.size());
-  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(2 * n + 2 * b, 2 * n + 2 * b);  // u, u', N_m over the root of m, s
+  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(2 * n + 2 * b, 2 * n + 2 * b);  // u, u', N_d over the root of m, s
   S.block(0, n, n, n).setIdentity();
   for (int r = 0, k = 0; r < n; ++r) {
     for (int c = 0; c < n; ++c) S(n + r, c) = -K(free[r], free[c]);

@@ -19,6 +19,7 @@
 
 #include "forming_sim/config/fault.h"
 #include "forming_sim/contact/config.h"
+#include "forming_sim/contact/held_node.h"
 #include "forming_sim/contact/shear_waves.h"
 #include "forming_sim/mesh/mesh.h"
 #include "forming_sim/parallel/team.h"
@@ -54,13 +55,6 @@ struct ToolMotion {
 
 inline Vec3 pose0(const ToolMotion& m, const Vec3& p) { return m.rotation0 * p + m.position0; }
 inline Vec3 pose1(const ToolMotion& m, const Vec3& p) { return m.rotation1 * p + m.position1; }
-
-/// A node with held or prescribed directions. Contact changes its velocity
-/// only within the range of the projector (identity minus the held directions).
-struct HeldNode {
-  int node = -1;
-  Mat3 projector = Mat3::Zero();  ///< symmetric, P P = P
-};
 
 struct ContactSetup {
   int dimension = 3;

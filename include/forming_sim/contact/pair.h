@@ -111,6 +111,12 @@ struct Workspace {
   NodeField steady;            ///< of bodies v_s and phi (shear_waves.h), of tools the velocity; empty where no waves leave
   std::vector<Share> share;
   std::vector<const Mat3*> projector;  ///< of held nodes, else null
+
+  /// Calls visit(entry, b) for the nodes of a pair that are of bodies.
+  template <class Visit> void each_of_bodies(const Link& pair, Visit&& visit) const {
+    for (int k = 0; k < pair.nodes; ++k)
+      if (pair.node[k] < body_entries) visit(pair.node[k], pair.weight[k]);
+  }
 };
 
 }  // namespace forming_sim

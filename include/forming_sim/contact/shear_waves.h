@@ -13,8 +13,8 @@
 //   v_s <- v_s + dv_r - e/(z A T) + (1 - phi) dt/(T + dt) (v - v_s)   of either surface; e: impulse of tau on what it stands for, A
 //   phi <- phi + dt/(T + dt) (1 or 0 - phi)                             1: pressed
 // as if masses of z A T were dragged along by dashpots: over a long time they take no impulse, however contact comes and goes.
-// Across the surface v_s follows as where phi is 0. v_s goes with its body as a rigid one, whose velocity there changes by dv_r: a body that gathers speed or turns as a whole
-// feels nothing. phi grows as contact lasts: a strike that is over long before T keeps Coulomb's impulse.
+// Across the surface v_s follows as where phi is 0. dv_r is the change of the velocity that the body has there as a whole (body_motion.h):
+// a body that gathers speed, turns or follows its grips feels nothing. phi grows as contact lasts: a strike that is over long before T keeps Coulomb's impulse.
 // (A washout of first order, rho c_s sT/(1 + sT): it takes energy at every frequency and gives it at none.)
 //
 // And friction answers to a change of the normal force with a delay T_N (friction_delay.h; Prakash and Clifton 1993; that sliding is
@@ -23,18 +23,18 @@
 // slower and as surely (test/support/slide_eigenvalues.h).
 #include <vector>
 
-#include "forming_sim/tensor/vec.h"
+#include "forming_sim/contact/body_motion.h"
 
 namespace forming_sim {
 
-constexpr double kSteadyTime = 16;    ///< T, of the time H/c_s that a wave of shear takes through the thickness H: long enough for the slowest swings that friction feeds in long strips, short beside what a forming takes
+constexpr double kSteadyTime = 4;     ///< T, of the time H/c_s that a wave of shear takes through the thickness H: with half of it something grows at friction .3, and what T drags along is as T
 constexpr double kMemoryShare = .25;  ///< T_N / T
 
 /// A body whose waves leave.
 struct WaveBody {
   double impedance = 0;          ///< rho c_s, Pa s/m; 0: they stay
   double time = 0;               ///< T, s
-  int first_node = 0, nodes = 0; ///< all of its nodes
+  int first_node = 0, nodes = 0;  ///< all of its nodes
 };
 
 /// What a step did to a vertex of a surface that rubs.
@@ -45,37 +45,45 @@ struct RubbedNode {
   Node radiated = Node::Zero();     ///< e, N s
 };
 
-/// The steady motion of the surfaces' vertices.
+/// The steady motion of the vertices that rub, or did so lately.
 class ShearWaves {
  public:
   ShearWaves() = default;
-  /// vertices: those of the surfaces, body by body as in `bodies`; nodes: of all bodies.
-  ShearWaves(std::vector<WaveBody> bodies, std::vector<std::vector<int>> vertices, std::size_t nodes, bool axisymmetric);
+  /// nodes: of all bodies, which follow one another in the order of their nodes.
+  ShearWaves(const std::vector<WaveBody>& bodies, std::size_t nodes, bool axisymmetric);
 
   bool any() const { return !bodies_.empty(); }
-  bool has_begun() const { return !steady_.empty(); }
   /// v_s of a node at the end of a step that is `steps` times as long as the last one, if its body goes on to change its speed as it did in that; last: phi.
-  Node steady(int node, double steps) const { return steady_[node] + steps * change_[node]; }
+  /// v: its velocity, which is steady where the node has not rubbed lately.
+  Node steady(int node, double steps, const Node& v) const {
+    const int i = place_[node];
+    return i < 0 ? Node(v[0], v[1], v[2], 0) : Node(rubs_[i].v + steps * rubs_[i].change);
+  }
   /// Of a pair of surfaces, those of tools after those of bodies: the body, or of two the one with the smaller impedance.
   const WaveBody& of_pair(int first, int second) const;
+  const WaveBody& of_node(int n) const { return bodies_[body_of(n)]; }
 
-  const WaveBody& of_node(int n) const;
-
-  void begin(const NodeField& v);
-  /// After a step of dt, behind one of last_dt, that took the velocities from `before` to `after` and the nodes to x. pressed: the vertices with 1 in phi's law, each once.
+  /// What is held from now on.
+  void hold(const std::vector<HeldNode>& held);
+  /// After a step of dt, behind one of last_dt, that took the velocities from `before` to `after` and the nodes to x. pressed: the vertices with 1 in phi's law, in rising order.
   void follow(double dt, double last_dt, const std::vector<double>& inverse_mass, const NodeField& x, const NodeField& before, const NodeField& after, const std::vector<RubbedNode>& pressed);
 
-  // For checkpoints: of the surfaces' vertices in their order, two entries each; none before the first step.
-  NodeField save() const;
-  void restore(const NodeField& saved);
+  // For checkpoints.
+  std::vector<double> save() const;
+  void restore(const std::vector<double>& saved);
 
  private:
+  struct Rubbing {
+    int node;
+    Node v, change;  ///< v_s and phi; dv_r of the last step
+  };
+  int body_of(int n) const;
+  void know_places();
+
   std::vector<WaveBody> bodies_;
-  std::vector<std::vector<int>> vertices_;
-  NodeField steady_, change_;  ///< v_s and phi; dv_r of the last step
-  std::size_t nodes_ = 0;
-  bool axisymmetric_ = false;
-  std::vector<int> pressed_at_;  ///< scratch: place in the list of pressed ones, -1 between steps
+  std::vector<MovingBody> moving_;
+  std::vector<Rubbing> rubs_, next_;  ///< in rising order of their nodes
+  std::vector<int> place_;            ///< of every node in rubs_, -1: none
 };
 
 }  // namespace forming_sim

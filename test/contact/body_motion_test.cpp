@@ -1,0 +1,134 @@
+// The motion of a body as a whole: by its masses where it is free, and by what holds it.
+#include "forming_sim/contact/body_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <random>
+
+using namespace forming_sim;
+
+namespace {
+
+struct Cloud {
+  NodeField x, v;
+  std::vector<double> inverse_mass;
+  /// Nodes at random, with a motion of their own.
+  Cloud(int nodes, int dimension, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> in(-1, 1);
+    for (int n = 0; n < nodes; ++n) {
+      x.emplace_back(in(random), in(random), dimension == 3 ? in(random) : 0, 0);
+      v.emplace_back(in(random), in(random), dimension == 3 ? in(random) : 0, 0);
+      inverse_mass.push_back(1 / (2 + in(random)));
+    }
+  }
+  BodyMotion motion(const MovingBody& body) const {
+    return body.motion(inverse_mass, v, [&](int n) { return x[n]; });
+  }
+};
+
+Node turning(const Vec3& v, const Vec3& w, const Node& x) { return node(v + w.cross(vec3(x))); }
+
+}  // namespace
+
+TEST(BodyMotion, OfAFreeBodyHasItsMomentum) {
+  for (const int dimension : {2, 3}) {
+    const Cloud cloud(40, dimension, 1);  // all of them are asked
+    const BodyMotion motion = cloud.motion(MovingBody(0, 40, false));
+    Vec3 p = Vec3::Zero(), L = Vec3::Zero();
+    for (int n = 0; n < 40; ++n) {
+      const Vec3 rest = vec3(cloud.v[n] - motion.at(cloud.x[n])) / cloud.inverse_mass[n];
+      p += rest;
+      L += vec3(cloud.x[n]).cross(rest);
+    }
+    EXPECT_LT(p.norm(), 1e-11);
+    EXPECT_LT(L.norm(), 1e-10);
+  }
+}
+
+TEST(BodyMotion, OfARigidOneIsItsOwn) {
+  Cloud cloud(5000, 3, 2);
+  const Vec3 v(3, -2, 1), w(.5, .7, -.2);
+  for (int n = 0; n < 5000; ++n) cloud.v[n] = turning(v, w, cloud.x[n]);
+  const BodyMotion motion = cloud.motion(MovingBody(0, 5000, false));
+  for (int n = 0; n < 5000; n += 7) EXPECT_LT((motion.at(cloud.x[n]) - cloud.v[n]).norm(), 1e-10);
+}
+
+// Half a body moves as the whole one, whose other half is its mirror image.
+TEST(BodyMotion, OfHalfABodyIsThatOfTheWhole) {
+  const int half = 20;
+  Cloud whole(2 * half, 3, 3);
+  for (int n = 0; n < 3; ++n) whole.x[n][0] = whole.v[n][0] = 0;
+  for (int n = 0; n < half; ++n) {
+    whole.x[half + n] = whole.x[n];
+    whole.v[half + n] = whole.v[n];
+    whole.x[half + n][0] *= -1;
+    whole.v[half + n][0] *= -1;
+    whole.inverse_mass[half + n] = whole.inverse_mass[n];
+  }
+  const BodyMotion exact = whole.motion(MovingBody(0, 2 * half, false));
+  MovingBody body(0, half, false);
+  std::vector<HeldNode> held;
+  for (int n = 0; n < 3; ++n) held.push_back({n, Mat3(Vec3(0, 1, 1).asDiagonal())});
+  body.hold(held);
+  const BodyMotion found = whole.motion(body);
+  for (int n = 0; n < half; ++n) EXPECT_LT((found.at(whole.x[n]) - exact.at(whole.x[n])).norm(), 1e-4);
+}
+
+TEST(BodyMotion, OfAGrippedBodyIsThatOfItsGrips) {
+  Cloud cloud(200, 3, 4);
+  const Vec3 v(3, -2, 1), w(.5, .7, -.2);
+  std::vector<HeldNode> held;
+  for (int n = 50; n < 60; ++n) {
+    held.push_back({n, Mat3::Zero()});
+    cloud.v[n] = turning(v, w, cloud.x[n]);
+    cloud.inverse_mass[n] = 0;
+  }
+  for (const int count : {200, 60}) {
+    MovingBody body(50, count - 50, false);
+    body.hold(held);
+    const BodyMotion motion = cloud.motion(body);
+    for (int n = 50; n < 60; ++n) EXPECT_LT((motion.at(cloud.x[n]) - cloud.v[n]).norm(), 1e-5);
+    body.hold({});
+    if (count == 200) EXPECT_GT((cloud.motion(body).at(cloud.x[50]) - cloud.v[50]).norm(), .1);
+  }
+}
+
+// A body that is held at one point turns about it.
+TEST(BodyMotion, OfAPinnedBodyIsATurnAboutThePin) {
+  Cloud cloud(64, 2, 5);
+  cloud.v[7] = Node::Zero();
+  cloud.inverse_mass[7] = 0;
+  MovingBody body(0, 64, false);
+  body.hold({{7, Mat3::Zero()}});
+  const BodyMotion motion = cloud.motion(body);
+  double L = 0, J = 0;
+  for (int n = 0; n < 64; ++n) {
+    if (n == 7) continue;
+    const Vec3 r = vec3(cloud.x[n] - cloud.x[7]);
+    L += r.cross(vec3(cloud.v[n])).z() / cloud.inverse_mass[n];
+    J += r.squaredNorm() / cloud.inverse_mass[n];
+  }
+  EXPECT_NEAR(motion.w.z(), L / J, 1e-5);
+  EXPECT_LT(motion.at(cloud.x[7]).norm(), 1e-5);
+}
+
+// Off the axis nothing moves as a rigid body.
+TEST(BodyMotion, TurnedAboutAnAxisItIsAlongIt) {
+  Cloud cloud(30, 2, 6);
+  MovingBody body(0, 30, true);
+  double p = 0, m = 0;
+  for (int n = 0; n < 30; ++n) {
+    p += cloud.v[n][1] / cloud.inverse_mass[n];
+    m += 1 / cloud.inverse_mass[n];
+  }
+  for (const bool at_axis : {false, true}) {
+    if (at_axis) body.hold({{0, Mat3(Vec3(0, 1, 1).asDiagonal())}});
+    const Node v = cloud.motion(body).at(cloud.x[3]);
+    EXPECT_NEAR(v[1], p / m, 1e-12);
+    EXPECT_EQ(v[0], 0);
+  }
+  body.hold({{0, Mat3(Vec3(1, 0, 1).asDiagonal())}});
+  EXPECT_NEAR(cloud.motion(body).at(cloud.x[3])[1], cloud.v[0][1], 1e-5);
+}
