@@ -39,13 +39,13 @@ void MovingBody::hold(const std::vector<HeldNode>& held) {
   for (std::size_t i = 0, stride = stride_of(own.size(), kHeldAsked); i < own.size(); i += stride) held_.push_back(*own[i]);
 }
 
-// Least squares of V, w:  sum m |V + w x r - v|^2 + K sum |(1 - P)(V + w x r - v)|^2,  r = x - c, c the masses' centre.
-BodyMotion MovingBody::nearest(const Samples& samples) const {
+// Least squares of V, w:  sum m |V + w x r - v|^2 + K sum |H (V + w x r - v)|^2,  r = x - c, c the masses' centre, H: across.
+BodyMotion MovingBody::nearest(const Mass* masses, int count, const std::vector<Hold>& holds) const {
   using Six = Eigen::Matrix<double, 6, 1>;
   BodyMotion motion;
   double mass = 0;
-  const auto first = samples.masses.begin(), last = first + samples.count;
-  for (auto s = first; s != last; ++s) {
+  const Mass* const last = masses + count;
+  for (const Mass* s = masses; s != last; ++s) {
     mass += s->m;
     motion.c += s->m * s->x;
     motion.v += s->m * s->v;
@@ -53,30 +53,29 @@ BodyMotion MovingBody::nearest(const Samples& samples) const {
   if (mass > 0) {
     motion.c /= mass;
     motion.v /= mass;
-  } else if (!held_.empty()) {
-    motion.c = samples.held[0].x;
+  } else if (!holds.empty()) {
+    motion.c = holds[0].x;
   }
   motion.c[3] = motion.v[3] = 0;
   const double K = kHold * (mass > 0 ? mass : 1);
   if (axisymmetric_) {
     double held = 0, change = 0;
-    for (std::size_t i = 0; i < held_.size(); ++i) {
-      const double along = K * (1 - held_[i].projector(1, 1));
-      held += along;
-      change += along * (samples.held[i].v[1] - motion.v[1]);
+    for (const Hold& h : holds) {
+      held += K * h.across(1, 1);
+      change += K * (h.across(1, 0) * h.v[0] + h.across(1, 1) * (h.v[1] - motion.v[1]));
     }
     motion.v = Node(0, motion.v[1] + (mass + held > 0 ? change / (mass + held) : 0), 0, 0);
     return motion;
   }
   Vec3 L = Vec3::Zero();
   Mat3 J = Mat3::Zero();
-  for (auto s = first; s != last; ++s) {
+  for (const Mass* s = masses; s != last; ++s) {
     const Vec3 r = vec3(s->x - motion.c);
     L += s->m * r.cross(vec3(s->v - motion.v));
     J += s->m * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
   }
   // What lies on a line does not turn about it.
-  if (held_.empty()) {
+  if (holds.empty()) {
     if (J.trace() > 0) motion.w = (J + 1e-12 * J.trace() * Mat3::Identity()).ldlt().solve(L);
     return motion;
   }
@@ -85,14 +84,14 @@ BodyMotion MovingBody::nearest(const Samples& samples) const {
   A.topLeftCorner<3, 3>() = (mass > 0 ? mass : 1e-9 * K) * Mat3::Identity();
   b.tail<3>() = L;
   double length2 = 0;
-  for (std::size_t i = 0; i < held_.size(); ++i) {
-    const Vec3 r = vec3(samples.held[i].x - motion.c);
+  for (const Hold& h : holds) {
+    const Vec3 r = vec3(h.x - motion.c);
     length2 = std::max(length2, r.squaredNorm());
     Eigen::Matrix<double, 3, 6> B;
     B << Mat3::Identity(), -cross_matrix(r);
-    const Eigen::Matrix<double, 3, 6> HB = K * (Mat3::Identity() - held_[i].projector) * B;
+    const Eigen::Matrix<double, 3, 6> HB = K * h.across * B;
     A += B.transpose() * HB;
-    b += HB.transpose() * vec3(samples.held[i].v - motion.v);
+    b += HB.transpose() * vec3(h.v - motion.v);
   }
   A.bottomRightCorner<3, 3>() += J + 1e-9 * (mass > 0 ? J.trace() : K * length2) * Mat3::Identity();
   const Six q = A.ldlt().solve(b);

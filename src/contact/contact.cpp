@@ -93,16 +93,37 @@ void Contact::Impl::end(double dt, const Move& move, NodeField& x, NodeField& v,
   move(dt, v, x);
 }
 
-void Contact::Impl::follow_steady_motion(double dt, const NodeField& x, const NodeField& before, const NodeField& v) {
+void Contact::Impl::follow_steady_motion(double dt, const std::vector<ToolMotion>& motion, const NodeField& x, const NodeField& before, const NodeField& v) {
   if (!waves.any()) return;
   rubbed_entries.assign(work.body_entries, RubbedNode());
   for (const ContactPair& pair : near.pairs) {
     if (pair.rub < 0 || pair.impulse == 0) continue;
+    const int tool = pair.tool(features.bodies);
+    const bool by_tool = tool >= 0 && motion[tool].inverse_mass == 0;
+    double speed_before = 0, speed = 0;
+    if (by_tool) {
+      Node foot = Node::Zero();
+      for (int k = 0; k < pair.nodes; ++k)
+        if (pair.node[k] >= work.body_entries) foot += std::abs(pair.weight[k]) * work.x[pair.node[k]];
+      // Of the tool as a whole at this place: a drum that turns steadily has the same at both times, though not the same of its points is there.
+      const ToolMotion& now = motion[tool];
+      const Vec3 x = vec3(foot), n = vec3(pair.normal);
+      speed = n.dot(pose1(now, now.rotation0.transpose() * (x - now.position0)) - x) / dt;
+      speed_before = speed;
+      if (previous_dt > 0) {
+        const ToolMotion& last = previous_motion[tool];
+        speed_before = n.dot(pose0(now, last.rotation0.transpose() * (x - last.position0)) - x) / previous_dt;
+      }
+    }
     work.each_of_bodies(pair, [&](int i, double b) {
       RubbedNode& rubbed = rubbed_entries[i];
       rubbed.node = work.vertex[i];
       rubbed.normal += b * pair.impulse * pair.normal;
       rubbed.radiated += b * near.rubs[pair.rub].radiated;
+      if (!by_tool) return;
+      rubbed.by_tools += b * pair.impulse * pair.normal;
+      rubbed.told_before += b * pair.impulse * speed_before;
+      rubbed.told += b * pair.impulse * speed;
     });
   }
   pressed.clear();

@@ -94,7 +94,7 @@ struct Contact::Impl {
   Books empty_books(ContactStep& step) const { return Books(work, near.rubs, features.bodies, static_cast<int>(tools.names.size()), layer, step); }
 
   /// What of the bodies' motion lasts, after a step from `before` to v.
-  void follow_steady_motion(double dt, const NodeField& x, const NodeField& before, const NodeField& v);
+  void follow_steady_motion(double dt, const std::vector<ToolMotion>& motion, const NodeField& x, const NodeField& before, const NodeField& v);
 
   // surface_fields.cpp
   /// Adds to the slip of every node that rubs what its pairs slid in the step,

@@ -204,8 +204,9 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
   Laps laps(times);
   bool all = false;  // let pairs that push askew act before they are in their layer
   tried.resize(0, false);
+  std::vector<ToolMotion> motion;
   for (;;) {
-    const std::vector<ToolMotion> motion = tools_at(dt);
+    motion = tools_at(dt);
     predict(dt, v_star);
     work.kick = previous_dt > 0 ? 0.5 * (previous_dt + dt) : dt;
     laps.start();
@@ -276,7 +277,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
 
   laps.start();
   close_books(step);
-  follow_steady_motion(dt, x, v_star, v);
+  follow_steady_motion(dt, motion, x, v_star, v);
   laps.done(&ContactTimes::books);
   check_resolution(time, dt, step.min_gap_over_layer * layer);
   return step;

@@ -8,6 +8,7 @@ namespace forming_sim {
 namespace {
 constexpr double kOver = 1e-6;  ///< phi of a vertex whose contact is over
 constexpr std::size_t kSaved = 8;  ///< numbers of a vertex
+constexpr std::size_t kHolds = 64; ///< vertices on tools that are asked
 }  // namespace
 
 ShearWaves::ShearWaves(const std::vector<WaveBody>& bodies, std::size_t nodes, bool axisymmetric) : bodies_(bodies), place_(nodes, -1) {
@@ -29,6 +30,18 @@ int ShearWaves::body_of(int n) const {
 
 void ShearWaves::hold(const std::vector<HeldNode>& held) {
   for (MovingBody& body : moving_) body.hold(held);
+}
+
+std::vector<const RubbedNode*> ShearWaves::holds_of(const WaveBody& body, const std::vector<RubbedNode>& pressed) const {
+  std::vector<const RubbedNode*> on_tools;
+  const auto before = [](const RubbedNode& r, int n) { return r.node < n; };
+  const auto first = std::lower_bound(pressed.begin(), pressed.end(), body.first_node, before), last = std::lower_bound(first, pressed.end(), body.first_node + body.nodes, before);
+  for (auto r = first; r != last; ++r)
+    if (!r->by_tools.isZero()) on_tools.push_back(&*r);
+  const std::size_t stride = on_tools.size() / kHolds + 1;
+  for (std::size_t i = 0; i * stride < on_tools.size(); ++i) on_tools[i] = on_tools[i * stride];
+  on_tools.resize((on_tools.size() + stride - 1) / stride);
+  return on_tools;
 }
 
 void ShearWaves::know_places() {
@@ -54,8 +67,16 @@ void ShearWaves::follow(double dt, double last_dt, const std::vector<double>& in
     const WaveBody& body = bodies_[b];
     if (body.impedance == 0) continue;
     if (of != b) {
-      was = moving_[b].motion(inverse_mass, before, place_before);
-      is = moving_[b].motion(inverse_mass, after, place_after);
+      std::vector<Hold> held_before, held_after;
+      for (const RubbedNode* h : holds_of(body, pressed)) {
+        const Node along = h->by_tools.normalized();
+        const Mat3 across = vec3(along) * vec3(along).transpose();
+        const double size = h->by_tools.norm();
+        held_before.push_back({place_before(h->node), h->told_before / size * along, across});
+        held_after.push_back({place_after(h->node), h->told / size * along, across});
+      }
+      was = moving_[b].motion(inverse_mass, before, place_before, std::move(held_before));
+      is = moving_[b].motion(inverse_mass, after, place_after, std::move(held_after));
       of = b;
     }
     const double part = dt / (body.time + dt), was_phi = r.v[3], phi = was_phi + part * ((rubbed != nullptr) - was_phi);

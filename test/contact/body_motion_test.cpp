@@ -114,6 +114,24 @@ TEST(BodyMotion, OfAPinnedBodyIsATurnAboutThePin) {
   EXPECT_LT(motion.at(cloud.x[7]).norm(), 1e-5);
 }
 
+// A block on a plane that rises: as the plane across it, by its masses along it.
+TEST(BodyMotion, OfABodyOnAToolIsTheToolsAcrossIt) {
+  const Cloud cloud(64, 2, 7);
+  MovingBody body(0, 64, false);
+  std::vector<Hold> holds;
+  const Mat3 across = Vec3::UnitY() * Vec3::UnitY().transpose();
+  for (int n = 0; n < 5; ++n) holds.push_back({cloud.x[n], Node(0, 3, 0, 0), across});
+  const BodyMotion motion = body.motion(cloud.inverse_mass, cloud.v, [&](int n) { return cloud.x[n]; }, holds);
+  double p = 0, m = 0;
+  for (int n = 0; n < 64; ++n) {
+    p += cloud.v[n][0] / cloud.inverse_mass[n];
+    m += 1 / cloud.inverse_mass[n];
+    EXPECT_NEAR(motion.at(cloud.x[n])[1], 3, 1e-4);
+    EXPECT_NEAR(motion.at(cloud.x[n])[0], motion.v[0], 1e-4);
+  }
+  EXPECT_NEAR(motion.v[0], p / m, 1e-10);
+}
+
 // Off the axis nothing moves as a rigid body.
 TEST(BodyMotion, TurnedAboutAnAxisItIsAlongIt) {
   Cloud cloud(30, 2, 6);

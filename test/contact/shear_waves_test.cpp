@@ -72,6 +72,29 @@ TEST(ShearWaves, ABodyThatGathersSpeedAndTurnsIsSteady) {
   }
 }
 
+// A box that swings on a tool that gathers speed: across the tool its steady motion is the tool's.
+TEST(ShearWaves, FollowsAToolAcrossItsSurface) {
+  const Box box;
+  ShearWaves waves = box.waves(1);
+  NodeField before(8), after(8);
+  for (int n = 0; n < 8; ++n) {
+    before[n] = Node(.1 * n, .3 * n * n, -.2 * n, 0);
+    after[n] = Node(-.2 * n * n, 1 - n, .1 * n, 0);
+  }
+  std::vector<RubbedNode> base;
+  for (const int n : {0, 1, 4, 5}) {
+    base.push_back(rubbed(n));
+    base.back().by_tools = Node(0, 2 + n, 0, 0);
+    base.back().told_before = (2 + n) * .5;
+    base.back().told = (2 + n) * .7;
+  }
+  waves.follow(1e-9, 1e-9, box.inverse_mass, box.X, before, after, base);
+  for (const int n : {0, 1, 4, 5}) {
+    const Node change = waves.steady(n, 1, after[n]) - waves.steady(n, 0, after[n]);
+    EXPECT_NEAR(change[1], .2, 1e-4) << n;
+  }
+}
+
 // Of a vertex that swings as sin(w t) in a body that does not move otherwise: (w T)^2/(1 + (w T)^2) of z v^2 at every frequency, and no impulse over time.
 TEST(ShearWaves, WhatSwingsLosesEnergyAtEveryFrequency) {
   Box box;

@@ -14,7 +14,7 @@
 //   phi <- phi + dt/(T + dt) (1 or 0 - phi)                             1: pressed
 // as if masses of z A T were dragged along by dashpots: over a long time they take no impulse, however contact comes and goes.
 // Across the surface v_s follows as where phi is 0. dv_r is the change of the velocity that the body has there as a whole (body_motion.h):
-// a body that gathers speed, turns or follows its grips feels nothing. phi grows as contact lasts: a strike that is over long before T keeps Coulomb's impulse.
+// a body that gathers speed, turns or follows its grips and tools feels nothing. phi grows as contact lasts: a strike that is over long before T keeps Coulomb's impulse.
 // (A washout of first order, rho c_s sT/(1 + sT): it takes energy at every frequency and gives it at none.)
 //
 // And friction answers to a change of the normal force with a delay T_N (friction_delay.h; Prakash and Clifton 1993; that sliding is
@@ -43,6 +43,9 @@ struct RubbedNode {
   double area = 0;                  ///< m2
   Node normal = Node::Zero();       ///< impulse across the surface, N s
   Node radiated = Node::Zero();     ///< e, N s
+  // Of tools whose motion is told
+  Node by_tools = Node::Zero();     ///< their part of `normal`, N s
+  double told_before = 0, told = 0; ///< by_tools times the speed that they have there along it, in the step before and in this, N m
 };
 
 /// The steady motion of the vertices that rub, or did so lately.
@@ -78,6 +81,7 @@ class ShearWaves {
     Node v, change;  ///< v_s and phi; dv_r of the last step
   };
   int body_of(int n) const;
+  std::vector<const RubbedNode*> holds_of(const WaveBody& body, const std::vector<RubbedNode>& pressed) const;
   void know_places();
 
   std::vector<WaveBody> bodies_;
