@@ -29,11 +29,13 @@ Mesh flat_tool(int n, double lower = 0) {
   return tool;
 }
 
+enum class Rub { none, free, damped };
+
 /// The surface of a square plate of n x n cells over a tool of n x n squares
 /// whose mesh does not match, and which is plane, or uneven by a hundredth of a layer, so that its edges have to be met.
 class PlateOverTool {
  public:
-  PlateOverTool(int n, bool plane, int threads) : x_(positions_of(plate(n))), team_(threads) {
+  PlateOverTool(int n, bool plane, int threads, Rub rub = Rub::none) : x_(positions_of(plate(n))), team_(threads) {
     const Mesh body_mesh = plate(n);
     const Mesh tool = flat_tool(n, plane ? 0 : 0.01 * kLayer);
     ContactSetup setup;
@@ -44,6 +46,9 @@ class PlateOverTool {
     ContactSurface body, die;
     body.name = "plate";
     body.facets = body_mesh.surface;
+    setup.config.swing = rub == Rub::damped ? "damped" : "free";
+    body.waves = {8.5e6, 2.5e-5, 0, static_cast<int>(x_.size())};  // of .02 m of aluminium
+    die.friction = rub == Rub::none ? 0 : .1;
     die.name = "die";
     die.rigid = true;
     die.facets = tool.surface;
@@ -116,6 +121,20 @@ void plane_costs(std::vector<Row>& rows) {
   rows.push_back(just(name, "time, of that on uneven facets", seconds[1] / seconds[0], clock.seconds()));
 }
 
+/// What friction takes, and what keeps the swing down that it feeds, in pairs.
+void friction_costs(std::vector<Row>& rows) {
+  const Clock clock;
+  double seconds[3];
+  for (const Rub rub : {Rub::none, Rub::free, Rub::damped}) {
+    PlateOverTool scene(223, false, 1, rub);
+    ContactStep step;
+    seconds[static_cast<int>(rub)] = whole(least_times(scene, 0.9, step));
+  }
+  const std::string name = "contact, 100k nodes on 100k facets, pressed, friction .1";
+  rows.push_back(just(name, "swing free: time, of that without friction", seconds[1] / seconds[0], clock.seconds()));
+  rows.push_back(just(name, "swing damped: time, of that of swing free", seconds[2] / seconds[1], clock.seconds()));
+}
+
 /// Least times of the parts over some steps at the same gap; 223 x 223 squares make 100k triangles.
 void pair_costs(double gap, int threads, const std::string& name, std::vector<Row>& rows) {
   const Clock clock;
@@ -186,6 +205,7 @@ void contact_costs(std::vector<Row>& rows) {
   pair_costs(0.9, 1, "contact, 100k nodes on 100k facets, pressed", rows);
   pair_costs(0.9, 2, "the same by two threads", rows);
   plane_costs(rows);
+  friction_costs(rows);
   far_costs(rows);
 }
 
