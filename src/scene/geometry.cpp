@@ -247,6 +247,7 @@ Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known) {
     add_missing_set(probe.set, scene.bodies[static_cast<std::size_t>(body)].name, set_names(mesh), join_path("output.probes", i) + ".set", list);
   }
   check_sizes(scene, bodies, tools, geometry.faults, geometry.model.notes);
+  if (known.empty()) tell_odd_values(scene, geometry.model.notes);
   for (std::size_t i = 0; i < bodies.size(); ++i) add_body(scene.bodies[i], std::move(bodies[i]), geometry.model);
   for (std::size_t i = 0; i < tools.size(); ++i) add_tool(scene.tools[i], std::move(tools[i]), geometry.model);
   return geometry;

@@ -20,4 +20,7 @@ Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known);
 /// of the scene's bodies and tools that are meshed are looked at.
 void check_sizes(const Scene& scene, const std::vector<Mesh>& bodies, const std::vector<Mesh>& tools, std::vector<Fault>& faults, std::vector<std::string>& notes);
 
+/// Notes: values that are taken but look like wrong units or slips, and what of the scene lies behind the end of its stages.
+void tell_odd_values(const Scene& scene, std::vector<std::string>& notes);
+
 }  // namespace forming_sim

@@ -284,6 +284,41 @@ TEST(SceneBuild, SoftStripsAreTold) {
   EXPECT_TRUE(notes(40, 2, "fine", true, 0.02).empty());
 }
 
+// Values that are taken but look like wrong units, and what lies behind the end of the stages.
+TEST(SceneBuild, OddValuesAreTold) {
+  const auto notes_of = [](auto&& change) {
+    Scene scene = plate_scene();
+    scene.bodies[0].blank->pattern = "one_point";
+    HardeningConfig hardening;
+    hardening.curve = "perfect";
+    hardening.yield_stress = 2e8;
+    scene.bodies[0].material.hardening = hardening;
+    change(scene);
+    std::vector<std::string> all = build_model(scene).notes;
+    all.erase(std::remove_if(all.begin(), all.end(), [](const std::string& note) { return note.find("the surface is open") != std::string::npos; }), all.end());
+    return all;
+  };
+  EXPECT_TRUE(notes_of([](Scene&) {}).empty());
+  const auto told = [&](const std::string& text, auto&& change) {
+    const std::vector<std::string> notes = notes_of(change);
+    ASSERT_EQ(notes.size(), 1u) << text;
+    EXPECT_NE(notes[0].find(text), std::string::npos) << notes[0];
+  };
+  told("the density of body plate is 7.85 kg/m3: steel has 7850", [](Scene& s) { s.bodies[0].material.density = 7.85; });
+  told("the yield stress of body plate is 200 Pa", [](Scene& s) { s.bodies[0].material.hardening->yield_stress = 200; });
+  told("the yield stress of body plate is 2e+10 Pa", [](Scene& s) { s.bodies[0].material.hardening->yield_stress = 2e10; });
+  told("body plate begins with 10000 m/s, faster than waves in it", [](Scene& s) { s.bodies[0].initial_velocity = Vec3(0, 0, 1e4); });
+  told("time_step.mass_scaling 1000000 makes waves 1000 times as slow", [](Scene& s) { s.time_step.mass_scaling = 1e6; });
+  told("output.interval is 50 s and the stages end at", [](Scene& s) { s.output.interval = 50; });
+  told("goes on to 1000 s and the stages end at", [](Scene& s) {
+    MotionConfig motion;
+    motion.kind = "velocity";
+    motion.times = {0, 1000};
+    motion.velocities = {Vec3::Zero(), Vec3::UnitZ()};
+    s.tools[0].motion = motion;
+  });
+}
+
 TEST(SceneBuild, ABodyInTwoPartsIsTold) {
   Scene scene = plate_scene();
   scene.tools.clear();
