@@ -12,7 +12,7 @@ the stages, and what is to be seen of it. Every key is a field of the tables bel
 faults of a scene are told at once, each with its field, its line, what was given and what would be right.
 
 ```
-forming_offline --validate my_scene.yaml            # all faults; exit code 0 if there is none
+forming_offline --validate my_scene.yaml            # all faults; exit code 0 if there is none; notes on what is taken but looks odd
 forming_offline --estimate my_scene.yaml            # elements, time step, steps, wall time, memory
 forming_offline --plan my_scene.yaml                # what a step does and keeps, and what is not there
 forming_offline my_scene.yaml --output my_run       # the run and its files
