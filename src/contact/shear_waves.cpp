@@ -37,7 +37,7 @@ std::vector<const RubbedNode*> ShearWaves::holds_of(const WaveBody& body, const 
   const auto before = [](const RubbedNode& r, int n) { return r.node < n; };
   const auto first = std::lower_bound(pressed.begin(), pressed.end(), body.first_node, before), last = std::lower_bound(first, pressed.end(), body.first_node + body.nodes, before);
   for (auto r = first; r != last; ++r)
-    if (!r->by_tools.isZero()) on_tools.push_back(&*r);
+    if (r->by_tools.squaredNorm() > 0) on_tools.push_back(&*r);
   const std::size_t stride = on_tools.size() / kHolds + 1;
   for (std::size_t i = 0; i * stride < on_tools.size(); ++i) on_tools[i] = on_tools[i * stride];
   on_tools.resize((on_tools.size() + stride - 1) / stride);
