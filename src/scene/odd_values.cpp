@@ -14,11 +14,6 @@ constexpr double kLeastYield = 1e-5, kMostYield = 0.1;    // of Young's modulus:
 constexpr double kLightest = 100, kHeaviest = 25000;      // kg/m3: foams, tungsten and gold
 constexpr double kMuchScaling = 1e4;
 
-std::string three_digits(double value) {
-  const double digits = std::pow(10, 2 - std::floor(std::log10(std::abs(value))));
-  return number_text(std::round(value * digits) / digits);
-}
-
 double first_yield(const HardeningConfig& h) {
   if (h.curve == "swift") return h.strength * std::pow(h.prestrain, h.exponent);
   if (h.curve == "table") return h.stresses.empty() ? 0 : h.stresses.front();

@@ -10,6 +10,11 @@
 
 namespace forming_sim {
 
+std::string three_digits(double value) {
+  const double digits = std::pow(10, 2 - std::floor(std::log10(value)));
+  return number_text(std::round(value * digits) / digits);
+}
+
 namespace {
 
 constexpr double kLargest = 100, kSmallest = 1e-6;  // m
@@ -28,10 +33,7 @@ double shortest_edge(const Mesh& mesh) {
   return shortest;
 }
 
-std::string in_metres(double size) {
-  const double digits = std::pow(10, 2 - std::floor(std::log10(size)));
-  return number_text(std::round(size * digits) / digits) + " m";
-}
+std::string in_metres(double size) { return three_digits(size) + " m"; }
 
 /// "with unit_scale 0.001 it would be 0.25 m": a size that is `wrong` times too large.
 std::string right_scale(const MeshConfig& mesh, double size, double wrong) {
