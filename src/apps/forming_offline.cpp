@@ -42,11 +42,9 @@ int perform(const OfflineOptions& options) {
   else {
     const Scene scene = read_valid_scene(options.scene);
     if (options.task == Task::run) return run(options, scene);
-    if (options.task == Task::validate) {
-      const std::vector<Fault> faults = validate_start(scene, {}, options.thread_count());
-      if (!faults.empty()) throw SceneError(faults);
-    }
-    for (const std::string& note : build_model(scene).notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+    const StartCheck start = check_start(scene, {}, options.thread_count());
+    if (!start.faults.empty()) throw SceneError(start.faults);
+    for (const std::string& note : start.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
     text = options.task == Task::estimate ? estimate_text(estimate_run(scene, options.thread_count()))
            : options.task == Task::plan   ? plan_text(scene, options.thread_count())
                                           : "The scene has no faults.\n";

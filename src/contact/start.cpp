@@ -12,6 +12,15 @@ namespace {
 
 constexpr double kAlongAxis = 0.1;  // rings that face each other more squarely than this are not parted along the axis
 
+/// "3.8e-07 m along (0, 0, -1)"
+std::string length_and_direction(const Vec3& shift) {
+  constexpr double kNone = 1e-6;  // of a direction: rounding
+  const Vec3 along = shift.normalized().unaryExpr([](double c) { return std::abs(c) < kNone ? 0 : c; });
+  std::ostringstream text;
+  text << shift.norm() << " m along (" << along.x() << ", " << along.y() << ", " << along.z() << ")";
+  return text.str();
+}
+
 // A vertex near a facet of the other side, or an edge near an edge, with the gap signed by what is inside.
 struct StartGap {
   int vertex = -1;
@@ -219,10 +228,8 @@ std::vector<Vec3> part_bodies(double layer, const ContactSetup& setup, const Fea
     if (moves[b].isZero(0) || moves[b].norm() > 8 * f.bodies * layer) continue;  // no way out: left as it is, check_start decides
     shifts[b] = vec3(moves[b]);
     for (int v : f.surfaces[b].vertices) x[v] += moves[b];
-    const Vec3 along = shifts[b].normalized();
     std::ostringstream text;
-    text << "body " << setup.bodies[b].name << " touches another body at the start: it was moved by " << shifts[b].norm() << " m along ("
-         << along.x() << ", " << along.y() << ", " << along.z() << ")";
+    text << "body " << setup.bodies[b].name << " touches another body at the start: it was moved by " << length_and_direction(shifts[b]);
     warnings.push_back(text.str());
   }
   return shifts;
@@ -263,10 +270,8 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
     const Vec3 local = at_start[t].rotation0.transpose() * vec3(shift);
     for (int v : f.surfaces[f.bodies + t].vertices) f.place[v - f.body_nodes] += node(local);
     if (tools.is_plane[t]) tools.point[t] += local;
-    const Vec3 along = vec3(shift).normalized();
     std::ostringstream text;
-    text << "tool " << setup.tools[t].name << " touches or overlaps a body at the start: it was backed off by " << shift.norm() << " m along ("
-         << along.x() << ", " << along.y() << ", " << along.z() << ")";
+    text << "tool " << setup.tools[t].name << " touches or overlaps a body at the start: it was backed off by " << length_and_direction(vec3(shift));
     warnings.push_back(text.str());
   }
   tools.place_all(f, at_start, false, place);

@@ -16,19 +16,21 @@ void check_length(const Simulation& simulation) {
                      "or a modulus or density of other units"}});
 }
 
-std::vector<Fault> validate_start(const Scene& scene, std::vector<Fault> known, int threads) {
-  std::vector<Fault> faults = validate(scene, std::move(known));
-  if (!faults.empty()) return faults;
+StartCheck check_start(const Scene& scene, std::vector<Fault> known, int threads) {
+  StartCheck found{validate(scene, std::move(known)), {}};
+  if (!found.faults.empty()) return found;
   try {
-    check_length(Simulation(build_plan(scene), build_model(scene), threads));
+    const Simulation simulation(build_plan(scene), build_model(scene), threads);
+    check_length(simulation);
+    found.notes = simulation.warnings();
   } catch (const SceneError& error) {
-    faults = error.faults();
+    found.faults = error.faults();
   } catch (const Error& error) {
-    faults.push_back({error.code(), "scene", error.what(), "change the scene so that it can start"});
+    found.faults.push_back({error.code(), "scene", error.what(), "change the scene so that it can start"});
   } catch (const std::exception& error) {
-    faults.push_back({Code::internal_error, "scene", error.what(), "please report this as a defect"});
+    found.faults.push_back({Code::internal_error, "scene", error.what(), "please report this as a defect"});
   }
-  return faults;
+  return found;
 }
 
 }  // namespace forming_sim

@@ -110,12 +110,21 @@ Json tools(const Simulation& simulation) {
   return list;
 }
 
+bool came_to_its_end(Code code) { return code == Code::success || code == Code::limit_reached; }
+
+/// Tools that were there for nothing, in a run that came to its end.
+void tell_idle_tools(const Simulation& simulation, std::vector<std::string>& warnings) {
+  for (std::size_t i = 0; i < simulation.tools().size(); ++i)
+    if (simulation.tools()[i].peak_force.isZero(0))
+      warnings.push_back("tool " + simulation.model().tools[i].name + " has touched nothing in the whole run: look at its position, unit_scale and motion, or leave it out");
+}
+
 /// The released angle is that of a run that came to its end.
 Json springback(const Simulation& simulation, const Scene& scene, const RunRecord& record, Gauge& gauge, Code code) {
   if (!scene.output.springback) return nullptr;
   const SpringbackConfig& config = *scene.output.springback;
   const double formed = record.angle_formed_deg.value_or(NAN);
-  const bool ended = code == Code::success || code == Code::limit_reached;
+  const bool ended = came_to_its_end(code);
   const double released = ended ? springback_angle_deg(config, simulation.model().dimension, gauge.probes(),
                                                        gauge.at(simulation).probes)
                                 : NAN;
@@ -196,6 +205,7 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
   j["springback"] = springback(simulation, scene, record, gauge, code);
   j["stages"] = stages(record);
   std::vector<std::string> warnings = simulation.warnings();
+  if (came_to_its_end(code)) tell_idle_tools(simulation, warnings);
   warnings.insert(warnings.end(), record.notes.begin(), record.notes.end());
   j["warnings"] = warnings;
   return j;

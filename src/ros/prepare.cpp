@@ -22,7 +22,9 @@ Prepared prepare(const SceneSpec& message, const std::string& scene_text, int th
     std::vector<Fault> known;
     prepared.scene = scene_from(message, known);
     prepared.scene.text = scene_text.empty() ? write_scene(prepared.scene) : scene_text;
-    prepared.faults = validate_start(prepared.scene, known, threads);
+    StartCheck start = check_start(prepared.scene, known, threads);
+    prepared.faults = std::move(start.faults);
+    prepared.notes = std::move(start.notes);
   } catch (const std::exception& error) {
     prepared.faults.push_back({Code::internal_error, "scene", error.what(), "please report this as a defect"});
   }

@@ -223,6 +223,7 @@ bool FormingServer::on_validate(ValidateScene::Request& request, ValidateScene::
   const Prepared prepared = prepare(request.scene, "", 1);
   response.valid = prepared.faults.empty();
   response.faults = fault_messages(prepared.faults);
+  response.notes = prepared.notes;
   return true;
 }
 
@@ -240,6 +241,7 @@ bool FormingServer::on_estimate(EstimateRun::Request& request, EstimateRun::Resp
   }
   response.valid = prepared.faults.empty();
   response.faults = fault_messages(prepared.faults);
+  response.notes = prepared.notes;
   return true;
 }
 

@@ -162,6 +162,18 @@ bool make_tool(const Scene& scene, std::size_t i, const std::vector<Fault>& know
                  [&] { mesh = load_tool_surface(*tool.mesh, scene.base_directory, geometry.model.notes); });
 }
 
+/// A probe that is meant to be on the body.
+void note_far_probe(const ProbeConfig& probe, const std::string& body, const Mesh& mesh, std::vector<std::string>& notes) {
+  constexpr double kFar = 0.05;  // of the body's size
+  const auto box = bounds(mesh);
+  Vec3 point = probe.point;
+  if (mesh.dimension == 2) point.z() = 0;
+  const double away = box.exteriorDistance(point);
+  if (away > kFar * box.sizes().maxCoeff())
+    notes.push_back("probe " + probe.name + " is put " + three_digits(away) + " m outside body " + body + ", which extends from " + given_text(Vec3(box.min())) + " to " +
+                    given_text(Vec3(box.max())) + " m: the node nearest to it is followed; give a point on the body, in metres");
+}
+
 /// A strip of crossed triangles whose own bending is too soft (docs/elements.md): of cells higher than long, and about the axis of a ring.
 /// The own bending of n cells through a sheet is 1/n^2 of the whole.
 void note_soft_strip(const BodyConfig& config, Model& model) {
@@ -240,8 +252,12 @@ Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known) {
   for (std::size_t i = 0; i < scene.output.probes.size(); ++i) {
     const ProbeConfig& probe = scene.output.probes[i];
     const int body = body_of(probe, scene);
-    if (probe.set.empty() || body < 0 || bodies[static_cast<std::size_t>(body)].nodes.empty()) continue;
+    if (body < 0 || bodies[static_cast<std::size_t>(body)].nodes.empty()) continue;
     const Mesh& mesh = bodies[static_cast<std::size_t>(body)];
+    if (probe.set.empty()) {
+      note_far_probe(probe, scene.bodies[static_cast<std::size_t>(body)].name, mesh, geometry.model.notes);
+      continue;
+    }
     if (mesh.sets.count(probe.set) > 0) continue;
     FaultList list(geometry.faults);
     add_missing_set(probe.set, scene.bodies[static_cast<std::size_t>(body)].name, set_names(mesh), join_path("output.probes", i) + ".set", list);

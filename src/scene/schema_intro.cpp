@@ -107,14 +107,14 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | `scene`, `dimension`, `axisymmetric`, `nodes`, `cells`, `elements`, `steps` | what was run; elements are the triangles or tetrahedra of `result.h5`, also those that a one-point cell is shown as |
 | `sim_time_s`, `wall_time_s`, `ns_per_element_step` | simulated time, time it took, speed; a one-point cell counts as one element there |
 | `time_step_s` | `first`, `min`, `limited_by` |
-| `energy_J` | `kinetic`, `elastic`, `plastic`, `contact`, `friction`, `damping`, `work`, `initial`; `balance_error`: the residual of the ledger over the largest work + initial (and no less than the energy of a strain of 1e-12), a fraction; where it is above .05 at the end of a stage, `warnings` say so; `kinetic_over_internal_forming`: the largest of kinetic over elastic and plastic energy in the form stages, a guard for mass scaling and tool speed |
+| `energy_J` | `kinetic`, `elastic`, `plastic`, `contact`, `friction`, `damping`, `work`, `initial`; `balance_error`: the residual of the ledger over the largest work + initial (and no less than the energy of a strain of 1e-12), a fraction; where it is above .05 at the end of a stage, `warnings` say so; `kinetic_over_internal_forming`: the largest of kinetic over elastic and plastic energy in the form stages, a guard for mass scaling and tool speed: a few percent are good; a body that moves as a whole counts too, and where nothing resists it for long the ratio says little |
 | `options` | what viscosity, damping, settling and mass scaling took or added; `time_step`: the limit and its cost; `raised_step`: mass added by `time_step.raise_to`, in kg, as a fraction, by body, and where most |
 | `contact` | `crossings` (must be 0), `halvings`, `min_gap_over_h0`, `h0_m`; with `contact.method: explicit` `explicit_stable_dt_s`, the smallest step up to which its layer was stable |
 | `plastic_strain` | the largest equivalent plastic strain and where it is |
 | `surface_strain` | the largest principal logarithmic strain on the surface, extrapolated to it |
 | `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom` |
 | `thinning` | the largest 1 - t/t0 of a node of `top`, t its thickness, t0 that of the start; where and when it is |
-| `bodies` | for each body: name, mass, centre, momentum, angular momentum, `bounding_box` (`min`, `max`) |
+| `bodies` | for each body: name, mass, centre, momentum, angular momentum about the origin, `bounding_box` (`min`, `max`) |
 | `tools` | for each tool: name and the vector of its peak force, of means over some 50 steps: shorter peaks are in `history.csv`, as means from row to row |
 | `springback` | `angle_deg_formed`, `angle_deg_released`, `change_deg`, `probe`, `kinetic_over_internal` |
 )";

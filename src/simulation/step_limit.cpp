@@ -125,7 +125,7 @@ void Simulation::Impl::raise_step() {
 void Simulation::Impl::collapse(double stable, int element) const {
   std::ostringstream text;
   text << "at time " << time << " s the stable step of element " << element << " has fallen to " << stable << " s, from " << first_element_dt;
-  if (stable > 0) text << " s at the start: the element is squeezed flat. Refine the mesh there, lower the speed or the stroke of what presses on it, or check the material";
+  if (stable > 0) text << " s at the start: the element is squeezed flat. Look whether a tool presses or withdraws through the body there, lower its speed or stroke or time_step.mass_scaling (docs/scene.md), refine the mesh, or check the material";
   else text << " s at the start: what drives it is beyond what a step can follow. Look for a boundary, a pressure, gravity or an initial velocity in other units than m, s, Pa";
   throw Error(Code::mesh_error, text.str());
 }

@@ -90,6 +90,26 @@ TEST(RunScene, NothingHappensAndAllIsWell) {
   for (const json& warning : summary["warnings"]) EXPECT_EQ(warning.get<std::string>().find("do not add up"), std::string::npos) << warning;
 }
 
+TEST(RunScene, TellsToolsThatTouchedNothing) {
+  const TemporaryDirectory directory;
+  Scene scene = small_scene();
+  ToolConfig idle;
+  idle.name = "idle";
+  idle.normal = Vec3(0, 1, 0);
+  idle.point = Vec3(0, -1, 0);
+  scene.tools.push_back(idle);
+  const Outcome outcome = run_scene(scene, directory.path(), 1, "", kNever);
+  ASSERT_TRUE(outcome.code == Code::success || outcome.code == Code::limit_reached) << outcome.message;
+  int told = 0;
+  const json summary = read_json(directory.file("summary.json"));
+  for (const json& warning : summary["warnings"])
+    if (warning.get<std::string>().find("has touched nothing") != std::string::npos) {
+      ++told;
+      EXPECT_NE(warning.get<std::string>().find("tool idle "), std::string::npos) << warning;
+    }
+  EXPECT_EQ(told, 1);
+}
+
 // A one-point cell is shown as two triangles, and stepped as one element.
 TEST(RunScene, TellsCellsFromElements) {
   const TemporaryDirectory directory;
@@ -321,7 +341,7 @@ TEST(RunScene, OneRunAtATimeWritesIntoADirectory) {
 TEST(RunScene, StepsBeyondNumberAreRefused) {
   Scene scene = small_scene();
   scene.time_step.maximum = 1e-300;
-  const std::vector<Fault> faults = validate_start(scene, {}, 1);
+  const std::vector<Fault> faults = check_start(scene, {}, 1).faults;
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_NE(faults[0].remedy.find("time_step.maximum"), std::string::npos);
   const TemporaryDirectory directory;
@@ -332,10 +352,10 @@ TEST(RunScene, StepsBeyondNumberAreRefused) {
 TEST(RunScene, WhatCannotStartIsAFault) {
   Scene scene = small_scene();
   scene.tools[0].profile->start.y() = -8e-3;  // the punch reaches through the strip
-  const std::vector<Fault> faults = validate_start(scene, {}, 1);
+  const std::vector<Fault> faults = check_start(scene, {}, 1).faults;
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].code, Code::initial_penetration);
-  EXPECT_TRUE(validate_start(small_scene(), {}, 1).empty());
+  EXPECT_TRUE(check_start(small_scene(), {}, 1).faults.empty());
 }
 
 TEST(EstimateRun, IsThatOfTheRunItself) {

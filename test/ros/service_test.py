@@ -346,6 +346,11 @@ class ServiceTest(unittest.TestCase):
         self.assertTrue(good.valid)
         self.assertEqual(good.faults, [])
         scene = scenes.pressed_strip()
+        scene['bodies'][0]['material']['density'] = 7.85
+        odd = validate(scenes.message(scene))
+        self.assertTrue(odd.valid)
+        self.assertEqual(len(odd.notes), len(good.notes) + 1, odd.notes)
+        self.assertEqual(sum('the density of body' in note for note in odd.notes), 1, odd.notes)
         scene['dimension'] = 7
         scene['tools'][0]['friction'] = 11.0
         bad = validate(scenes.message(scene))

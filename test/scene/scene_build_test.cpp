@@ -310,6 +310,12 @@ TEST(SceneBuild, OddValuesAreTold) {
   told("body plate begins with 10000 m/s, faster than waves in it", [](Scene& s) { s.bodies[0].initial_velocity = Vec3(0, 0, 1e4); });
   told("time_step.mass_scaling 1000000 makes waves 1000 times as slow", [](Scene& s) { s.time_step.mass_scaling = 1e6; });
   told("output.interval is 50 s and the stages end at", [](Scene& s) { s.output.interval = 50; });
+  told("probe tip is put 100 m outside body plate", [](Scene& s) {
+    ProbeConfig probe;
+    probe.name = "tip";
+    probe.point = Vec3(100, 0, 0);
+    s.output.probes.push_back(probe);
+  });
   told("goes on to 1000 s and the stages end at", [](Scene& s) {
     MotionConfig motion;
     motion.kind = "velocity";

@@ -1,5 +1,6 @@
 #pragma once
 // Can a scene without faults in its fields start?
+#include <string>
 #include <vector>
 
 #include "forming_sim/scene/scene.h"
@@ -7,11 +8,15 @@
 
 namespace forming_sim {
 
-/// All that keeps a scene from running: what validate() finds; where it finds
-/// nothing also what shows only where the run is built: bodies inside tools, ties
-/// that find nothing, more steps than any machine makes.
+struct StartCheck {
+  std::vector<Fault> faults;       ///< all that keeps a scene from running
+  std::vector<std::string> notes;  ///< of a scene without faults: with what warnings its run begins
+};
+
+/// Looks for what validate() finds; where it finds nothing also for what shows only where the run is built: bodies
+/// inside tools, ties that find nothing, more steps than any machine makes.
 /// known: faults of reading the scene.
-std::vector<Fault> validate_start(const Scene& scene, std::vector<Fault> known, int threads);
+StartCheck check_start(const Scene& scene, std::vector<Fault> known, int threads);
 
 /// Throws SceneError where the run would take more than 1e12 steps.
 void check_length(const Simulation& simulation);

@@ -11,7 +11,8 @@ namespace forming_sim {
 
 struct Prepared {
   Scene scene;
-  std::vector<Fault> faults;  ///< empty: the scene can run
+  std::vector<Fault> faults;       ///< empty: the scene can run
+  std::vector<std::string> notes;  ///< what is taken but looks odd
 };
 
 /// Reads, validates and builds the scene of a message, so that a body that starts

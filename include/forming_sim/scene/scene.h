@@ -43,7 +43,7 @@ struct BodyConfig {
     visit(FORMING_SIM_FIELD(initial_velocity), Field().unit("m/s").doc("uniform initial velocity"));
     visit(FORMING_SIM_FIELD(initial_spin_deg_s), Field().unit("deg/s").doc("initial angular velocity, added to the uniform velocity"));
     visit(FORMING_SIM_FIELD(spin_centre), Field().unit("m").doc("point about which the body spins"));
-    visit(FORMING_SIM_FIELD(initial_velocity_field), Field().unit("m/s").doc("initial velocity that differs from place to place, added to the uniform velocity and the spin: a formula for each coordinate, of the initial position x, y, z in m and pi, in the language of muParser"));
+    visit(FORMING_SIM_FIELD(initial_velocity_field), Field().unit("m/s").doc("initial velocity that differs from place to place, added to the uniform velocity and the spin: a formula for each coordinate (two in a scene of dimension 2), of the initial position x, y, z in m and pi, in the language of muParser"));
     visit(FORMING_SIM_FIELD(boundaries), Field().doc("what holds or drives sets of nodes"));
     visit(FORMING_SIM_FIELD(pressures), Field().doc("pressures on its surface"));
   }
