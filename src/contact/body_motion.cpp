@@ -6,7 +6,9 @@
 namespace forming_sim {
 
 namespace {
-constexpr double kHold = 1e6;  ///< of the masses: what is held counts so much more
+constexpr double kHold = 1e6;      ///< K, of the masses: what is held counts so much more
+constexpr double kLed = .03;       ///< of all holds: what fewer lead hardly follows
+constexpr double kDisagreed = .1;  ///< of the squares of what is told, which no rigid motion has: it tells nothing
 
 /// So many of `count` that no more than `most` are asked; the nodes of structured cells repeat, and a prime stride does not fall in with them.
 std::size_t stride_of(std::size_t count, std::size_t most) {
@@ -39,65 +41,87 @@ void MovingBody::hold(const std::vector<HeldNode>& held) {
   for (std::size_t i = 0, stride = stride_of(own.size(), kHeldAsked); i < own.size(); i += stride) held_.push_back(*own[i]);
 }
 
-// Least squares of V, w:  sum m |V + w x r - v|^2 + K sum |H (V + w x r - v)|^2,  r = x - c, c the masses' centre, H: across.
-BodyMotion MovingBody::nearest(const Mass* masses, int count, const std::vector<Hold>& holds) const {
-  using Six = Eigen::Matrix<double, 6, 1>;
-  BodyMotion motion;
+// p = (V, w), the velocity B p at r = x - c with B = (1, -r x); M = sum m B^T B about the masses' centre c, G = sum B^T H B, g = sum B^T H v.
+template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, const std::vector<Hold>& holds) {
+  using Vector = Eigen::Matrix<double, modes, 1>;
+  using Square = Eigen::Matrix<double, modes, modes>;
+  const auto rigid = [](const Node& c, const Vector& p) {
+    WholeMotion motion;
+    motion.c = c;
+    if constexpr (modes == 1) {
+      motion.v[1] = p[0];
+    } else {
+      motion.v = Node(p[0], p[1], p[2], 0);
+      motion.w = p.template tail<3>();
+    }
+    return motion;
+  };
+  Node c = Node::Zero(), momentum = Node::Zero();
   double mass = 0;
   const Mass* const last = masses + count;
   for (const Mass* s = masses; s != last; ++s) {
     mass += s->m;
-    motion.c += s->m * s->x;
-    motion.v += s->m * s->v;
+    c += s->m * s->x;
+    momentum += s->m * s->v;
   }
-  if (mass > 0) {
-    motion.c /= mass;
-    motion.v /= mass;
-  } else if (!holds.empty()) {
-    motion.c = holds[0].x;
-  }
-  motion.c[3] = motion.v[3] = 0;
-  const double K = kHold * (mass > 0 ? mass : 1);
-  if (axisymmetric_) {
-    double held = 0, change = 0;
-    for (const Hold& h : holds) {
-      held += K * h.across(1, 1);
-      change += K * (h.across(1, 0) * h.v[0] + h.across(1, 1) * (h.v[1] - motion.v[1]));
+  if (mass > 0) c /= mass;
+  else if (!holds.empty()) c = holds[0].x;
+  c[3] = 0;
+
+  Square M = Square::Zero();
+  Vector Mp = Vector::Zero();
+  double size2 = 0;  // m2, of the body or its holds: what turns by 1/s moves as what moves by 1/s times its root
+  if constexpr (modes == 1) {
+    M(0, 0) = mass;
+    Mp[0] = momentum[1];
+  } else {
+    Vec3 L = Vec3::Zero();
+    Mat3 J = Mat3::Zero();
+    for (const Mass* s = masses; s != last; ++s) {
+      const Vec3 r = vec3(s->x - c);
+      L += s->m * r.cross(vec3(s->v));
+      J += s->m * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
     }
-    motion.v = Node(0, motion.v[1] + (mass + held > 0 ? change / (mass + held) : 0), 0, 0);
-    return motion;
+    if (mass > 0) size2 = J.trace() / (2 * mass);
+    for (const Hold& h : holds) size2 = std::max(size2, vec3(h.x - c).squaredNorm());
+    M.template topLeftCorner<3, 3>() = mass * Mat3::Identity();
+    M.template bottomRightCorner<3, 3>() = J + 1e-12 * mass * size2 * Mat3::Identity();  // what lies on a line does not turn about it
+    Mp << vec3(momentum), L;
   }
-  Vec3 L = Vec3::Zero();
-  Mat3 J = Mat3::Zero();
-  for (const Mass* s = masses; s != last; ++s) {
-    const Vec3 r = vec3(s->x - motion.c);
-    L += s->m * r.cross(vec3(s->v - motion.v));
-    J += s->m * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
-  }
-  // What lies on a line does not turn about it.
+  BodyMotion motion;
   if (holds.empty()) {
-    if (J.trace() > 0) motion.w = (J + 1e-12 * J.trace() * Mat3::Identity()).ldlt().solve(L);
+    motion.own = rigid(c, mass > 0 ? Vector(M.ldlt().solve(Mp)) : Vector::Zero());
     return motion;
   }
-  Eigen::Matrix<double, 6, 6> A = Eigen::Matrix<double, 6, 6>::Zero();
-  Six b = Six::Zero();  // of the change against V
-  A.topLeftCorner<3, 3>() = (mass > 0 ? mass : 1e-9 * K) * Mat3::Identity();
-  b.tail<3>() = L;
-  double length2 = 0;
+  Square G = Square::Zero();
+  Vector g = Vector::Zero();
+  double told2 = 0;
   for (const Hold& h : holds) {
-    const Vec3 r = vec3(h.x - motion.c);
-    length2 = std::max(length2, r.squaredNorm());
-    Eigen::Matrix<double, 3, 6> B;
-    B << Mat3::Identity(), -cross_matrix(r);
-    const Eigen::Matrix<double, 3, 6> HB = K * h.across * B;
-    A += B.transpose() * HB;
-    b += HB.transpose() * vec3(h.v - motion.v);
+    Eigen::Matrix<double, 3, modes> B;
+    if constexpr (modes == 1) B << 0, 1, 0;
+    else B << Mat3::Identity(), -cross_matrix(vec3(h.x - c));
+    const Eigen::Matrix<double, modes, 3> BH = B.transpose() * h.across;
+    const Vec3 v = vec3(h.v);
+    G += BH * B;
+    g += BH * v;
+    told2 += v.dot(h.across * v);
   }
-  A.bottomRightCorner<3, 3>() += J + 1e-9 * (mass > 0 ? J.trace() : K * length2) * Mat3::Identity();
-  const Six q = A.ldlt().solve(b);
-  motion.v += Node(q[0], q[1], q[2], 0);
-  motion.w = q.tail<3>();
+  if (mass > 0) motion.own = rigid(c, Vector((M + kHold * mass * G).ldlt().solve(Mp)));
+  if (told2 == 0) return motion;
+
+  // Least squares with kLed as many holds more that keep it at rest, three times in a row: what its holds lead follows them to a thousandth and better.
+  Square led = G;
+  for (int i = 0; i < modes; ++i) led(i, i) += kLed * static_cast<double>(holds.size()) * (i < 3 ? 1 : size2);
+  const Eigen::LDLT<Square> solver(led);
+  Vector p = Vector::Zero();
+  for (int k = 0; k < 3; ++k) p += solver.solve(g - G * p);
+  motion.told = rigid(c, p);
+  const double left = (told2 - 2 * p.dot(g) + p.dot(G * p)) / told2;  // of the squares
+  motion.agreed = std::clamp(1 - left / kDisagreed, 0.0, 1.0);
   return motion;
 }
+
+template BodyMotion MovingBody::of<1>(const Mass*, int, const std::vector<Hold>&);
+template BodyMotion MovingBody::of<6>(const Mass*, int, const std::vector<Hold>&);
 
 }  // namespace forming_sim

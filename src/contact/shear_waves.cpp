@@ -80,7 +80,7 @@ void ShearWaves::follow(double dt, double last_dt, const std::vector<double>& in
       of = b;
     }
     const double part = dt / (body.time + dt), was_phi = r.v[3], phi = was_phi + part * ((rubbed != nullptr) - was_phi);
-    r.change = is.at(place_after(n)) - was.at(place_before(n));
+    r.change = change_of_velocity(was, place_before(n), is, place_after(n));
     r.change[3] = 0;
     r.v += r.change;
     const Node w = after[n] - r.v;

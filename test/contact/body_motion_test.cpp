@@ -89,7 +89,7 @@ TEST(BodyMotion, OfAGrippedBodyIsThatOfItsGrips) {
     MovingBody body(50, count - 50, false);
     body.hold(held);
     const BodyMotion motion = cloud.motion(body);
-    for (int n = 50; n < 60; ++n) EXPECT_LT((motion.at(cloud.x[n]) - cloud.v[n]).norm(), 1e-5);
+    for (int n = 50; n < 60; ++n) EXPECT_LT((motion.at(cloud.x[n]) - cloud.v[n]).norm(), 4e-3);  // a thousandth
     body.hold({});
     if (count == 200) EXPECT_GT((cloud.motion(body).at(cloud.x[50]) - cloud.v[50]).norm(), .1);
   }
@@ -110,7 +110,7 @@ TEST(BodyMotion, OfAPinnedBodyIsATurnAboutThePin) {
     L += r.cross(vec3(cloud.v[n])).z() / cloud.inverse_mass[n];
     J += r.squaredNorm() / cloud.inverse_mass[n];
   }
-  EXPECT_NEAR(motion.w.z(), L / J, 1e-5);
+  EXPECT_NEAR(motion.own.w.z(), L / J, 1e-5);
   EXPECT_LT(motion.at(cloud.x[7]).norm(), 1e-5);
 }
 
@@ -126,10 +126,44 @@ TEST(BodyMotion, OfABodyOnAToolIsTheToolsAcrossIt) {
   for (int n = 0; n < 64; ++n) {
     p += cloud.v[n][0] / cloud.inverse_mass[n];
     m += 1 / cloud.inverse_mass[n];
-    EXPECT_NEAR(motion.at(cloud.x[n])[1], 3, 1e-4);
-    EXPECT_NEAR(motion.at(cloud.x[n])[0], motion.v[0], 1e-4);
+    EXPECT_NEAR(motion.at(cloud.x[n])[1], 3, 3e-3);  // a thousandth
+    EXPECT_NEAR(motion.at(cloud.x[n])[0], motion.own.v[0], 3e-3);
   }
-  EXPECT_NEAR(motion.v[0], p / m, 1e-10);
+  EXPECT_NEAR(motion.own.v[0], p / m, 1e-10);
+}
+
+// However holds lie, the own motion has no more energy than that of the free body.
+TEST(BodyMotion, OfItsOwnHasNoMoreThanTheMassesHave) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> some;
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    const Cloud cloud(64, 3, seed);
+    const MovingBody body(0, 64, false);
+    const auto energy = [&](const BodyMotion& motion) {
+      double sum = 0;
+      for (int n = 0; n < 64; ++n) sum += motion.own.at(cloud.x[n]).squaredNorm() / cloud.inverse_mass[n];
+      return sum;
+    };
+    std::vector<Hold> holds;
+    const double free = energy(cloud.motion(body));
+    for (int k = 0; k < 6; ++k) {
+      const Vec3 n = Vec3(1e-3 * some(random), 1e-3 * some(random), 1).normalized();
+      holds.push_back({cloud.x[k], Node(some(random), some(random), some(random), 0), n * n.transpose()});
+      EXPECT_LT(energy(body.motion(cloud.inverse_mass, cloud.v, [&](int i) { return cloud.x[i]; }, holds)), free * (1 + 1e-9)) << seed << ' ' << k;
+    }
+  }
+}
+
+// A punch between two dies that rest moves no rigid body; by least squares a sheet on surfaces inclined by 1e-3 would be thrown along them at 200 times the punch's speed.
+TEST(BodyMotion, ToolsThatDoNotAgreeTellNothing) {
+  Cloud cloud(64, 2, 8);
+  for (Node& v : cloud.v) v = Node::Zero();
+  const MovingBody body(0, 64, false);
+  const auto across = [](double slope) { return Mat3(Vec3(slope, 1, 0).normalized() * Vec3(slope, 1, 0).normalized().transpose()); };
+  const std::vector<Hold> holds = {{Node(-1, -.1, 0, 0), Node::Zero(), across(1e-3)}, {Node(1, -.1, 0, 0), Node::Zero(), across(0)}, {Node(0, .1, 0, 0), Node(0, -1, 0, 0), across(0)}};
+  const BodyMotion motion = body.motion(cloud.inverse_mass, cloud.v, [&](int n) { return cloud.x[n]; }, holds);
+  EXPECT_EQ(motion.agreed, 0);
+  for (const Node& x : cloud.x) EXPECT_LT(motion.told.at(x).norm(), 2);
 }
 
 // Off the axis nothing moves as a rigid body.
@@ -148,5 +182,5 @@ TEST(BodyMotion, TurnedAboutAnAxisItIsAlongIt) {
     EXPECT_EQ(v[0], 0);
   }
   body.hold({{0, Mat3(Vec3(1, 0, 1).asDiagonal())}});
-  EXPECT_NEAR(cloud.motion(body).at(cloud.x[3])[1], cloud.v[0][1], 1e-5);
+  EXPECT_NEAR(cloud.motion(body).at(cloud.x[3])[1], cloud.v[0][1], 1e-4);
 }

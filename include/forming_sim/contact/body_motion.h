@@ -1,7 +1,14 @@
 #pragma once
-// How a body moves as a whole: V + w x (x - c), the rigid motion that is nearest to its nodes' velocities by their masses, among those that what holds it
-// leaves it. Held and driven directions prescribe theirs, and so do tools across their surfaces: half a sheet that is held at its plane of symmetry moves
-// as the whole sheet does, a body that is gripped as its grips, and a billet in its container as the ram.
+// How a body moves as a whole: as a rigid body that is held, in two parts. Held and driven nodes prescribe their velocities in the directions in which they
+// are held, and so do tools across their surfaces: half a sheet that is held at its plane of symmetry moves as the whole sheet does, a body that is gripped as
+// its grips, and a billet in its container as the ram.
+//
+// Its own part is that of its masses in what is left free: the rigid motion p with the least of  sum m |p - v|^2 + K sum |H p|^2,  H onto the held directions.
+// However the holds lie, it is not more than the motion of the masses, so that what goes with it takes energy from a body that swings against its holds and gives none.
+//
+// The told part follows the holds,  p with the least of  sum |H (p - v)|^2,  as far as they lead it. What they lead hardly (a sheet on two shoulders, along them) they do not:
+// the inclination of the one against the other would throw it about. And as far as they agree: a punch that moves into a sheet on a die that
+// rests moves no rigid body, and tells the sheet nothing.
 //
 // Some nodes are asked, not all: of a body that swings they tell its motion as a whole up to a part of the swing.
 #include <array>
@@ -11,7 +18,8 @@
 
 namespace forming_sim {
 
-struct BodyMotion {
+/// V + w x (x - c).
+struct WholeMotion {
   Node c = Node::Zero(), v = Node::Zero();  ///< m, m/s
   Vec3 w = Vec3::Zero();                    ///< 1/s
 
@@ -21,10 +29,21 @@ struct BodyMotion {
   }
 };
 
+struct BodyMotion {
+  WholeMotion own, told;
+  double agreed = 0;  ///< 1: the holds are those of a rigid motion, 0: of none
+
+  Node at(const Node& x) const { return own.at(x) + agreed * told.at(x); }
+};
+/// Of a point of the body that was at `from`, and is at `to`.
+inline Node change_of_velocity(const BodyMotion& was, const Node& from, const BodyMotion& is, const Node& to) {
+  return is.own.at(to) - was.own.at(from) + is.agreed * (is.told.at(to) - was.told.at(from));
+}
+
 /// A point whose velocity is told in some directions.
 struct Hold {
   Node x, v;    ///< m, m/s
-  Mat3 across;  ///< onto these directions: symmetric, its own square
+  Mat3 across;  ///< H: symmetric, its own square
 };
 
 class MovingBody {
@@ -41,7 +60,7 @@ class MovingBody {
     for (const int n : asked_)
       if (inverse_mass[n] > 0) masses[count++] = {1 / inverse_mass[n], place(n), v[n]};
     for (const HeldNode& h : held_) holds.push_back({place(h.node), v[h.node], Mat3::Identity() - h.projector});
-    return nearest(masses.data(), count, holds);
+    return axisymmetric_ ? of<1>(masses.data(), count, holds) : of<6>(masses.data(), count, holds);
   }
 
  private:
@@ -50,7 +69,8 @@ class MovingBody {
     double m;
     Node x, v;
   };
-  BodyMotion nearest(const Mass* masses, int count, const std::vector<Hold>& holds) const;
+  /// modes: of rigid motion, 6 or that along y alone.
+  template <int modes> static BodyMotion of(const Mass* masses, int count, const std::vector<Hold>& holds);
 
   int first_node_, nodes_;
   bool axisymmetric_;
