@@ -7,7 +7,8 @@ namespace forming_sim {
 
 namespace {
 constexpr double kHold = 1e6;      ///< K, of the masses: what is held counts so much more
-constexpr double kLed = .03;       ///< of all holds: what fewer lead hardly follows
+constexpr double kRest = .6;       ///< of all holds
+constexpr int kRounds = 64;        ///< with them kRest/kRounds of all holds lead halfway, some times as many to rounding
 constexpr double kDisagreed = .1;  ///< of the squares of what is told, which no rigid motion has: it tells nothing
 
 /// So many of `count` that no more than `most` are asked; the nodes of structured cells repeat, and a prime stride does not fall in with them.
@@ -109,12 +110,17 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
   if (mass > 0) motion.own = rigid(c, Vector((M + kHold * mass * G).ldlt().solve(Mp)));
   if (told2 == 0) return motion;
 
-  // Least squares with kLed as many holds more that keep it at rest, three times in a row: what its holds lead follows them to a thousandth and better.
-  Square led = G;
-  for (int i = 0; i < modes; ++i) led(i, i) += kLed * static_cast<double>(holds.size()) * (i < 3 ? 1 : size2);
-  const Eigen::LDLT<Square> solver(led);
-  Vector p = Vector::Zero();
-  for (int k = 0; k < 3; ++k) p += solver.solve(g - G * p);
+  // Least squares with kRest as many holds more that keep it at rest, A = G + kRest n, again for what is left of g: after k rounds p is G^-1 g but for
+  // E^k of it, E = 1 - A^-1 G, and k doubles in each turn of the loop.
+  Square A = G;
+  for (int i = 0; i < modes; ++i) A(i, i) += kRest * static_cast<double>(holds.size()) * (i < 3 ? 1 : size2);
+  const Eigen::LDLT<Square> solver(A);
+  Vector p = solver.solve(g);
+  Square E = Square::Identity() - solver.solve(G);
+  for (int k = 1; k < kRounds; k *= 2) {
+    p += E * p;
+    E = Square(E * E);
+  }
   motion.told = rigid(c, p);
   const double left = (told2 - 2 * p.dot(g) + p.dot(G * p)) / told2;  // of the squares
   motion.agreed = std::clamp(1 - left / kDisagreed, 0.0, 1.0);

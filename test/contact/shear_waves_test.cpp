@@ -91,7 +91,7 @@ TEST(ShearWaves, FollowsAToolAcrossItsSurface) {
   waves.follow(1e-9, 1e-9, box.inverse_mass, box.X, before, after, base);
   for (const int n : {0, 1, 4, 5}) {
     const Node change = waves.steady(n, 1, after[n]) - waves.steady(n, 0, after[n]);
-    EXPECT_NEAR(change[1], .2, 3e-4) << n;  // what is led follows to a thousandth
+    EXPECT_NEAR(change[1], .2, 1e-4) << n;
   }
 }
 
