@@ -1,7 +1,6 @@
 // Values that are taken, and told because more often they are a wrong unit or a slip of the pen than meant.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "forming_sim/config/words.h"
 #include "geometry.h"
@@ -24,11 +23,9 @@ void tell_odd_material(const BodyConfig& body, std::vector<std::string>& notes) 
   const MaterialConfig& m = body.material;
   if (m.density < kLightest || m.density > kHeaviest)
     notes.push_back("the density of body " + body.name + " is " + number_text(m.density) + " kg/m3: steel has 7850, aluminium 2700; give it in kg/m3, not in g/cm3 or t/mm3");
-  double least = std::numeric_limits<double>::infinity(), most = 0;
+  double most = 0;
   const auto see = [&](const std::optional<HardeningConfig>& h) {
-    if (!h) return;
-    least = std::min(least, first_yield(*h));
-    most = std::max(most, first_yield(*h));
+    if (h) most = std::max(most, first_yield(*h));
   };
   see(m.hardening);
   for (const LayerConfig& layer : m.layers) see(layer.hardening);
