@@ -42,12 +42,14 @@ int perform(const OfflineOptions& options) {
   else {
     const Scene scene = read_valid_scene(options.scene);
     if (options.task == Task::run) return run(options, scene);
-    const StartCheck start = check_start(scene, {}, options.thread_count());
+    StartCheck start = check_start(scene, {}, options.thread_count());
     if (!start.faults.empty()) throw SceneError(start.faults);
     for (const std::string& note : start.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
-    text = options.task == Task::estimate ? estimate_text(estimate_run(scene, options.thread_count()))
-           : options.task == Task::plan   ? plan_text(scene, options.thread_count())
-                                          : "The scene has no faults.\n";
+    if (options.task == Task::validate) text = "The scene has no faults.\n";
+    else {
+      if (options.task == Task::plan) text = plan_text(*start.simulation);
+      text += estimate_text(estimate_run(*start.simulation));
+    }
   }
   std::fputs(text.c_str(), stdout);
   return std::fflush(stdout) == 0 ? 0 : 1;

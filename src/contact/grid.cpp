@@ -23,6 +23,7 @@ Grid::Grid(std::vector<Box> all, const Box& region, double cell) : boxes_(std::m
     ++inside;
   }
   if (inside == 0) return;
+  reach_ = region_;
   for (int k = 0; k < 3; ++k) {
     region_.low[k] = std::max(region_.low[k], region.low[k]);
     region_.high[k] = std::min(region_.high[k], region.high[k]);

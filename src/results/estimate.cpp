@@ -4,9 +4,6 @@
 #include <cstdio>
 
 #include "forming_sim/results/schedule.h"
-#include "forming_sim/results/start.h"
-#include "forming_sim/scene/build.h"
-#include "forming_sim/scene/validate.h"
 
 namespace forming_sim {
 namespace {
@@ -16,14 +13,6 @@ constexpr long kLeastSteps = 30, kMostSteps = 2000;
 constexpr double kMeasuredTime = 0.2;  ///< s
 
 }  // namespace
-
-Estimate estimate_run(const Scene& scene, int threads) {
-  std::vector<Fault> faults = validate(scene);
-  if (!faults.empty()) throw SceneError(std::move(faults));
-  Simulation simulation(build_plan(scene), build_model(scene), threads);
-  check_length(simulation);
-  return estimate_run(simulation);
-}
 
 Estimate estimate_run(Simulation& simulation) {
   Estimate estimate;

@@ -5,10 +5,6 @@
 #include <sstream>
 
 #include "forming_sim/config/words.h"
-#include "forming_sim/results/estimate.h"
-#include "forming_sim/results/start.h"
-#include "forming_sim/scene/build.h"
-#include "forming_sim/scene/validate.h"
 
 namespace forming_sim {
 namespace {
@@ -122,15 +118,6 @@ std::string plan_text(const Simulation& simulation) {
   for (const std::string& name : absent) names += (names.empty() ? "" : ", ") + name;
   lines.add(names.empty() ? "nothing: the scene asks for everything" : names);
   return out.str();
-}
-
-std::string plan_text(const Scene& scene, int threads) {
-  std::vector<Fault> faults = validate(scene);
-  if (!faults.empty()) throw SceneError(std::move(faults));
-  Simulation simulation(build_plan(scene), build_model(scene), threads);
-  check_length(simulation);
-  const std::string plan = plan_text(simulation);
-  return plan + estimate_text(estimate_run(simulation));
 }
 
 }  // namespace forming_sim

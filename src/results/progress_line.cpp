@@ -63,7 +63,7 @@ void EndTable::on_end(const Simulation& simulation, Code, const std::string&) {
   const ContactStatus contact = simulation.contact_status();
   const bool per_width = simulation.model().per_width();
   std::printf("elements             %d\nsteps                %ld\n", simulation.model().element_count(), simulation.steps());
-  std::printf("simulated time       %.6g s\nsolver time          %.3g s\n", simulation.time(), simulation.wall_time());
+  std::printf("simulated time       %.6g s\nsolver time          %.3g s\noutput time          %.3g s\n", simulation.time(), simulation.wall_time(), simulation.observed_time());
   std::printf("plastic strain, max  %.4g\n", strain.empty() ? 0.0 : *std::max_element(strain.begin(), strain.end()));
   std::printf("kinetic / internal   %.3g\nbalance error        %.3g\n", internal > 0 ? energies.kinetic / internal : 0.0, simulation.balance_error());
   std::printf("crossings            %ld\nsmallest gap / layer %.3g\n", contact.crossings, contact.min_gap_over_layer);

@@ -26,7 +26,7 @@ void note_refusal(const Scene& scene, const std::string& directory, const std::v
 }
 
 Outcome run_valid(const Scene& scene, const std::string& directory, int threads, const std::string& resume_file,
-                  const std::atomic<bool>& cancel, const std::vector<Observer*>& extra) {
+                  const std::atomic<bool>& cancel, const std::vector<Observer*>& extra, std::unique_ptr<Simulation> built) {
   make_output_directory(directory);
   const DirectoryLock lock(directory);
   std::optional<Checkpoint> checkpoint;
@@ -34,8 +34,11 @@ Outcome run_valid(const Scene& scene, const std::string& directory, int threads,
     checkpoint = load_checkpoint(resume_file);
     require_same_run(*checkpoint, scene, resume_file);
   }
-  Simulation simulation(build_plan(scene), build_model(scene), threads);
-  check_length(simulation);
+  if (!built) {
+    built = std::make_unique<Simulation>(build_plan(scene), build_model(scene), threads);
+    check_length(*built);
+  }
+  Simulation& simulation = *built;
   if (checkpoint) simulation.restore(checkpoint->state);
   RunFiles files = open_run_files(simulation, scene, directory, checkpoint ? &*checkpoint : nullptr);
   for (const auto& observer : files.observers) simulation.add(*observer);
@@ -46,11 +49,13 @@ Outcome run_valid(const Scene& scene, const std::string& directory, int threads,
 }  // namespace
 
 Outcome run_scene(const Scene& scene, const std::string& directory, int threads, const std::string& resume_file,
-                  const std::atomic<bool>& cancel, const std::vector<Observer*>& extra) {
+                  const std::atomic<bool>& cancel, const std::vector<Observer*>& extra, std::unique_ptr<Simulation> built) {
   try {
-    std::vector<Fault> faults = validate(scene);
-    if (!faults.empty()) throw SceneError(std::move(faults));
-    return run_valid(scene, directory, threads, resume_file, cancel, extra);
+    if (!built) {
+      std::vector<Fault> faults = validate(scene);
+      if (!faults.empty()) throw SceneError(std::move(faults));
+    }
+    return run_valid(scene, directory, threads, resume_file, cancel, extra, std::move(built));
   } catch (const SceneError& error) {
     note_refusal(scene, directory, error.faults(), error.code(), error.what());
     throw;

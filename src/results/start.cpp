@@ -17,12 +17,13 @@ void check_length(const Simulation& simulation) {
 }
 
 StartCheck check_start(const Scene& scene, std::vector<Fault> known, int threads) {
-  StartCheck found{validate(scene, std::move(known)), {}};
+  StartCheck found{validate(scene, std::move(known)), {}, nullptr};
   if (!found.faults.empty()) return found;
   try {
-    const Simulation simulation(build_plan(scene), build_model(scene), threads);
-    check_length(simulation);
-    found.notes = simulation.warnings();
+    auto simulation = std::make_unique<Simulation>(build_plan(scene), build_model(scene), threads);
+    check_length(*simulation);
+    found.notes = simulation->warnings();
+    found.simulation = std::move(simulation);
   } catch (const SceneError& error) {
     found.faults = error.faults();
   } catch (const Error& error) {

@@ -177,6 +177,7 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
   j["steps"] = simulation.steps();
   j["sim_time_s"] = number(simulation.time());
   j["wall_time_s"] = number(simulation.wall_time());
+  j["output_time_s"] = number(simulation.observed_time());
   j["ns_per_element_step"] = number(ratio(1e9 * simulation.wall_time(), element_steps));
   j["time_step_s"] = {{"first", number(simulation.first_dt())},
                       {"min", number(smallest.dt)},

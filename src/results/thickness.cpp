@@ -6,6 +6,7 @@
 #include <limits>
 #include <unsupported/Eigen/BVH>
 
+#include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/grid.h"
 
 namespace forming_sim {
@@ -39,22 +40,7 @@ int nearest_node(const NodeTree& tree, const Vec3& point) {
   return nearest.index;
 }
 
-double distance_to_segment(const Vec3& point, const Vec3& a, const Vec3& b) {
-  const Vec3 edge = b - a;
-  const double length2 = edge.squaredNorm();
-  const double s = length2 > 0 ? std::clamp((point - a).dot(edge) / length2, 0.0, 1.0) : 0.0;
-  return (point - a - s * edge).norm();
-}
-
 }  // namespace
-
-double distance_to_facet(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 normal = (b - a).cross(c - a);
-  const bool over_the_face = normal.squaredNorm() > 0 && (b - a).cross(point - a).dot(normal) >= 0 &&
-                             (c - b).cross(point - b).dot(normal) >= 0 && (a - c).cross(point - c).dot(normal) >= 0;
-  if (over_the_face) return std::abs((point - a).dot(normal.normalized()));
-  return std::min({distance_to_segment(point, a, b), distance_to_segment(point, b, c), distance_to_segment(point, c, a)});
-}
 
 Thickness::Thickness(const Model& model) {
   NodeField start;
@@ -65,6 +51,7 @@ Thickness::Thickness(const Model& model) {
     if (top == mesh.sets.end() || bottom == mesh.sets.end() || top->second.empty()) continue;
     Sheet sheet;
     sheet.first_node = body.first_node;
+    sheet.corners = mesh.dimension;
     const auto in_bottom = [&](int node) { return std::binary_search(bottom->second.begin(), bottom->second.end(), node); };
     for (const Facet& facet : mesh.surface) {
       std::array<int, 3> nodes = facet.nodes;
@@ -105,16 +92,12 @@ std::vector<double> Thickness::at(const NodeField& positions) const {
     const Grid grid(std::move(boxes), all, std::max(size, std::numeric_limits<double>::min()));
     const auto distance = [&](const Node& p, int facet) {
       const auto& c = sheet.bottom[facet];
-      return distance_to_facet(vec3(p), vec3(positions[c[0]]), vec3(positions[c[1]]), vec3(positions[c[2]]));
+      return std::sqrt(closest_on_facet(sheet.corners, p, positions[c[0]], positions[c[1]], positions[c[2]]).squared);
     };
     std::vector<double> of_top;
     for (std::size_t i = 0; i < sheet.top.size(); ++i) {
       const Node& p = positions[sheet.top[i]];
-      double least = distance(p, sheet.below[i]);  // whatever is nearer lies within
-      Box around = Box::of(p);
-      around.grow(least);
-      grid.query(around, [&](int facet) { least = std::min(least, distance(p, facet)); });
-      of_top.push_back(least);
+      of_top.push_back(grid.nearest(p, distance(p, sheet.below[i]), [&](int facet) { return distance(p, facet); }));
     }
     for (std::size_t i = 0; i < sheet.above.size(); ++i) thickness[sheet.first_node + i] = of_top[sheet.above[i]];
   }

@@ -25,6 +25,7 @@ Prepared prepare(const SceneSpec& message, const std::string& scene_text, int th
     StartCheck start = check_start(prepared.scene, known, threads);
     prepared.faults = std::move(start.faults);
     prepared.notes = std::move(start.notes);
+    prepared.simulation = std::move(start.simulation);
   } catch (const std::exception& error) {
     prepared.faults.push_back({Code::internal_error, "scene", error.what(), "please report this as a defect"});
   }

@@ -164,6 +164,7 @@ SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
   const auto request = goal.getGoal();
   const int threads = choose_threads(request->threads, threads_);
   Scene scene;
+  std::unique_ptr<Simulation> simulation;
   {
     Prepared prepared = prepare(request->scene, request->scene_text, threads);
     if (request->threads < 0) {
@@ -174,6 +175,7 @@ SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
     }
     if (!prepared.faults.empty()) return rejection(prepared.faults);
     scene = std::move(prepared.scene);
+    simulation = std::move(prepared.simulation);
   }
   std::string directory;
   try {
@@ -193,7 +195,7 @@ SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
     feedback.status = status;
     goal.publishFeedback(feedback);
   });
-  const Outcome outcome = run_scene(scene, directory, threads, request->resume, cancel_, {&observer});
+  const Outcome outcome = run_scene(scene, directory, threads, request->resume, cancel_, {&observer}, std::move(simulation));
 
   SimulateFormingResult result = result_of(outcome.code, outcome.message);
   result.directory = directory;
@@ -232,7 +234,7 @@ bool FormingServer::on_estimate(EstimateRun::Request& request, EstimateRun::Resp
   Prepared prepared = prepare(request.scene, "", threads);
   if (prepared.faults.empty()) {
     try {
-      response.estimate = estimate_message(estimate_run(prepared.scene, threads));
+      response.estimate = estimate_message(estimate_run(*prepared.simulation));
     } catch (const Error& error) {
       prepared.faults.push_back({error.code(), "scene", error.what(), "change the scene so that it can start"});
     } catch (const std::exception& error) {

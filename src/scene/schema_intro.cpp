@@ -105,7 +105,7 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 |---|---|
 | `status` | `code` and `message`: how the run ended |
 | `scene`, `dimension`, `axisymmetric`, `nodes`, `cells`, `elements`, `steps` | what was run; elements are the triangles or tetrahedra of `result.h5`, also those that a one-point cell is shown as |
-| `sim_time_s`, `wall_time_s`, `ns_per_element_step` | simulated time, time it took, speed; a one-point cell counts as one element there |
+| `sim_time_s`, `wall_time_s`, `output_time_s`, `ns_per_element_step` | simulated time, time that the solver took, time that measuring and writing took beside it, speed; a one-point cell counts as one element there |
 | `time_step_s` | `first`, `min`, `limited_by` |
 | `energy_J` | `kinetic`, `elastic`, `plastic`, `contact`, `friction`, `damping`, `work`, `initial`; `balance_error`: the residual of the ledger over the largest work + initial (and no less than the energy of a strain of 1e-12), a fraction; where it is above .05 at the end of a stage, `warnings` say so; `kinetic_over_internal_forming`: the largest of kinetic over elastic and plastic energy in the form stages, a guard for mass scaling and tool speed: a few percent are good; a body that moves as a whole counts too, and where nothing resists it for long the ratio says little |
 | `options` | what viscosity, damping, settling and mass scaling took or added; `time_step`: the limit and its cost; `raised_step`: mass added by `time_step.raise_to`, in kg, as a fraction, by body, and where most |

@@ -9,14 +9,14 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f6600000007u;
+constexpr std::uint64_t kLayout = 0x6d726f6600000008u;
 }  // namespace
 
 template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.numbers(x.data()->data(), x.size() * 4);
   a.numbers(v.data()->data(), v.size() * 4);
   for (double* value : {&time, &dt, &previous_dt, &previous_kick, &work, &damping, &settled_away, &friction, &contact_dissipated, &contact_potential,
-                        &initial, &most, &min_gap, &explicit_stable_dt, &first_dt, &first_element_dt, &smallest.dt, &next_crossing_check, &wall})
+                        &initial, &most, &min_gap, &explicit_stable_dt, &first_dt, &first_element_dt, &smallest.dt, &next_crossing_check, &wall, &observed})
     a.number(*value);
   for (long* value : {&steps, &halvings, &active_pairs, &crossings, &longer_steps}) a.number(*value);
   a.raw(control);

@@ -21,6 +21,7 @@ double Simulation::dt() const { return impl_->dt; }
 int Simulation::stage() const { return impl_->stages.index(); }
 double Simulation::progress() const { return impl_->stages.progress(impl_->time); }
 double Simulation::wall_time() const { return impl_->wall; }
+double Simulation::observed_time() const { return impl_->observed; }
 const NodeField& Simulation::initial_positions() const { return impl_->X; }
 const NodeField& Simulation::positions() const { return impl_->x; }
 const NodeField& Simulation::velocities() const { return impl_->v; }

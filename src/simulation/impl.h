@@ -62,7 +62,7 @@ struct Simulation::Impl {
   long f_before_step = -2;
   bool rests = false;               ///< a settling body has come to rest
   bool settled = true;              ///< false once a settle stage has run into its limit
-  double wall = 0;
+  double wall = 0, observed = 0;  ///< s
 
   // the ledger's running sums, J
   double work = 0, damping = 0, settled_away = 0, friction = 0, contact_dissipated = 0, contact_potential = 0, initial = 0, most = 0;
@@ -82,6 +82,8 @@ struct Simulation::Impl {
   // setup.cpp
   void set_up_loads();
   void set_up_contact();
+  /// Warns where a press is over within some ways of a wave of shear through the thickness.
+  void tell_quick_press();
   /// Leaves those boundaries that hold in the running stage.
   void release_boundaries();
   void tell_contact_what_is_held();

@@ -17,6 +17,7 @@ namespace forming_sim {
 namespace {
 
 constexpr double kLightest = 1e-3;  ///< mass of a tool that a force drives, over that of all bodies
+constexpr double kQuick = 40;       ///< T of contact/shear_waves.h: a press that takes less feels by percents what keeps swings down
 
 NodeField initial_positions_of(const Model& model) {
   NodeField x;
@@ -71,6 +72,15 @@ double thickness_of(const BodyModel& body, bool axisymmetric) {
   return 2 * volume / area;
 }
 
+namespace {
+
+WaveBody waves_of(const BodyModel& body, double mass_scaling, bool axisymmetric) {
+  const double density = body.material.density * mass_scaling, shear_speed = std::sqrt(body.material.mu() / density);
+  return {density * shear_speed, kSteadyTime * thickness_of(body, axisymmetric) / shear_speed, body.first_node, body.node_count};
+}
+
+}  // namespace
+
 Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
     : plan(with_limit(p, m)), model(std::move(m)), X(initial_positions_of(model)), x(X),
       v(X.size(), Node::Zero()), v_before(v),
@@ -118,6 +128,25 @@ void Simulation::Impl::set_up_loads() {
   for (double& m : physical_mass) m /= plan.time_step.mass_scaling;
 }
 
+void Simulation::Impl::tell_quick_press() {
+  if (plan.contact.method != "implicit" || plan.contact.swing != "damped") return;
+  if (std::none_of(model.tools.begin(), model.tools.end(), [](const ToolModel& t) { return t.motion.has_value(); })) return;
+  double all = 0;
+  for (const StageConfig& stage : plan.stages)
+    if (stage.kind == "form") all += stage.duration;
+  const std::vector<SurfacePair> pairs = contact->surface_pairs();
+  for (const BodyModel& body : model.bodies) {
+    const auto rubs = [&](const SurfacePair& p) { return (p.first == body.name || p.second == body.name) && p.friction > 0; };
+    const double T = waves_of(body, plan.time_step.mass_scaling, model.axisymmetric).time, share = all / T;
+    if (share >= kQuick || std::none_of(pairs.begin(), pairs.end(), rubs)) continue;
+    std::ostringstream text;
+    text.precision(2);
+    text << "the tools form body " << body.name << " in " << all << " s, " << share << " times the " << T << " s within which its shear waves leave at surfaces that rub: below "
+         << kQuick << " times contact.swing damped changes force and work by percents; swing free does not, nor does a slower motion";
+    warnings.push_back(text.str());
+  }
+}
+
 void Simulation::Impl::set_up_contact() {
   warnings.insert(warnings.end(), model.notes.begin(), model.notes.end());
   tools.resize(model.tools.size());
@@ -140,12 +169,11 @@ void Simulation::Impl::set_up_contact() {
     s.facets.assign(surface.begin() + first_facet, surface.begin() + first_facet + count);
     first_facet += count;
     const MaterialConfig& m = body.material;
-    const double density = m.density * plan.time_step.mass_scaling, shear_speed = std::sqrt(m.mu() / density);
-    const double thickness = thickness_of(body, model.axisymmetric);
-    s.waves = {density * shear_speed, kSteadyTime * thickness / shear_speed, body.first_node, body.node_count};
+    const double density = m.density * plan.time_step.mass_scaling;
+    s.waves = waves_of(body, plan.time_step.mass_scaling, model.axisymmetric);
     setup.bodies.push_back(std::move(s));
     setup.softest_modulus = std::min(setup.softest_modulus, m.E());
-    setup.thinnest = std::min(setup.thinnest, thickness);
+    setup.thinnest = std::min(setup.thinnest, thickness_of(body, model.axisymmetric));
     setup.wave_speed = std::min(
         setup.wave_speed, std::sqrt((m.K() + 4. / 3 * m.mu()) / density));
   }
@@ -172,6 +200,7 @@ void Simulation::Impl::set_up_contact() {
   }
   tell_contact_what_is_held();
   warnings.insert(warnings.end(), contact->warnings().begin(), contact->warnings().end());
+  tell_quick_press();
 }
 
 void Simulation::Impl::release_boundaries() {

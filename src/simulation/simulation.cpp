@@ -65,10 +65,12 @@ void Simulation::add(Observer& observer) { impl_->observers.push_back(&observer)
 bool Simulation::step() {
   Impl& s = *impl_;
   if (s.stages.finished()) return false;
-  const auto start = std::chrono::steady_clock::now();
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
   s.take_step();
   const bool over = s.stage_over();
-  s.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const Clock::time_point stepped = Clock::now();
+  s.wall += std::chrono::duration<double>(stepped - start).count();
   if (over || s.stages.progress(s.time) >= s.next_crossing_check) s.check_crossings();
   if (over) s.check_ledger(energies().residual(), balance_error());
   for (Observer* o : s.observers) o->on_step(*this);
@@ -78,6 +80,7 @@ bool Simulation::step() {
     s.stages.advance(s.time);
     s.begin_stage();
   }
+  s.observed += std::chrono::duration<double>(Clock::now() - stepped).count();
   return !s.stages.finished();
 }
 

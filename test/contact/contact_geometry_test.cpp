@@ -27,6 +27,30 @@ Node random_node(int dimension, double size = 1) {
 
 }  // namespace
 
+TEST(ContactGrid, NearestAgainstAllBoxes) {
+  for (const double part : {2.0, .4}) {  // a region of all boxes, and one that some boxes reach beyond, or are outside of
+    Box region = Box::of(Node(-part, -part, -part, 0), Node(part, part, part, 0));
+    std::vector<Box> boxes;
+    std::vector<Node> centres;
+    for (int b = 0; b < 400; ++b) {
+      const Node at = random_node(3), half = .05 * random_node(3).cwiseAbs();
+      boxes.push_back(Box::of(Node(at - half), Node(at + half)));
+      centres.push_back(at);
+    }
+    const Grid grid(boxes, region, .1);
+    long asked = 0;
+    for (int i = 0; i < 500; ++i) {
+      const Node p = random_node(3, 1.3);
+      const double bound = i % 3 ? 3 : .2;
+      double expected = bound;
+      for (std::size_t b = 0; b < boxes.size(); ++b)
+        if (boxes[b].overlaps(region)) expected = std::min(expected, (centres[b] - p).norm());
+      EXPECT_EQ(grid.nearest(p, bound, [&](int b) { return ++asked, (centres[b] - p).norm(); }), expected);
+    }
+    EXPECT_LT(asked, 500 * 400 / 4);
+  }
+}
+
 TEST(ContactClosest, TriangleAgainstSampling) {
   for (int i = 0; i < 300; ++i) {
     Node p = random_node(3), c[3] = {random_node(3), random_node(3), random_node(3)};

@@ -4,20 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forming_sim/contact/closest.h"
 #include "forming_sim/results/thickness.h"
 
 namespace forming_sim {
 namespace {
-
-TEST(DistanceToFacet, IsThatOfFaceEdgeAndCorner) {
-  const Vec3 a(0, 0, 0), b(2, 0, 0), c(0, 2, 0);
-  EXPECT_DOUBLE_EQ(distance_to_facet(Vec3(0.5, 0.5, 3), a, b, c), 3);
-  EXPECT_DOUBLE_EQ(distance_to_facet(Vec3(1, -1, 0), a, b, c), 1);
-  EXPECT_DOUBLE_EQ(distance_to_facet(Vec3(-3, -4, 0), a, b, c), 5);
-  EXPECT_DOUBLE_EQ(distance_to_facet(Vec3(2, 2, 0), a, b, c), std::sqrt(2.0));
-  EXPECT_DOUBLE_EQ(distance_to_facet(Vec3(1, 4, 0), a, b, b), 4);   // a segment
-  EXPECT_DOUBLE_EQ(distance_to_facet(Vec3(5, 4, 0), a, b, b), 5);
-}
 
 /// A strip of length pi/2 and thickness t as two rows of nodes.
 Mesh strip(int cells, double t) {
@@ -134,8 +125,7 @@ TEST(Thickness, FindsTheNearestTriangleAsASearchOfAllDoes) {
   double expected = 1e300;
   for (int top : mesh.sets["top"])
     for (const Facet& f : mesh.surface)
-      expected = std::min(expected, distance_to_facet(mesh.nodes[top], mesh.nodes[f.nodes[0]], mesh.nodes[f.nodes[1]],
-                                                      mesh.nodes[f.nodes[2]]));
+      expected = std::min(expected, std::sqrt(closest_on_triangle(positions[top], positions[f.nodes[0]], positions[f.nodes[1]], positions[f.nodes[2]]).squared));
   EXPECT_EQ(smallest(Thickness(model_of(mesh)).at(positions)), expected);
 }
 

@@ -2,7 +2,6 @@
 // What a run will cost, told before it starts.
 #include <string>
 
-#include "forming_sim/scene/scene.h"
 #include "forming_sim/simulation/simulation.h"
 
 namespace forming_sim {
@@ -16,11 +15,7 @@ struct Estimate {
   double memory_bytes = 0;       ///< of the solver's data
 };
 
-/// Builds the scene and takes some dozens of real steps of it.
-/// Throws SceneError, Error (mesh_error, initial_penetration).
-Estimate estimate_run(const Scene& scene, int threads);
-
-/// The same for a simulation at its start; it has made steps afterwards.
+/// Takes some dozens of real steps of a simulation at its start. Throws Error (mesh_error).
 Estimate estimate_run(Simulation& simulation);
 
 /// A few lines for a terminal.

@@ -2,16 +2,11 @@
 // What a scene compiles into: the work of a step and the arrays that it needs.
 #include <string>
 
-#include "forming_sim/scene/scene.h"
 #include "forming_sim/simulation/simulation.h"
 
 namespace forming_sim {
 
-/// Builds the scene, tells its plan, and what a run of it will cost (results/estimate.h).
-/// Throws SceneError, Error (mesh_error, initial_penetration).
-std::string plan_text(const Scene& scene, int threads);
-
-/// The plan alone: cells and their laws with bytes an element, loads, who meets whom,
+/// Cells and their laws with bytes an element, loads, who meets whom,
 /// the stages; and what the scene does not ask for, of which nothing is there.
 std::string plan_text(const Simulation& simulation);
 

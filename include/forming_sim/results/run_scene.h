@@ -1,6 +1,7 @@
 #pragma once
 // From a scene to the files of its run: what every program of the package does.
 #include <atomic>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,11 @@ namespace forming_sim {
 /// resume_file: a checkpoint.h5 to go on from; "": from the start.
 /// extra: further observers, called after those of the files, so that they find the
 /// files complete at the end. Not owned.
+/// built: the scene's simulation at its start where check_start() (results/start.h) has built it already, with its threads.
 /// Throws SceneError where the scene is refused. Every other failure is in the
 /// outcome. summary.json is left in either case where the directory is writable.
 Outcome run_scene(const Scene& scene, const std::string& directory, int threads, const std::string& resume_file,
-                  const std::atomic<bool>& cancel, const std::vector<Observer*>& extra = {});
+                  const std::atomic<bool>& cancel, const std::vector<Observer*>& extra = {},
+                  std::unique_ptr<Simulation> built = nullptr);
 
 }  // namespace forming_sim

@@ -1,5 +1,6 @@
 #pragma once
 // Can a scene without faults in its fields start?
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace forming_sim {
 struct StartCheck {
   std::vector<Fault> faults;       ///< all that keeps a scene from running
   std::vector<std::string> notes;  ///< of a scene without faults: with what warnings its run begins
+  std::unique_ptr<Simulation> simulation;  ///< of a scene without faults: its run at the start
 };
 
 /// Looks for what validate() finds; where it finds nothing also for what shows only where the run is built: bodies

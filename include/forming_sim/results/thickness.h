@@ -10,9 +10,6 @@
 
 namespace forming_sim {
 
-/// Distance from a point to a segment (c = b) or a triangle, m.
-double distance_to_facet(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c);
-
 class Thickness {
  public:
   Thickness() = default;
@@ -29,6 +26,7 @@ class Thickness {
   struct Sheet {
     int first_node = 0;
     std::vector<int> top;
+    int corners = 3;                         ///< of a facet
     std::vector<std::array<int, 3>> bottom;  ///< a segment repeats its second node
     std::vector<int> above;                  ///< per node of the body: place in top
     std::vector<int> below;                  ///< per node of top: a facet of bottom that lay near it at the start

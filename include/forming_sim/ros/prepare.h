@@ -1,11 +1,13 @@
 #pragma once
 // From a goal to a scene that can run, or to all that is wrong with it.
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "forming_sim/SceneSpec.h"
 #include "forming_sim/config/fault.h"
 #include "forming_sim/scene/scene.h"
+#include "forming_sim/simulation/simulation.h"
 
 namespace forming_sim {
 
@@ -13,6 +15,7 @@ struct Prepared {
   Scene scene;
   std::vector<Fault> faults;       ///< empty: the scene can run
   std::vector<std::string> notes;  ///< what is taken but looks odd
+  std::unique_ptr<Simulation> simulation;  ///< of a scene that can run: its run at the start
 };
 
 /// Reads, validates and builds the scene of a message, so that a body that starts

@@ -57,6 +57,7 @@ class Simulation {
   int stage() const;                 ///< index of the running stage; number of stages at the end
   double progress() const;           ///< 0..1, by simulated time; a settle stage counts by its limit
   double wall_time() const;          ///< s spent stepping, observers excluded
+  double observed_time() const;      ///< s that observers and checks took between the steps
   const NodeField& initial_positions() const;
   const NodeField& positions() const;
   const NodeField& velocities() const;   ///< at the half step before time()
