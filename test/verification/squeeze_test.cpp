@@ -101,4 +101,35 @@ TEST(Squeeze, ToolsThatCloseTooFar) {
   }
 }
 
+TEST(Squeeze, WithinSomeWaysOfAWaveOfShearIsTold) {
+  // T = 4 H/c_s of a strip 1 mm thick, 8 mm long: H = 2 V/A = 8/9 mm, c_s = sqrt(mu/rho)
+  const MaterialConfig material = aluminium(true);
+  const double T = 4 * (8. / 9 * kThickness) / std::sqrt(material.mu() / material.density);
+  const auto told = [&](double ways, double friction, const std::string& swing, bool moves) {
+    OneBody run(body_of(generate_blank(strip_of(8 * kThickness, kThickness, 8, 1)), material), ways * T);
+    run.plan.contact.swing = swing;
+    ToolModel plane;
+    plane.name = "ram";
+    plane.mesh.dimension = 2;
+    plane.normal = Vec3(0, -1, 0);
+    plane.position = Vec3(0, 1.1 * kThickness, 0);
+    plane.friction = friction;
+    if (moves) {
+      plane.motion.emplace();
+      plane.motion->kind = "trajectory";
+      plane.motion->times = {0, ways * T};
+      plane.motion->positions = {Vec3::Zero(), Vec3(0, -1e-5, 0)};
+    }
+    run.model.tools.push_back(plane);
+    for (const std::string& warning : run.start()->warnings())
+      if (warning.find("the tools form body ") == 0) return true;
+    return false;
+  };
+  EXPECT_TRUE(told(39, .1, "damped", true));
+  EXPECT_FALSE(told(41, .1, "damped", true));
+  EXPECT_FALSE(told(39, 0, "damped", true));
+  EXPECT_FALSE(told(39, .1, "free", true));
+  EXPECT_FALSE(told(39, .1, "damped", false));  // no press: something is thrown
+}
+
 }  // namespace forming_sim
