@@ -121,7 +121,8 @@ TEST(Squeeze, WithinSomeWaysOfAWaveOfShearIsTold) {
       plane.motion->positions = {Vec3::Zero(), Vec3(0, -1e-5, 0)};
     }
     run.model.tools.push_back(plane);
-    for (const std::string& warning : run.start()->warnings())
+    const auto simulation = run.start();
+    for (const std::string& warning : simulation->warnings())
       if (warning.find("the tools form body ") == 0) return true;
     return false;
   };
