@@ -62,7 +62,7 @@ Json options(const Simulation& simulation, const Scene& scene) {
   const Energies& e = simulation.energies();
   const TimeStepConfig& c = scene.time_step;
   const AddedMass& added = simulation.added_mass();
-  const GlobalLimitCost cost = simulation.global_limit_cost();
+  const StepLimitCost cost = simulation.step_limit_cost();
   double mass = -added.total;
   for (double m : simulation.nodal_mass()) mass += m;
   Json raised = nullptr;
@@ -78,7 +78,7 @@ Json options(const Simulation& simulation, const Scene& scene) {
           {"damping", {{"rate_1_s", number(c.damping)}, {"dissipated_J", number(e.damping - e.viscosity - e.settling)}}},
           {"settling", {{"dissipated_J", number(e.settling)}}},
           {"mass_scaling", {{"factor", number(c.mass_scaling)}, {"added_mass_kg", number(mass * (1 - 1 / c.mass_scaling))}}},
-          {"time_step", {{"limit", simulation.plan().time_step.limit}, {"estimates", cost.estimates}, {"products", cost.products}, {"share_of_longer_steps", number(cost.share)}}},
+          {"time_step", {{"limit", simulation.plan().time_step.limit}, {"estimates", cost.estimates}, {"products", cost.products}, {"share_of_longer_steps", number(cost.share)}, {"shortened", cost.shortened}}},
           {"raised_step", raised}};
 }
 

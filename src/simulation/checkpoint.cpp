@@ -20,6 +20,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
     a.number(*value);
   for (long* value : {&steps, &halvings, &active_pairs, &crossings, &longer_steps}) a.number(*value);
   a.raw(control);
+  watch.exchange(a);
   if (plan.time_step.limit == "global") global.exchange(a, static_cast<std::size_t>(elements.blocks()) * kLanes);
   if (!by_cells()) departure.exchange(a, x.size());
   a.number(smallest.element);

@@ -7,6 +7,7 @@
 #include "forming_sim/element/nodes.h"
 #include "forming_sim/loads/boundary.h"
 #include "forming_sim/loads/pressure.h"
+#include "forming_sim/simulation/ledger_watch.h"
 #include "forming_sim/simulation/simulation.h"
 #include "simulation/departure.h"
 #include "simulation/global_limit.h"
@@ -49,6 +50,7 @@ struct Simulation::Impl {
   double time = 0, dt = 0, previous_dt = 0, previous_kick = 0;
   long steps = 0;
   StepControl control;
+  LedgerWatch watch;
   GlobalLimit global;
   Departure departure;              ///< watched where a step may come near the true limit
   CellRates rates;                  ///< when the stable step was last asked for
@@ -96,6 +98,9 @@ struct Simulation::Impl {
   // step_limit.cpp
   /// dt of the coming step: what the mesh bears, the user's limit, the stage's end.
   void choose_dt();
+  /// Steps that are taken from more than the cells, of what keeps its energy.
+  bool watches_ledger() const { return !by_cells() && plan.contact.method == "implicit" && !model.without_tangent(); }
+  void look_at_ledger(double residual);
   double full_dt() const;           ///< what the coming step could be at most, whatever the steps before it were
   void find_stable_step();
   /// The step is the fastest cell's own: neither nodes nor the whole mesh bound it.

@@ -68,6 +68,7 @@ bool Simulation::step() {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   s.take_step();
+  if (s.watches_ledger() && s.watch.due(s.steps)) s.look_at_ledger(energies().residual());
   const bool over = s.stage_over();
   const Clock::time_point stepped = Clock::now();
   s.wall += std::chrono::duration<double>(stepped - start).count();

@@ -23,7 +23,7 @@ void Simulation::Impl::choose_dt() {
   if (departure.sudden() || elements.corners_pressed()) control.hurry();
   if (control.due()) find_stable_step();
   const TimeStepConfig& config = plan.time_step;
-  dt = config.safety * control.stable_dt;
+  dt = config.safety * watch.factor() * control.stable_dt;
   if (previous_dt > 0) dt = std::min(dt, kRise * previous_dt);
   limit.dt = dt;
   limit.element = control.element;
@@ -36,8 +36,17 @@ void Simulation::Impl::choose_dt() {
   if (left < 2 * dt) dt = left > dt * (1 + 1e-9) ? 0.5 * left : left;
 }
 
+void Simulation::Impl::look_at_ledger(double residual) {
+  if (!watch.look(steps, residual, most) || watch.shortened() > 1) return;
+  std::ostringstream text;
+  text.precision(3);
+  text << "energy came from nowhere, as in fast swings of large amplitude: the steps from " << time << " s on are " << 100 * watch.factor()
+       << " % of what the mesh bears, shorter still if that goes on, and longer while it does not; time_step.limit element or time_step.linear_viscosity keep it from the start";
+  warnings.push_back(text.str());
+}
+
 double Simulation::Impl::full_dt() const {
-  const double stable = plan.time_step.safety * control.stable_dt;
+  const double stable = plan.time_step.safety * watch.factor() * control.stable_dt;
   return plan.time_step.maximum > 0 ? std::min(stable, plan.time_step.maximum) : stable;
 }
 

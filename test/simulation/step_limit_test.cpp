@@ -263,7 +263,7 @@ TEST(StepLimit, FollowsABodyThatIsSqueezedFast) {
     const double first = sim->dt();
     const Shares shares = shares_of(*sim, BoundarySet({resolve(bottom, "block", mesh, 0), resolve(top, "block", mesh, 0)}, D), 10);
     std::printf("  %s: the step falls to %.2f; limit over the true one %.3f to %.3f, %ld runs\n", shape_of(kind).name,
-                sim->step_limit().dt / first, shares.least, shares.most, sim->global_limit_cost().estimates);
+                sim->step_limit().dt / first, shares.least, shares.most, sim->step_limit_cost().estimates);
     EXPECT_LT(sim->step_limit().dt, 0.8 * first);
     EXPECT_LE(shares.most, 1);
   }
@@ -299,7 +299,7 @@ TEST(StepLimit, FollowsABodyThatIsStretchedFast) {
     for (const BoundaryConfig& b : boundaries) held.push_back(resolve(b, "block", mesh, 0));
     auto sim = run.start();
     const Shares shares = shares_of(*sim, BoundarySet(held, D), 10);
-    const GlobalLimitCost cost = sim->global_limit_cost();
+    const StepLimitCost cost = sim->step_limit_cost();
     std::printf("  %s, pressure per %s: limit over the true one %.3f to %.3f; %ld steps, %ld runs of %ld products\n", shape_of(c.kind).name, c.average,
                 shares.least, shares.most, sim->steps(), cost.estimates, cost.products);
     EXPECT_LE(shares.most, 1.05) << shape_of(c.kind).name;  // with a safety of .9 a tenth is left
@@ -375,8 +375,8 @@ TEST(StepLimit, ARunIsTheSameOnTwoThreadsAndAcrossACheckpoint) {
     EXPECT_EQ(two->step(), more);
   }
   ASSERT_GT(one->steps(), 700);
-  EXPECT_GT(one->global_limit_cost().estimates, 1);
-  EXPECT_EQ(one->global_limit_cost().products, later->global_limit_cost().products);
+  EXPECT_GT(one->step_limit_cost().estimates, 1);
+  EXPECT_EQ(one->step_limit_cost().products, later->step_limit_cost().products);
   for (std::size_t n = 0; n < one->positions().size(); ++n) {
     ASSERT_EQ(one->positions()[n], two->positions()[n]);
     ASSERT_EQ(one->positions()[n], later->positions()[n]);
@@ -394,7 +394,7 @@ TEST(StepLimit, IsGlobalWhereTheLawAllowsIt) {
   EXPECT_EQ(classical->plan().time_step.limit, "node");
   const std::atomic<bool> go_on{false};
   ASSERT_EQ(classical->run(go_on).code, Code::success);
-  EXPECT_EQ(classical->global_limit_cost().products, 0);
+  EXPECT_EQ(classical->step_limit_cost().products, 0);
   EXPECT_LT(classical->balance_error(), 1e-2);
 }
 
@@ -409,7 +409,7 @@ TEST(StepLimit, TheGlobalLimitIsTakenAndTold) {
   std::printf("  steps %ld, by elements %ld\n", global->steps(), element->steps());
   EXPECT_LT(static_cast<double>(global->steps()), 0.85 * static_cast<double>(element->steps()));
   EXPECT_EQ(global->smallest_step().reason, "the whole mesh");
-  EXPECT_GT(global->global_limit_cost().share, 0.99);
+  EXPECT_GT(global->step_limit_cost().share, 0.99);
   EXPECT_LT(global->balance_error(), 2e-3);
   EXPECT_NEAR(global->energies().plastic, element->energies().plastic, 0.005 * element->energies().plastic);
 }

@@ -13,7 +13,8 @@ class Simulation;
 /// The energy ledger, J (J per metre of width in plane strain).
 /// kinetic + elastic + contact + plastic + friction + damping = work + initial.
 struct Energies {
-  double kinetic = 0, elastic = 0;
+  double kinetic = 0;   ///< of the leapfrog: 1/2 v.(M - dt^2/4 K) v
+  double elastic = 0;
   double plastic = 0;   ///< dissipated by plastic flow
   double contact = 0;   ///< potential of the mild layer plus what its implicit step dissipated
   double friction = 0;  ///< dissipated by Coulomb friction
@@ -48,10 +49,11 @@ struct AddedMass {
   double most = 0;             ///< kg on it
 };
 
-/// What the runs that look for the fastest swing of the mesh cost: time_step.limit global.
-struct GlobalLimitCost {
+/// What the step cost: the runs that look for the fastest swing of the mesh (time_step.limit global), and what watches over the ledger.
+struct StepLimitCost {
   long estimates = 0, products = 0;  ///< a product costs one evaluation of the forces
   double share = 0;                  ///< of the steps, those that were longer than time_step.limit node allows
+  long shortened = 0;                ///< how often steps were made shorter because energy came from nowhere (time_step.limit node, too)
 };
 
 /// Principal logarithmic strains in the surface, of one of its facets. Plane strain: the one along the section and 0;

@@ -65,7 +65,7 @@ class Simulation {
   double first_dt() const;
   StepLimit smallest_step() const;
   const AddedMass& added_mass() const;
-  GlobalLimitCost global_limit_cost() const;
+  StepLimitCost step_limit_cost() const;
   /// The ledger at the half step before time(), where every term of it is known to
   /// second order; evaluated when asked, at the cost of about one pass over the elements.
   const Energies& energies() const;

@@ -1,0 +1,44 @@
+#pragma once
+// Steps that get shorter where the ledger tells that they are too long.
+//
+// A step below the stable one keeps the energy of small swings. Of large ones it need not: where forces are not linear, swings of which
+// three steps make a turn, omega dt = sqrt(3), or four, sqrt(2), take energy from nowhere (Schlick, Mandziuk, Skeel and
+// Srinivas, J. Comput. Phys. 140, 1998). A step taken from the cells is too short for that, as a rule; one that is taken from the mesh as
+// a whole is not, since its fastest swing has omega dt = 1.8. An elastic tube that snaps through made a fourth of the work
+// of its tools so.
+#include <algorithm>
+
+namespace forming_sim {
+
+class LedgerWatch {
+ public:
+  bool due(long step) const { return step >= next_; }
+  /// residual: of the ledger; put_in: the largest work + initial so far, J. Whether steps get shorter.
+  bool look(long step, double residual, double put_in) {
+    next_ = step + kSteps;
+    const bool leaks = residual - last_ > kLeak * put_in;
+    last_ = residual;
+    factor_ = leaks ? std::max(kLeast, kShorter * factor_) : std::min(1.0, kLonger * factor_);
+    shortened_ += leaks;
+    return leaks;
+  }
+  /// Of the step that the mesh bears.
+  double factor() const { return factor_; }
+  /// Looks that made the steps shorter.
+  long shortened() const { return shortened_; }
+
+  template <class Archive> void exchange(Archive& a) {
+    for (long* value : {&shortened_, &next_}) a.number(*value);
+    for (double* value : {&last_, &factor_}) a.number(*value);
+  }
+
+ private:
+  static constexpr long kSteps = 250;    ///< between two looks, each of which costs about as much as two or three steps
+  static constexpr double kLeak = 1e-3;  ///< of what was put in, between two looks
+  static constexpr double kShorter = 0.8, kLonger = 1.005, kLeast = 0.4;
+
+  long shortened_ = 0, next_ = kSteps;
+  double last_ = 0, factor_ = 1;
+};
+
+}  // namespace forming_sim

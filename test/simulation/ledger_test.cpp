@@ -1,0 +1,110 @@
+// The ledger of energies against swings as fast as the mesh bears, and the steps that it makes shorter.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "forming_sim/simulation/ledger_watch.h"
+#include "support/runs.h"
+
+namespace forming_sim {
+namespace {
+
+/// A block whose nodes start with velocities of their own, so that all swings of the mesh are there.
+OneBody shaken_block(const char* pattern, const char* limit) {
+  BlankConfig blank = strip_of(.02, .01, 8, 4);
+  blank.pattern = pattern;
+  OneBody run(body_of(generate_blank(blank), aluminium(false)), 1);
+  run.plan.bodies[0].initial_velocity_field = {"1e-3*sin(1.7e6*x+3.1e6*y)", "1e-3*cos(2.3e6*x+1.9e6*y)"};
+  run.plan.time_step.limit = limit;
+  return run;
+}
+
+// Linear: what steps of one length keep is told to a millionth, and every swing has as much kinetic as elastic energy on the mean.
+TEST(Ledger, OfTheFastestSwings) {
+  for (const char* pattern : {"fine", "coarse", "one_point"})
+    for (const char* limit : {"element", "global"}) {
+      const OneBody run = shaken_block(pattern, limit);
+      auto sim = run.start();
+      double kinetic = 0, elastic = 0, open = 0;
+      const double moving = [&] {  // as a whole: that has no elastic energy
+        Vec3 momentum = Vec3::Zero();
+        for (int n = 0; n < run.model.node_count(); ++n) momentum += sim->nodal_mass()[n] * vec3(sim->velocities()[n]);
+        return .5 * momentum.squaredNorm() / mass_of(*sim);
+      }();
+      for (int i = 0; i < 2000; ++i) {
+        sim->step();
+        kinetic += sim->energies().kinetic, elastic += sim->energies().elastic;
+        open = std::max(open, sim->balance_error());
+      }
+      const double whole = moving * sim->steps();
+      std::printf("  %s, %s: ledger open by %.1e, kinetic over elastic energy %.4f\n", pattern, limit, open, (kinetic - whole) / elastic);
+      EXPECT_GT(sim->energies().initial, 0);
+      // Steps of the whole mesh differ by as much as two runs for its limit do, and a step that changes changes the energy of such swings.
+      EXPECT_LT(open, limit == std::string("element") ? 2e-6 : 5e-3) << pattern << ' ' << limit;
+      EXPECT_NEAR((kinetic - whole) / elastic, 1, .05) << pattern << ' ' << limit;
+    }
+}
+
+TEST(LedgerWatch, ShortensStepsWhileEnergyComesFromNowhere) {
+  LedgerWatch watch;
+  long step = 0;
+  double residual = 0;
+  const auto look = [&](double more) {
+    while (!watch.due(step)) ++step;
+    return watch.look(step, residual += more, 1);
+  };
+  EXPECT_FALSE(watch.due(step));
+  EXPECT_FALSE(look(.0009));
+  EXPECT_FALSE(look(-.5));  // lost
+  EXPECT_DOUBLE_EQ(watch.factor(), 1);
+  EXPECT_TRUE(look(.0011));
+  EXPECT_LT(watch.factor(), .81);
+  const double once = watch.factor();
+  EXPECT_FALSE(look(0));
+  EXPECT_GT(watch.factor(), once);
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(look(.01));
+  EXPECT_GT(watch.factor(), .3);
+  for (int i = 0; i < 400; ++i) look(0);
+  EXPECT_DOUBLE_EQ(watch.factor(), 1);
+  EXPECT_EQ(watch.shortened(), 21);
+}
+
+// A tube of steel that does not yield is crushed to two thirds: it folds, snaps through and rings with strains of .4, and swings of
+// three steps a turn make a fourth of the work of the tools from nowhere where nothing watches over the ledger.
+TEST(LedgerWatch, KeepsATubeThatSnapsThrough) {
+  BlankConfig blank = strip_of(1e-3, 23.66e-3, 3, 58);
+  blank.origin = Vec3(8.04e-3, 0, 0);
+  MaterialConfig steel;
+  steel.density = 7850;
+  steel.youngs_modulus = 210e9;
+  steel.poissons_ratio = .3;
+  const double time = 8e-4;
+  OneBody run(body_of(generate_blank(blank), steel), time);
+  run.model.axisymmetric = true;
+  run.model.bodies[0].self_contact = true;
+  run.plan.contact.friction = .05;
+  for (const bool ram : {false, true}) {
+    ToolModel plane;
+    plane.name = ram ? "ram" : "bed";
+    plane.mesh.dimension = 2;
+    plane.normal = Vec3(0, ram ? -1 : 1, 0);
+    plane.point = Vec3(0, ram ? 23.66e-3 : 0, 0);
+    plane.friction = .05;
+    if (ram) {
+      plane.motion.emplace();
+      plane.motion->kind = "trajectory";
+      plane.motion->times = {0, time};
+      plane.motion->positions = {Vec3::Zero(), Vec3(0, -8e-3, 0)};
+    }
+    run.model.tools.push_back(plane);
+  }
+  auto sim = run.start();
+  while (sim->step()) {
+  }
+  std::printf("  ledger open by %.2g, steps made shorter %ld times\n", sim->balance_error(), sim->step_limit_cost().shortened);
+  EXPECT_LT(sim->balance_error(), .05);
+  EXPECT_EQ(sim->contact_status().crossings, 0);
+}
+
+}  // namespace
+}  // namespace forming_sim
