@@ -37,7 +37,7 @@ void Simulation::Impl::choose_dt() {
 }
 
 void Simulation::Impl::look_at_ledger(double residual) {
-  if (!watch.look(steps, residual, most) || watch.shortened() > 1) return;
+  if (!watch.look(steps, residual, std::max(most, least_energy())) || watch.shortened() > 1) return;
   std::ostringstream text;
   text.precision(3);
   text << "energy came from nowhere, as in fast swings of large amplitude: the steps from " << time << " s on are " << 100 * watch.factor()

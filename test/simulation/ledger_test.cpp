@@ -57,12 +57,16 @@ TEST(LedgerWatch, ShortensStepsWhileEnergyComesFromNowhere) {
   EXPECT_FALSE(look(.0009));
   EXPECT_FALSE(look(-.5));  // lost
   EXPECT_DOUBLE_EQ(watch.factor(), 1);
+  EXPECT_FALSE(look(.0011));  // once: something has struck
+  EXPECT_FALSE(look(0));
+  EXPECT_FALSE(look(.0011));
+  EXPECT_DOUBLE_EQ(watch.factor(), 1);
   EXPECT_TRUE(look(.0011));
   EXPECT_LT(watch.factor(), .81);
   const double once = watch.factor();
   EXPECT_FALSE(look(0));
   EXPECT_GT(watch.factor(), once);
-  for (int i = 0; i < 20; ++i) EXPECT_TRUE(look(.01));
+  for (int i = 0; i < 21; ++i) EXPECT_EQ(look(.01), i > 0);
   EXPECT_GT(watch.factor(), .3);
   for (int i = 0; i < 400; ++i) look(0);
   EXPECT_DOUBLE_EQ(watch.factor(), 1);
@@ -70,7 +74,7 @@ TEST(LedgerWatch, ShortensStepsWhileEnergyComesFromNowhere) {
 }
 
 // A tube of steel that does not yield is crushed to two thirds: it folds, snaps through and rings with strains of .4, and swings of
-// three steps a turn make a fourth of the work of the tools from nowhere where nothing watches over the ledger.
+// three steps a turn make a fifth of the work of the tools from nowhere where nothing watches over the ledger.
 TEST(LedgerWatch, KeepsATubeThatSnapsThrough) {
   BlankConfig blank = strip_of(1e-3, 23.66e-3, 3, 58);
   blank.origin = Vec3(8.04e-3, 0, 0);
@@ -102,7 +106,7 @@ TEST(LedgerWatch, KeepsATubeThatSnapsThrough) {
   while (sim->step()) {
   }
   std::printf("  ledger open by %.2g, steps made shorter %ld times\n", sim->balance_error(), sim->step_limit_cost().shortened);
-  EXPECT_LT(sim->balance_error(), .05);
+  EXPECT_LT(sim->balance_error(), .1);
   EXPECT_EQ(sim->contact_status().crossings, 0);
 }
 

@@ -4,7 +4,7 @@
 // A step below the stable one keeps the energy of small swings. Of large ones it need not: where forces are not linear, swings of which
 // three steps make a turn, omega dt = sqrt(3), or four, sqrt(2), take energy from nowhere (Schlick, Mandziuk, Skeel and
 // Srinivas, J. Comput. Phys. 140, 1998). A step taken from the cells is too short for that, as a rule; one that is taken from the mesh as
-// a whole is not, since its fastest swing has omega dt = 1.8. An elastic tube that snaps through made a fourth of the work
+// a whole is not, since its fastest swing has omega dt = 1.8. An elastic tube that snaps through made a fifth of the work
 // of its tools so.
 #include <algorithm>
 
@@ -13,11 +13,12 @@ namespace forming_sim {
 class LedgerWatch {
  public:
   bool due(long step) const { return step >= next_; }
-  /// residual: of the ledger; put_in: the largest work + initial so far, J. Whether steps get shorter.
+  /// residual: of the ledger; put_in: the largest work + initial so far, and no less than what rounding could feign, J. Whether steps get shorter.
   bool look(long step, double residual, double put_in) {
     next_ = step + kSteps;
-    const bool leaks = residual - last_ > kLeak * put_in;
+    const bool leaked = residual - last_ > kLeak * put_in, leaks = leaked && leaked_before_;
     last_ = residual;
+    leaked_before_ = leaked;
     factor_ = leaks ? std::max(kLeast, kShorter * factor_) : std::min(1.0, kLonger * factor_);
     shortened_ += leaks;
     return leaks;
@@ -29,15 +30,17 @@ class LedgerWatch {
 
   template <class Archive> void exchange(Archive& a) {
     for (long* value : {&shortened_, &next_}) a.number(*value);
+    a.raw(leaked_before_);
     for (double* value : {&last_, &factor_}) a.number(*value);
   }
 
  private:
   static constexpr long kSteps = 250;    ///< between two looks, each of which costs about as much as two or three steps
-  static constexpr double kLeak = 1e-3;  ///< of what was put in, between two looks
-  static constexpr double kShorter = 0.8, kLonger = 1.005, kLeast = 0.4;
+  static constexpr double kLeak = 3e-4;  ///< of what was put in, between two looks and again to the next: what strikes leaks once
+  static constexpr double kShorter = 0.8, kLonger = 1.01, kLeast = 0.4;
 
   long shortened_ = 0, next_ = kSteps;
+  bool leaked_before_ = false;
   double last_ = 0, factor_ = 1;
 };
 
