@@ -17,6 +17,7 @@ constexpr double kCollapse = 1e-3;  ///< an element whose stable step falls to t
 /// 4/(1 + b) < z < 4/(b (1 + b)): it grows, although each step alone is stable. So does one whose own swing makes the
 /// limit swing. Steps that fall at once and rise slowly feed neither: halved steps, and limits that come and go.
 constexpr double kRise = 1.01;
+constexpr long kTold = 3;  ///< steps that the ledger has made shorter so often are told of; summary.json has them all
 }  // namespace
 
 void Simulation::Impl::choose_dt() {
@@ -37,11 +38,11 @@ void Simulation::Impl::choose_dt() {
 }
 
 void Simulation::Impl::look_at_ledger(double residual) {
-  if (!watch.look(steps, residual, std::max(most, least_energy())) || watch.shortened() > 1) return;
+  if (!watch.look(steps, residual, std::max(most, least_energy())) || watch.shortened() != kTold) return;
   std::ostringstream text;
   text.precision(3);
-  text << "energy came from nowhere, as in fast swings of large amplitude: the steps from " << time << " s on are " << 100 * watch.factor()
-       << " % of what the mesh bears, shorter still if that goes on, and longer while it does not; time_step.limit element or time_step.linear_viscosity keep it from the start";
+  text << "energy comes from nowhere again and again, as in fast swings of large amplitude: the steps from " << time << " s on are " << 100 * watch.factor()
+       << " % of what the mesh bears, shorter still if that goes on, and longer while it does not; time_step.limit element or time_step.linear_viscosity .06 keep the ledger closed from the start";
   warnings.push_back(text.str());
 }
 
