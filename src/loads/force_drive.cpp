@@ -15,16 +15,19 @@ namespace {
 
 }  // namespace
 
-Vec3 guide_of(const std::vector<Vec3>& forces) {
+Vec3 guide_of(const MotionConfig& config) {
   Vec3 largest = Vec3::Zero();
-  for (const Vec3& force : forces)
+  for (const Vec3& force : config.forces)
     if (force.norm() > largest.norm()) largest = force;
+  if (largest.isZero(0)) largest = config.initial_velocity;
   return largest.isZero(0) ? largest : Vec3(largest.stableNormalized());
 }
-bool goes_along(const Vec3& force, const Vec3& guide) { return (force - force.dot(guide) * guide).norm() <= 1e-12 * force.norm(); }
+bool goes_along(const Vec3& given, const Vec3& guide) { return (given - given.dot(guide) * guide).norm() <= 1e-12 * given.norm(); }
 
-ForceDrive::ForceDrive(const MotionConfig& config) : guide_(guide_of(config.forces)), mass_(config.mass), damping_(config.damping) {
-  if (guide_.isZero(0)) refuse("forces", "no force other than 0", "give one entry for each time; a tool without a force needs no motion");
+ForceDrive::ForceDrive(const MotionConfig& config) : guide_(guide_of(config)), mass_(config.mass), damping_(config.damping) {
+  if (guide_.isZero(0)) refuse("forces", "no force other than 0, and no initial_velocity", "give one entry for each time; a tool without either needs no motion");
+  if (!goes_along(config.initial_velocity, guide_)) refuse("initial_velocity", given_text(config.initial_velocity), "a tool is guided along the line of its forces, and starts along it");
+  speed_ = momentum_ = config.initial_velocity.dot(guide_);
   std::vector<double> along;
   for (std::size_t k = 0; k < config.forces.size(); ++k) {
     along.push_back(config.forces[k].dot(guide_));

@@ -192,6 +192,23 @@ void note_soft_strip(const BodyConfig& config, Model& model) {
                         " % of its stiffness in bending (docs/elements.md); set its pattern to one_point, or give more cells through" + (at_axis ? "" : " or fewer along"));
 }
 
+/// A bar whose section, a polygon with its corners on the circle, has less area by what counts.
+void note_polygonal_bar(const BodyConfig& config, const Mesh& mesh, Model& model) {
+  constexpr double kToBeTold = 0.01;
+  if (!config.blank || config.blank->shape != "bar") return;
+  const BlankConfig& bar = *config.blank;
+  double volume = 0;
+  for (const auto& s : mesh.simplices()) {
+    Mat3 edges;
+    for (int m = 0; m < 3; ++m) edges.col(m) = mesh.nodes[s[m + 1]] - mesh.nodes[s[0]];
+    volume += edges.determinant() / 6;
+  }
+  const double part = bar.portion == "quarter" ? 0.25 : bar.portion == "half" ? 0.5 : 1, lost = 1 - volume / (part * M_PI * bar.radius * bar.radius * bar.length);
+  if (lost > kToBeTold)
+    model.notes.push_back("the section of body " + config.name + " is a polygon with its corners on the circle and has " + number_text(0.1 * std::round(1000 * lost)) +
+                          " % less area, so that forces are as much too small: give more cells_radius, or a larger radius");
+}
+
 void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
   if (const std::size_t held = model.axisymmetric ? axis_nodes(mesh).size() : 0; held > 0)
     model.notes.push_back(std::to_string(held) + " nodes of body " + config.name + " lie on the axis of symmetry and stay on it");
@@ -199,6 +216,7 @@ void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
     model.notes.push_back("body " + config.name + " consists of " + std::to_string(parts) +
                           " parts that share no node, and they pass through each other: set its self_contact to true, or give them as bodies of their own");
   note_soft_strip(config, model);
+  note_polygonal_bar(config, mesh, model);
   constexpr double kFlat = 1.5;
   if (const double flat = flatness(mesh); flat > kFlat)
     model.notes.push_back("the cells of body " + config.name + " are " + number_text(0.1 * std::round(10 * flat)) +

@@ -43,8 +43,11 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
   check_as_many(motion.velocities, motion.times, path + ".velocities", faults);
   check_as_many(motion.spins_deg_s, motion.times, path + ".spins_deg_s", faults);
   check_as_many(motion.forces, motion.times, path + ".forces", faults);
-  const Vec3 guide = guide_of(motion.forces);
-  if (!motion.forces.empty() && guide.isZero(0)) faults.add(path + ".forces", "no force other than 0", "give one; a tool without a force rests, and needs no motion");
+  const Vec3 guide = guide_of(motion);
+  if (!motion.forces.empty() && guide.isZero(0))
+    faults.add(path + ".forces", "no force other than 0, and no initial_velocity", "give one of them; a tool without either rests, and needs no motion");
+  if (guide.allFinite() && motion.initial_velocity.allFinite() && !goes_along(motion.initial_velocity, guide))
+    faults.add(path + ".initial_velocity", given_text(motion.initial_velocity), "give it along the line of the forces: on that the tool is guided");
   faults.each(motion.forces, [&](std::size_t i) {
     if (motion.forces[i].allFinite() && guide.allFinite() && !goes_along(motion.forces[i], guide))
       faults.add(join_path(path + ".forces", i), given_text(motion.forces[i]), "give all forces along one line: on that the tool is guided");

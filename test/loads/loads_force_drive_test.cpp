@@ -42,6 +42,24 @@ TEST(LoadsForceDrive, AloneItFallsAsItsForceSays) {
   EXPECT_LT((drive.velocity() - force / 2.5 * 399.5e-5).norm(), 1e-12 * drive.velocity().norm());
 }
 
+TEST(LoadsForceDrive, AHammerFliesWithWhatItStartsWith) {
+  MotionConfig config = pushing({Vec3::Zero()}, 2.5);
+  config.initial_velocity = Vec3(0, -6, 0);
+  ForceDrive flies(config);
+  EXPECT_EQ(flies.velocity(), Vec3(0, -6, 0));
+  steps(flies, 1e-5, 400, nothing);
+  EXPECT_LT((flies.way() - Vec3(0, -6 * 400e-5, 0)).norm(), 1e-15);
+  config.forces = {Vec3(0, 2.5 * 9.81, 0)};  // it is thrown up against its weight, seen along the weight
+  config.initial_velocity = Vec3(0, -6, 0);
+  ForceDrive braked(config);
+  steps(braked, 1e-5, 400, nothing);
+  EXPECT_NEAR(braked.velocity().y(), -6 + 9.81 * 399.5e-5, 1e-12);
+  config.initial_velocity = Vec3(1, -6, 0);
+  EXPECT_THROW(ForceDrive{config}, Error);
+  config = pushing({Vec3::Zero()}, 2.5);
+  EXPECT_THROW(ForceDrive{config}, Error);
+}
+
 TEST(LoadsForceDrive, ItsGuideTakesSpeed) {
   MotionConfig config = pushing({Vec3(8, 0, 0)}, 2);
   config.damping = 500;

@@ -258,6 +258,27 @@ TEST(SceneBuild, FlatCellsOfTetrahedraAreTold) {
   EXPECT_TRUE(build_model(scene).notes.empty());
 }
 
+// A polygon of n sides with its corners on the circle has less area by 1 - n sin(2 pi/n)/(2 pi): 2.6 % at 16.
+TEST(SceneBuild, PolygonalBarsAreTold) {
+  Scene scene = plate_scene();
+  scene.tools.clear();
+  BlankConfig& blank = *scene.bodies[0].blank;
+  blank.shape = "bar";
+  blank.radius = 3e-3, blank.length = 0.02;
+  blank.cells_along = 4;
+  const auto told = [&](int cells, const char* portion) {
+    blank.cells_radius = cells, blank.portion = portion;
+    const std::vector<std::string> notes = build_model(scene).notes;
+    for (const std::string& note : notes)
+      if (note.find("is a polygon") != std::string::npos) return note;
+    return std::string();
+  };
+  for (const char* portion : {"full", "half", "quarter"}) {
+    EXPECT_NE(told(4, portion).find("has 2.6 % less area"), std::string::npos) << told(4, portion);
+    EXPECT_EQ(told(8, portion), "") << portion;
+  }
+}
+
 // Crossed triangles are too soft where a sheet's cells are higher than long, and about the axis.
 TEST(SceneBuild, SoftStripsAreTold) {
   Scene scene = plate_scene();

@@ -147,6 +147,33 @@ TEST(DrivenTool, AStrikeKeepsMomentumAndEnergy) {
     }
 }
 
+// A drop hammer upsets a cylinder without friction: what it had, and its weight on the way, is in the plastic work of even compression.
+TEST(DrivenTool, AHammerSpendsItsEnergyOnTheBlank) {
+  const double radius = 5e-3, height = 10e-3, gap = 1e-4, mass = 8, speed = 5, weight = mass * 9.81;
+  OneBody run(body_of(generate_blank(strip_of(radius, height, 4, 8)), aluminium(true)), 4e-3);
+  run.model.axisymmetric = true;
+  run.model.tools.push_back(plane_at("anvil", 2, Vec3::Zero(), Vec3::UnitY()));
+  run.model.tools.push_back(plane_at("hammer", 2, Vec3(0, height + gap, 0), -Vec3::UnitY()));
+  drive(run.model.tools[1], {0}, {Vec3(0, -weight, 0)}, mass);
+  run.model.tools[1].motion->initial_velocity = Vec3(0, -speed, 0);
+  auto sim = run.start();
+  EXPECT_EQ(sim->tools()[1].velocity, Vec3(0, -speed, 0));
+  const double start = sim->tools()[1].position.y(), given = kinetic_energy(*sim, 1, mass);
+  double deepest = 0;
+  while (sim->step()) deepest = std::min(deepest, sim->tools()[1].position.y() - start);
+  const double fallen = start - sim->tools()[1].position.y(), left = kinetic_energy(*sim, 1, mass);
+  EXPECT_NEAR(sim->energies().work, given + weight * fallen - left, 1e-3 * given);
+  EXPECT_GT(sim->tools()[1].velocity.y(), 0);  // it flies back
+  const HardeningConfig& h = *aluminium(true).hardening;
+  const double squeezed = std::log(height / (height + gap + deepest)), volume = M_PI * radius * radius * height;
+  const double strain = squeezed - (h.saturation_stress - (h.saturation_stress - h.yield_stress) * std::exp(-h.rate * squeezed)) / aluminium().E();  // plastic
+  const double work = volume * (h.saturation_stress * strain - (h.saturation_stress - h.yield_stress) / h.rate * (1 - std::exp(-h.rate * strain)));
+  std::printf("  %.4g J given, %.4g J plastic; %.4g J by the even compression to strain %.4f; it flies back at %.3f m/s\n", given, sim->energies().plastic, work, strain,
+              sim->tools()[1].velocity.y());
+  EXPECT_NEAR(sim->energies().plastic, work, .01 * work);
+  EXPECT_GT(sim->energies().plastic, .95 * given);
+}
+
 // Dropped with its whole force on a sheet of one cell it rattles: what the force does is in its motion and in the work on the sheet.
 TEST(DrivenTool, DroppedOnOneCellItRattlesAndGainsNothing) {
   const double force = 1e5, gap = 1.5e-4;

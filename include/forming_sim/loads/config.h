@@ -60,19 +60,21 @@ struct MotionConfig {
   std::vector<Vec3> velocities;     ///< velocity
   std::vector<Vec3> spins_deg_s;    ///< velocity: angular velocity
   std::vector<Vec3> forces;         ///< force
+  Vec3 initial_velocity = Vec3::Zero();  ///< force
   double mass = 0;                  ///< force; 0: that of the bodies
   double damping = 0;               ///< force
   Vec3 centre = Vec3::Zero();
   std::string profile = "smooth";
 
   template <class Visitor> static void declare(Visitor&& visit) {
-    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"trajectory", "velocity", "force"}).doc("trajectory: displacements and rotations at given times; velocity: velocities and spins at given times; force: forces at given times, and the tool goes where they and the bodies push it, along their line and without a turn: a blank holder"));
+    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"trajectory", "velocity", "force"}).doc("trajectory: displacements and rotations at given times; velocity: velocities and spins at given times; force: forces at given times, and the tool goes where they and the bodies push it, along their line and without a turn: a blank holder, a hammer"));
     visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().doc("times of the knots, increasing; a trajectory rests before the first and after the last, a velocity or a force stays as at the nearest knot"));
     visit(FORMING_SIM_FIELD(positions), Field().unit("m").when("kind", {"trajectory"}).doc("displacement from the initial place at each knot"));
     visit(FORMING_SIM_FIELD(rotations_deg), Field().unit("deg").when("kind", {"trajectory"}).doc("rotation vector (axis times angle) about the centre at each knot; in dimension 2 [0, 0, angle]"));
     visit(FORMING_SIM_FIELD(velocities), Field().unit("m/s").when("kind", {"velocity"}).doc("velocity at each knot"));
     visit(FORMING_SIM_FIELD(spins_deg_s), Field().unit("deg/s").when("kind", {"velocity"}).doc("angular velocity about the centre at each knot"));
-    visit(FORMING_SIM_FIELD(forces), Field().unit("N").required().when("kind", {"force"}).doc("force on the tool at each knot, all along one line; plane strain: N/m; axisymmetric: of the whole circle"));
+    visit(FORMING_SIM_FIELD(forces), Field().unit("N").required().when("kind", {"force"}).doc("force on the tool at each knot, all along one line; plane strain: N/m; axisymmetric: of the whole circle; the weight of the tool is one of them, gravity acts on bodies only"));
+    visit(FORMING_SIM_FIELD(initial_velocity), Field().unit("m/s").when("kind", {"force"}).doc("velocity that the tool starts with, along the line of its forces: a hammer. Where all forces are 0 it is guided along this"));
     visit(FORMING_SIM_FIELD(mass), Field().unit("kg").at_least(0).computed("that of all bodies").when("kind", {"force"}).doc("mass of the tool, kg/m in plane strain; at least a thousandth of that of all bodies, mass scaling included"));
     visit(FORMING_SIM_FIELD(damping), Field().unit("1/s").at_least(0).when("kind", {"force"}).doc("rate at which the tool loses speed to its guide: a force of damping times mass times velocity"));
     visit(FORMING_SIM_FIELD(centre), Field().unit("m").when("kind", {"trajectory", "velocity"}).doc("centre of rotation at the start; it moves with the tool"));

@@ -1,5 +1,5 @@
 #pragma once
-// A tool that a force drives: a blank holder. It is guided along the line of its force and does not turn.
+// A tool that a force drives, or that flies with a mass of its own: a blank holder, a hammer. It is guided along the line of its force and does not turn.
 //
 //   M dV/dt = F(t) + R - alpha M V,   R: what the bodies press on it,
 //
@@ -14,14 +14,14 @@
 
 namespace forming_sim {
 
-/// Unit vector along the largest of the forces; zero where all are.
-Vec3 guide_of(const std::vector<Vec3>& forces);
-/// Whether a force lies along it, to round-off.
-bool goes_along(const Vec3& force, const Vec3& guide);
+/// Unit vector along the largest of the forces, where all are zero along the initial velocity; zero where that is, too.
+Vec3 guide_of(const MotionConfig& config);
+/// Whether a force or velocity lies along it, to round-off.
+bool goes_along(const Vec3& given, const Vec3& guide);
 
 class ForceDrive {
  public:
-  /// Of a motion of kind force, its mass above 0, kg (kg/m in plane strain). Throws Error(invalid_scene) where the forces are not
+  /// Of a motion of kind force, its mass above 0, kg (kg/m in plane strain). Throws Error(invalid_scene) where forces and initial velocity are not
   /// along one line or all zero, and as ScalarProfile does.
   explicit ForceDrive(const MotionConfig& config);
 

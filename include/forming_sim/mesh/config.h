@@ -34,7 +34,7 @@ struct BlankConfig {
     visit(FORMING_SIM_FIELD(cells_along), Field().at_least(1).at_most(1e6).required().doc("cells along the length"));
     visit(FORMING_SIM_FIELD(cells_across), Field().at_least(1).at_most(1e6).required().when("shape", {"plate"}).doc("cells along the width"));
     visit(FORMING_SIM_FIELD(cells_through), Field().at_least(1).at_most(1e6).required().when("shape", {"strip", "plate"}).doc("cells through the thickness"));
-    visit(FORMING_SIM_FIELD(cells_radius), Field().at_least(2).at_most(1e4).required().when("shape", {"bar"}).doc("cells along a radius"));
+    visit(FORMING_SIM_FIELD(cells_radius), Field().at_least(2).at_most(1e4).required().when("shape", {"bar"}).doc("cells along a radius; the section is a polygon with its corners on the circle: 2.6 % less area at 4, .6 % at 8, .2 % at 12"));
     visit(FORMING_SIM_FIELD(pattern), Field().choices({"fine", "coarse", "one_point"}).doc("how a cell is split: fine: 4 crossed triangles or 24 tetrahedra; coarse: 2 triangles or 6 tetrahedra; the pressure is one per cell; one_point: not at all, one quadrilateral or hexahedron with one point, the cheapest for sheets, also of cells several times longer than thick"));
   }
 };
