@@ -176,7 +176,10 @@ TEST(SceneRules, AForceGoesAlongOneLine) {
   const auto with = [&](const std::string& fields) { return replaced(text, "positions: [[0, 0], [0, -0.020]]", fields); };
   EXPECT_TRUE(faults_of(with("forces: [[0, 0], [0, -2000]]")).empty()) << sentences(faults_of(with("forces: [[0, 0], [0, -2000]]")));
   EXPECT_TRUE(faults_of(with("forces: [[1, -2], [-500, 1000]]\n      mass: 0.1\n      damping: 100")).empty());
-  expect_fault(with("forces: [[0, 0], [0, 0]]"), motion + ".forces", "a tool without a force rests");
+  expect_fault(with("forces: [[0, 0], [0, 0]]"), motion + ".forces", "a tool without either rests");
+  EXPECT_TRUE(faults_of(with("forces: [[0, 0], [0, 0]]\n      initial_velocity: [0, -3]")).empty());
+  EXPECT_TRUE(faults_of(with("forces: [[0, 0], [0, -2000]]\n      initial_velocity: [0, 3]")).empty());
+  expect_fault(with("forces: [[0, 0], [0, -2000]]\n      initial_velocity: [1, -3]"), motion + ".initial_velocity", "along the line of the forces");
   expect_fault(with("forces: [[0, -1], [1, -2000]]"), motion + ".forces[0]", "along one line");
   expect_fault(with("forces: [[0, -1]]"), motion + ".forces", "2 times");
   expect_fault(with("forces: [[0, 0], [0, -2000, 1]]"), motion + ".forces[1]", "z = 0");

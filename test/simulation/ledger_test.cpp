@@ -48,14 +48,20 @@ TEST(Ledger, OfTheFastestSwings) {
 TEST(LedgerWatch, ShortensStepsWhileEnergyComesFromNowhere) {
   LedgerWatch watch;
   long step = 0;
-  double residual = 0;
+  double residual = 0, put_in = 1;
   const auto look = [&](double more) {
     while (!watch.due(step)) ++step;
-    return watch.look(step, residual += more, 1);
+    return watch.look(step, residual += more, put_in);
   };
   EXPECT_FALSE(watch.due(step));
   EXPECT_FALSE(look(.0009));
   EXPECT_FALSE(look(-.5));  // lost
+  for (int i = 0; i < 5; ++i) {
+    put_in += .2;
+    EXPECT_FALSE(look(.0011));  // half a hundredth of what was put in meanwhile
+  }
+  put_in = 1;
+  EXPECT_FALSE(look(0));
   EXPECT_DOUBLE_EQ(watch.factor(), 1);
   EXPECT_FALSE(look(.0011));  // once: something has struck
   EXPECT_FALSE(look(0));

@@ -16,8 +16,9 @@ class LedgerWatch {
   /// residual: of the ledger; put_in: the largest work + initial so far, and no less than what rounding could feign, J. Whether steps get shorter.
   bool look(long step, double residual, double put_in) {
     next_ = step + kSteps;
-    const bool leaked = residual - last_ > kLeak * put_in, leaks = leaked && leaked_before_;
+    const bool leaked = residual - last_ > std::max(kLeak * put_in, kSlip * (put_in - put_in_)), leaks = leaked && leaked_before_;
     last_ = residual;
+    put_in_ = put_in;
     leaked_before_ = leaked;
     factor_ = leaks ? std::max(kLeast, kShorter * factor_) : std::min(1.0, kLonger * factor_);
     shortened_ += leaks;
@@ -31,17 +32,18 @@ class LedgerWatch {
   template <class Archive> void exchange(Archive& a) {
     for (long* value : {&shortened_, &next_}) a.number(*value);
     a.raw(leaked_before_);
-    for (double* value : {&last_, &factor_}) a.number(*value);
+    for (double* value : {&last_, &put_in_, &factor_}) a.number(*value);
   }
 
  private:
   static constexpr long kSteps = 250;    ///< between two looks, each of which costs about as much as two or three steps
   static constexpr double kLeak = 3e-4;  ///< of what was put in, between two looks and again to the next: what strikes leaks once
+  static constexpr double kSlip = 1e-2;  ///< of what was put in since the last look: plastic flow that begins in fast steps leaves as much
   static constexpr double kShorter = 0.8, kLonger = 1.01, kLeast = 0.4;
 
   long shortened_ = 0, next_ = kSteps;
   bool leaked_before_ = false;
-  double last_ = 0, factor_ = 1;
+  double last_ = 0, put_in_ = 0, factor_ = 1;
 };
 
 }  // namespace forming_sim
