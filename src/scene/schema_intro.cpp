@@ -70,6 +70,7 @@ and yields as a flange thickens. Its force is all that acts on it: gravity does 
 contact, so that it may be light, down to a thousandth of the mass of the bodies (what is lighter is refused);
 a light one follows at once, a heavy one takes time to start and to stop. Let the force rise smoothly, and lay the holder on the blank:
 what falls on it rattles. A set that is held rigidly does not stop it, but ends the run: keep it off what is clamped.
+With an `initial_velocity` and its own `mass` it is a hammer: what it has lost when it flies back went into the bodies, as `work`. Its weight is one of its forces.
 Its place is in `history.csv`. A `withdraw` stage takes it away like any other tool, from rest where it has come to.
 
 ## Stages
