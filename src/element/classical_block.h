@@ -38,6 +38,20 @@ void classical_pressures(const CellGroup& g, const NodalView& view, long block, 
   }
 }
 
+/// What the pressures of a cell would store in an elastic body, of the current volumes: V [mean^2 / 2K + (p - mean)^2 / (2 theta K)].
+/// A share theta of K is what an element's own part has answered with, and so its part stores 1/theta of what K would say.
+template <class Cell> Pack energy_of_classical_pressures(const Pack* V, const Pack* p, double K, double theta) {
+  Pack sum_V(0.0), sum_p(0.0), own(0.0);
+  for (int s = 0; s < Cell::simplices; ++s) {
+    sum_V += V[s];
+    sum_p += V[s] * p[s];
+  }
+  const Pack mean = sum_p / sum_V;
+  if (theta > 0)
+    for (int s = 0; s < Cell::simplices; ++s) own += V[s] * (p[s] - mean) * (p[s] - mean);
+  return Pack(0.5 / K) * (sum_V * mean * mean + own * Pack(theta > 0 ? 1 / theta : 0));
+}
+
 /// Of one-point cells: p, and the ways w of the edges.
 template <class Cell> [[gnu::noinline]] Pack classical_step_of_edges(const CellGroup& g, const NodalView& view, long block, Vector<Pack, kD<Cell>>* w) {
   const int* nodes = g.nodes + block * Cell::nodes * kLanes;

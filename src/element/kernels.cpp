@@ -302,8 +302,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
       stored += V0 * Variation<Cell>(g, constants, e, x).hourglass.energy(g.solid, hourglass_of<Cell>(g, block));
       stored += Pack(kCornerGuard * g.solid.K) * V0 * CornerGuard<Pack, D, Cell::ring>(constants, x, e.x, e.up).energy();
     }
-    if (classical) stored += V[s] * p[s] * p[s] * Pack(0.5 / g.solid.K);
-    else stored += Pack(0.5 * g.solid.K * own) * V0 * (J[s] - Pack(1.0)) * (J[s] - Pack(1.0));
+    if (!classical) stored += Pack(0.5 * g.solid.K * own) * V0 * (J[s] - Pack(1.0)) * (J[s] - Pack(1.0));
     if (g.guard > 0) stored += Pack(g.guard * g.solid.K) * V0 * guard_energy(J[s], free_of_guard<Cell>(constants, s));
     cell_V += V[s];
     cell_V0 += V0;
@@ -318,7 +317,9 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
     }
     J[s].store(ratio + (block * Cell::simplices + s) * kLanes);
   }
-  if (g.pressure == PressureMode::cell && !classical) {
+  if (classical) {
+    stored += energy_of_classical_pressures<Cell>(V, p, g.solid.K, own);
+  } else if (g.pressure == PressureMode::cell) {
     const Pack strain = cell_V / cell_V0 - Pack(1.0);
     stored += Pack(0.5 * g.solid.K * (1 - own)) * cell_V0 * strain * strain;
   }

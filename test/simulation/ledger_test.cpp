@@ -45,6 +45,31 @@ TEST(Ledger, OfTheFastestSwings) {
     }
 }
 
+// The classical law knows no energy; what its stresses would store must be the work they have done, as long as strains are small.
+// Cells with nodes of their own give a share of each simplex' volume change an answer of its own.
+TEST(Ledger, OfTheClassicalLaw) {
+  for (const char* shape : {"strip", "plate"})
+    for (const char* pattern : {"fine", "coarse", "one_point"}) {
+      BlankConfig blank = strip_of(.02, .002, 20, 4);
+      blank.shape = shape;
+      blank.pattern = pattern;
+      blank.width = .004;
+      blank.cells_across = 4;
+      MaterialConfig metal = aluminium(false);
+      metal.law = "classical";
+      OneBody run(body_of(generate_blank(blank), metal), 2e-4);
+      std::vector<std::string>& start = run.plan.bodies[0].initial_velocity_field;
+      start.assign(run.model.dimension, "0");
+      start.back() = "20*(x/.02)^2";
+      clamp_left(run);
+      auto sim = run.start();
+      double open = 0;
+      while (sim->step()) open = std::max(open, sim->balance_error());
+      std::printf("  %s, %s: ledger open by %.1e\n", shape, pattern, open);
+      EXPECT_LT(open, 5e-3) << shape << ' ' << pattern;
+    }
+}
+
 TEST(LedgerWatch, ShortensStepsWhileEnergyComesFromNowhere) {
   LedgerWatch watch;
   long step = 0;
