@@ -11,10 +11,10 @@ template <class Cell> void moved(const NodalView& view, Vector<Pack, kD<Cell>>* 
 }
 
 /// Incremental pressure (2.11) of the classical method, p + K tr D dt, with the
-/// mean rate of the cell or that of the element.
+/// mean rate of the cell or that of the element. Keep::no: the memory stays as it is.
 template <class Cell>
 void classical_pressures(const CellGroup& g, const NodalView& view, long block, const Vector<Pack, kD<Cell>>* x,
-                         const Vector<Pack, kD<Cell>>* v, Pack* p) {
+                         const Vector<Pack, kD<Cell>>* v, Pack* p, Keep keep) {
   constexpr int D = kD<Cell>;
   const double* constants = constants_of<Cell>(g, block);
   Pack rate[Cell::simplices], sum_V(0.0), sum_rate(0.0);
@@ -34,7 +34,7 @@ void classical_pressures(const CellGroup& g, const NodalView& view, long block, 
     double* at = memory_of<Cell>(g, block, s);
     load(at, kClassicalPressure<D>, p[s]);
     p[s] += Pack(g.solid.K) * ((Pack(1.0) - theta) * mean + theta * rate[s]);
-    store(at, kClassicalPressure<D>, p[s]);
+    if (keep == Keep::yes) store(at, kClassicalPressure<D>, p[s]);
   }
 }
 
@@ -61,7 +61,7 @@ template <class Cell> [[gnu::noinline]] Pack classical_step_of_edges(const CellG
   edges_of<Cell>(constants_of<Cell>(g, block), v, 0, w);
   moved<Cell>(view, w);
   Pack p;
-  classical_pressures<Cell>(g, view, block, x, v, &p);
+  classical_pressures<Cell>(g, view, block, x, v, &p, Keep::yes);
   return p;
 }
 

@@ -96,8 +96,8 @@ void Elements::observe_group(const Group& g, const NodalView& view, double* stre
   });
 }
 
-double Elements::stored_energy(const NodeField& x) const {
-  const NodalView view{x.data()->data(), nullptr, nullptr, pressure_.data(), 0, 0};
+double Elements::stored_energy(const NodeField& x, const NodeField* v, double since) const {
+  const NodalView view{x.data()->data(), v ? v->data()->data() : nullptr, nullptr, pressure_.data(), 0, since};
   if (any_nodal_) nodal_pressure(view);
   double sum = 0;
   for (const Group& g : groups_) {

@@ -195,7 +195,7 @@ template <class Cell> [[gnu::flatten]] void forces_of_any_law(const CellGroup& g
     Pack V[Cell::simplices];
     at.gather(V);
     gather_ways<Cell>(at.nodes(), view.v, v);
-    classical_pressures<Cell>(g, view, block, at.x, v, at.p);
+    classical_pressures<Cell>(g, view, block, at.x, v, at.p, Keep::yes);
     if (is_viscous(g)) at.add_viscosity();
     if constexpr (Cell::drawn) draw<Cell>(at.constants, v, drawn_v);
   } else {
@@ -290,14 +290,25 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   if constexpr (Cell::drawn) draw<Cell>(constants, x, drawn_x);
   Pack stored(0.0), cell_V(0.0), cell_V0(0.0);
   const double own = g.pressure == PressureMode::element ? 1 : g.element_share;
-  const bool classical = g.solid.law == Law::classical;
+  const bool classical = g.solid.law == Law::classical, ahead = classical && view.v && view.last_dt != 0;
+  Vector<Pack, D> v[Cell::nodes], drawn_v[kDrawn<Cell>];  // only from a memory of other positions
+  if (ahead) {
+    gather_ways<Cell>(nodes, view.v, v);
+    classical_pressures<Cell>(g, view, block, x, v, p, Keep::no);
+    if constexpr (Cell::drawn) draw<Cell>(constants, v, drawn_v);
+  }
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
     law_edges<Cell>(constants, x, drawn_x, s, e.x);
     find_reciprocal(e);
     double* memory = memory_of<Cell>(g, block, s);
     const Pack V0 = initial_volume(g, memory), law_J = Cell::drawn ? e.volume / V0 : J[s];
-    stored += V0 * point_energy(g.solid, e, law_J, memory);
+    Vector<Pack, D> w[kE<Cell>];
+    if (ahead) {
+      law_edges<Cell>(constants, v, drawn_v, s, w);
+      moved<Cell>(view, w);
+    }
+    stored += V0 * point_energy(g.solid, e, law_J, memory, ahead ? w : nullptr);
     if constexpr (Cell::one_point) {
       stored += V0 * Variation<Cell>(g, constants, e, x).hourglass.energy(g.solid, hourglass_of<Cell>(g, block));
       stored += Pack(kCornerGuard * g.solid.K) * V0 * CornerGuard<Pack, D, Cell::ring>(constants, x, e.x, e.up).energy();

@@ -80,16 +80,15 @@ const Energies& Simulation::energies() const {
   if (s.energies_step == s.steps) return s.energies;
   const bool moved = s.steps > 0;
   NodeField at = s.x;
-  const auto back = [&](double part) {
-    for (std::size_t i = 0; i < at.size(); ++i) at[i] = s.x[i] - part * s.dt * s.v[i];
+  const auto stored_after = [&](double part) {  // of the last step, at whose start memories were kept
+    for (std::size_t i = 0; i < at.size(); ++i) at[i] = s.x[i] - (1 - part) * s.dt * s.v[i];
+    return s.elements.stored_energy(at, &s.v, part * s.dt);
   };
   Energies& e = s.energies;
-  if (moved) back(0.5);
-  e.elastic = s.elements.stored_energy(at);
+  e.elastic = moved ? stored_after(0.5) : s.elements.stored_energy(s.x);
   e.kinetic = s.kinetic();
   if (moved) {
-    back(1);
-    const double less = 0.5 * (s.elements.stored_energy(at) + s.elements.stored_energy(s.x)) - e.elastic;
+    const double less = 0.5 * (stored_after(0) + stored_after(1)) - e.elastic;
     if (std::isfinite(less)) e.kinetic -= less;  // else x lies where the next step will fail
   }
   e.plastic = s.elements.plastic_work();

@@ -99,7 +99,9 @@ class Elements {
   double viscous_work() const;   ///< dissipated so far by bulk viscosity, J
   std::vector<double> plastic_strain() const;
   ElementFields observe(const NodeField& x) const;
-  double stored_energy(const NodeField& x) const;  ///< J
+  /// J. v, since: the nodes have come here with these velocities in this time, s, since the memory was kept, for Law::classical;
+  /// without them its stresses are those of the memory.
+  double stored_energy(const NodeField& x, const NodeField* v = nullptr, double since = 0) const;
 
   /// Numbers that the next steps depend on, in a fixed order.
   void append_state(std::vector<double>& to) const;

@@ -57,6 +57,22 @@ template <class T, int D, bool Ring> Symmetric<T, D> jaumann(const Increment<T, 
   return r;
 }
 
+/// S <- S + dt [2 mu dev D + W.S - S.W] (2.10), before the return
+template <class T, int D, bool Ring> void advance(double mu, const Increment<T, D, Ring>& d, Symmetric<T, D>& S) {
+  const Symmetric<T, D> turn = jaumann(d, S);
+  const T third = d.divergence() * T(1.0 / 3);
+  const T mu2(2 * mu);
+  for (int i = 0; i < 3; ++i) {
+    T stretch = i < D ? d.L[i < D ? i : 0][i < D ? i : 0] : Ring ? d.hoop : T(0);
+    S[i] += mu2 * (stretch - third) + turn[i];
+  }
+  S[3] += T(mu) * (d.L[0][1] + d.L[1][0]) + turn[3];
+  if constexpr (D == 3) {
+    S[4] += T(mu) * (d.L[1][2] + d.L[2][1]) + turn[4];
+    S[5] += T(mu) * (d.L[2][0] + d.L[0][2]) + turn[5];
+  }
+}
+
 /// moved: w_m, the way of the edges in the step that led to e; null: S as it stands.
 template <class T, int D, bool Ring>
 [[gnu::noinline]] PointResponse<T, D> classical_step(const SolidConstants& m, Edges<T, D, Ring> e, const Vector<T, D>* moved, const T& J,
@@ -66,19 +82,7 @@ template <class T, int D, bool Ring>
   r.S = load_memory<T, D>(memory);
   r.dissipation = T(0);
   if (!moved) return r;
-  const Increment<T, D, Ring> d(e, moved);
-  const Symmetric<T, D> turn = jaumann(d, r.S);
-  const T third = d.divergence() * T(1.0 / 3);
-  const T mu2(2 * m.mu);
-  for (int i = 0; i < 3; ++i) {
-    T stretch = i < D ? d.L[i < D ? i : 0][i < D ? i : 0] : Ring ? d.hoop : T(0);
-    r.S[i] += mu2 * (stretch - third) + turn[i];
-  }
-  r.S[3] += T(m.mu) * (d.L[0][1] + d.L[1][0]) + turn[3];
-  if constexpr (D == 3) {
-    r.S[4] += T(m.mu) * (d.L[1][2] + d.L[2][1]) + turn[4];
-    r.S[5] += T(m.mu) * (d.L[2][0] + d.L[0][2]) + turn[5];
-  }
+  advance(m.mu, Increment<T, D, Ring>(e, moved), r.S);
   T p;
   load(memory, size, p);
   const HardeningCurve& h = m.layer[0].hardening;
@@ -105,9 +109,11 @@ template <class T, int D, bool Ring>
 }
 
 /// S:S/(4 mu) of the current volume, per initial volume: what a linear elastic body
-/// with this stress would store.
-template <class T, int D> T classical_energy(const SolidConstants& m, const T& J, const double* memory) {
-  const Symmetric<T, D> S = load_memory<T, D>(memory);
+/// with this stress would store. moved: as above, from where the memory is of; null: it is of here.
+template <class T, int D, bool Ring>
+T classical_energy(const SolidConstants& m, const Edges<T, D, Ring>& e, const T& J, const double* memory, const Vector<T, D>* moved = nullptr) {
+  Symmetric<T, D> S = load_memory<T, D>(memory);
+  if (moved) advance(m.mu, Increment<T, D, Ring>(e, moved), S);
   return J * contract(S, S) * T(1 / (4 * m.mu));
 }
 

@@ -34,10 +34,11 @@ PointResponse<T, D> point_step(const SolidConstants& m, const Edges<T, D, Ring>&
   return von_mises_step(m, e, J, memory, keep);
 }
 
-/// Stored energy beside that of the pressure, per initial volume, J/m3.
-template <class T, int D, bool Ring> T point_energy(const SolidConstants& m, const Edges<T, D, Ring>& e, const T& J, const double* memory) {
+/// Stored energy beside that of the pressure, per initial volume, J/m3. moved: as in classical_energy(), which alone reads it.
+template <class T, int D, bool Ring>
+T point_energy(const SolidConstants& m, const Edges<T, D, Ring>& e, const T& J, const double* memory, const Vector<T, D>* moved = nullptr) {
   if (m.law == Law::hyperelastic) return hyperelastic_energy(m, e, J, memory);
-  if (m.law == Law::classical) return classical_energy<T, D>(m, J, memory);
+  if (m.law == Law::classical) return classical_energy(m, e, J, memory, moved);
   return von_mises_energy(m, e, J, memory);
 }
 
