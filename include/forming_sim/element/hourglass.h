@@ -200,25 +200,6 @@ template <class T, int D, bool Ring = false> class Hourglass {
     return {PlaneOf<T, D>(turned, constants, static_cast<int>(d))...};
   }
 
-  /// A B + B A
-  static Symmetric<T, D> twice_symmetric_product(const Symmetric<T, D>& A, const Symmetric<T, D>& B) {
-    Symmetric<T, D> r;
-    const auto entry = [&](int i, int j) {
-      T sum = A[kFull[i][0]] * B[kFull[0][j]] + B[kFull[i][0]] * A[kFull[0][j]];
-      for (int k = 1; k < D; ++k) sum += A[kFull[i][k]] * B[kFull[k][j]] + B[kFull[i][k]] * A[kFull[k][j]];
-      return sum;
-    };
-    for (int i = 0; i < D; ++i) r[i] = entry(i, i);
-    r[3] = entry(0, 1);
-    if constexpr (D == 2) {
-      r[2] = T(2) * A[2] * B[2];
-    } else {
-      r[4] = entry(1, 2);
-      r[5] = entry(2, 0);
-    }
-    return r;
-  }
-
   /// G^mk = x^m . B x^k.
   static void pull(const Edges<T, D, Ring>& edges, const Symmetric<T, D>& B, Symmetric<T, D>& G) {
     Vector<T, D> Bx[D];
@@ -344,9 +325,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
         store(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise[d]);
       });
       flow_of_mean(mean);
-      Symmetric<T, D> plastic;
-      for (int i = 0; i < size; ++i) plastic[i] = softer * (point.S[i] - mean.S[i]);
-      take_mean_flow(m, factor, J, edges, plastic, mean.p, point, memory);
+      take_mean_flow(m, factor, J, edges, mean.S, mean.p, point, memory);
     }
     T left(1);
     if constexpr (D == 3) left = smaller(point.kept * mean.sigma / larger(mean.sigma + T(3) * T(moduli.mu) * mean.p, T(0.5) * mean.sigma), T(1));
@@ -374,26 +353,25 @@ template <class T, int D, bool Ring = false> class Hourglass {
     return any(n * n + n * m + m * m > T(limit));
   }
 
-  /// The plastic strain of the mean, D, enters the law's memory: B <- B - D B - B D, or the
-  /// classical S <- S - 2 mu D; it dissipates S : D.
-  static void take_mean_flow(const SolidConstants& m, const T& factor, const T& J, const Edges<T, D, Ring>& edges, const Symmetric<T, D>& flow, const T& dp, PointResponse<T, D>& point, double* memory) {
+  /// The mean, S after the law's step, has flowed to `after`. The classical law's memory is that; in B = s I + d it is
+  /// d <- after/factor, and s such that det B stays: s <- s - (d:d - d':d')/(6 s), to the second power of d. The plastic strain is
+  /// (d - d')/(2 s) and dissipates with the stress that is left.
+  static void take_mean_flow(const SolidConstants& m, const T& factor, const T& J, const Edges<T, D, Ring>& edges, const Symmetric<T, D>& after, const T& dp, PointResponse<T, D>& point, double* memory) {
     constexpr int size = Symmetric<T, D>::size;
-    if (m.law == Law::classical) {
-      for (int i = 0; i < size; ++i) {
-        point.S[i] -= T(2 * m.mu) * flow[i];
-        store(memory, i, point.S[i]);
-      }
-    } else {
-      Symmetric<T, D> G = load_memory<T, D>(memory);
-      Symmetric<T, D> B = push(G, edges);
-      const Symmetric<T, D> change = twice_symmetric_product(flow, B);
-      for (int i = 0; i < size; ++i) B[i] -= change[i];
-      pull(edges, B, G);
-      for (int i = 0; i < size; ++i) store(memory, i, G[i]);
-      B = deviator(B);
-      for (int i = 0; i < size; ++i) point.S[i] = factor * B[i];
+    const T over = T(1) / factor, left = contract(after, after);
+    T half = T(0.5) * over;  // 1/(2 factor s)
+    Symmetric<T, D> kept = after;
+    if (m.law != Law::classical) {
+      const T s = trace(push(load_memory<T, D>(memory), edges)) * T(1.0 / 3), over_s = T(1) / s;
+      half *= over_s;
+      const T after_s = s - T(1.0 / 6) * over * over * over_s * (contract(point.S, point.S) - left);
+      Symmetric<T, D> B;
+      for (int i = 0; i < size; ++i) B[i] = i < 3 ? over * after[i] + after_s : over * after[i];
+      pull(edges, B, kept);
     }
-    point.dissipation += J * contract(point.S, flow);
+    for (int i = 0; i < size; ++i) store(memory, i, kept[i]);
+    point.dissipation += J * half * (contract(after, point.S) - left);
+    point.S = after;
     T p;
     load(memory, size, p);
     store(memory, size, p + dp);
