@@ -266,6 +266,32 @@ TEST(OnePoint, WorkIsStoredOrDissipated) {
   }
 }
 
+// Metal dissipates whatever a step does to it, also one of many times the strain at yield.
+TEST(OnePoint, NoStepGivesBackPlasticWork) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> share(-1, 1);
+  for (CellKind kind : {CellKind::quad1, CellKind::hex1})
+    for (double size : {5e-3, 1e-2, 5e-2}) {
+      const int D = shape_of(kind).dimension;
+      double back = 0, all = 0;
+      for (int path = 0; path < 20; ++path) {
+        Moved body(cell_of(kind, Vec3(2, 1.5, 1)), perfectly_plastic());
+        for (int step = 0; step < 20; ++step) {
+          for (std::size_t n = 0; n < body.x.size(); ++n)
+            for (int i = 0; i < D; ++i) body.x[n][i] = body.X[n][i] + size * share(random);
+          const double before = body.elements.plastic_work();
+          body.forces();
+          const double more = body.elements.plastic_work() - before;
+          all += std::abs(more);
+          back += std::max(-more, 0.0);
+        }
+      }
+      std::cout << "  " << shape_of(kind).name << ", steps of " << size << ": given back " << back / all << "\n";
+      EXPECT_GT(all, 0);
+      EXPECT_LT(back, 1e-12 * all) << shape_of(kind).name << ", steps of " << size;
+    }
+}
+
 // A face of two hexahedra that are numbered differently is divided along different diagonals, and
 // lies inside all the same.
 TEST(OnePoint, FacesOfHexahedraLieInsideHoweverTheyAreNumbered) {

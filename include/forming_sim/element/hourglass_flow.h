@@ -135,16 +135,42 @@ template <class T> [[gnu::always_inline]] inline Normal<T> normal(const Products
   return r;
 }
 
+/// Roots of Q_n + mu from which Newton's step lands near the surface. From farther out it would turn s round.
+constexpr double kNearSurface = 1.5;
+
+/// Where one coordinate is farther outside than that, S and s go back along themselves first, as they would by the radial return;
+/// what the variation dissipates per initial volume.
+template <class T, int D>
+[[gnu::noinline]] inline T return_to_near(MeanFlow<T, D>& mean, const PlaneModuli<T>& moduli, const Plane<T>& strain, const T& share, const T& root, Plane<T>& ep) {
+  const T kept = select(share * root > T(kNearSurface), T(kNearSurface) / root, T(1)), gone = T(1) - kept;
+  const Plane<T> elastic = strain - ep;
+  ep = {ep.a + gone * elastic.a, ep.b + gone * elastic.b, ep.shear + gone * elastic.shear};
+  mean.harden(gone * sqrt(T(1.5) * contract(mean.S, mean.S)) / (T(1.5) * mean.modulus));
+  for (int i = 0; i < Symmetric<T, D>::size; ++i) mean.S[i] *= kept;
+  return T(1.0 / 3) * gone * kept * work(moduli.stress(elastic), elastic);
+}
+
 /// One coordinate flows where share is 1: mean, ep and p' (rise) follow; what the variation dissipates per initial volume.
 /// At the edge where the whole cell flows one way and m comes to lie across S, it goes no further; where m is more than that,
 /// the surface is smooth there, and S, however small, is no reason to stop.
 template <class T, int D>
 [[gnu::always_inline]] inline T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli<T>& moduli, const Plane<T>& strain, const T& share, Plane<T>& ep, T& rise,
                                                 const PlaneOf<T, D>& at) {
-  const Plane<T> s = moduli.stress(strain - ep), dev_s = deviatoric(s), part = at.part(mean.S);
-  const Products<T> q{contract(mean.S, mean.S), work(s, part), work(s, dev_s)};
-  const T over = T(1) / mean.sigma, back = mean.slope * rise * over;
-  const Normal<T> n = normal(q, over, back);
+  Plane<T> s, dev_s, part;
+  Products<T> q;
+  T over, back, dissipated(0);
+  const auto find_stresses = [&] {
+    s = moduli.stress(strain - ep), dev_s = deviatoric(s), part = at.part(mean.S);
+    q = {contract(mean.S, mean.S), work(s, part), work(s, dev_s)};
+    over = T(1) / mean.sigma, back = mean.slope * rise * over;
+  };
+  find_stresses();
+  Normal<T> n = normal(q, over, back);
+  if (any(share * n.root > T(kNearSurface))) {
+    dissipated = return_to_near<T, D>(mean, moduli, strain, share, n.root, ep);
+    find_stresses();
+    n = normal(q, over, back);
+  }
   const Plane<T> direction{n.across * part.a + n.along_s * dev_s.a, n.across * part.b + n.along_s * dev_s.b, n.across * part.shear + n.along_s * dev_s.shear};
   const Plane<T> softer = moduli.stress(direction);
   // Newton's step on root = sqrt(Q_n + mu), which is of first degree in the stresses: far outside it is the radial return.
@@ -164,7 +190,7 @@ template <class T, int D>
   ep = {ep.a + rate.a, ep.b + rate.b, ep.shear + rate.shear};
   rise += T(3) * L * n.varied * over * n.over_root;
   mean.harden(T(2) * L * over * root);
-  return T(1.0 / 3) * work(moduli.stress(strain - ep), rate);
+  return dissipated + T(1.0 / 3) * work(moduli.stress(strain - ep), rate);
 }
 
 /// The mean alone: back to Q_n = 1, along S.
