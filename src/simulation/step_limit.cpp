@@ -17,6 +17,9 @@ constexpr double kCollapse = 1e-3;  ///< an element whose stable step falls to t
 /// 4/(1 + b) < z < 4/(b (1 + b)): it grows, although each step alone is stable. So does one whose own swing makes the
 /// limit swing. Steps that fall at once and rise slowly feed neither: halved steps, and limits that come and go.
 constexpr double kRise = 1.01;
+/// The last steps of a stage are of one length that meets its end. One that is cut short there changes the energy of a swing of
+/// frequency omega by up to (omega dt)^2/8 of it, and what is read in it, such as a reaction, is not that of the steps before.
+constexpr double kToEnd = 50;
 constexpr long kTold = 3;  ///< steps that the ledger has made shorter so often are told of; summary.json has them all
 }  // namespace
 
@@ -33,8 +36,8 @@ void Simulation::Impl::choose_dt() {
   if (config.maximum > 0 && config.maximum < dt) dt = config.maximum, limit = {dt, -1, -1, "time_step.maximum"};
   if (steps == 0) first_dt = dt;
   if (smallest.dt == 0 || limit.dt < smallest.dt) smallest = limit;
-  const double left = stages.remaining(time);
-  if (left < 2 * dt) dt = left > dt * (1 + 1e-9) ? 0.5 * left : left;
+  const double left = stages.remaining(time), count = std::ceil(left / dt * (1 - 1e-9));
+  if (count <= kToEnd) dt = left / std::max(1.0, count);
 }
 
 void Simulation::Impl::look_at_ledger(double residual) {
