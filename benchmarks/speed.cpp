@@ -19,6 +19,7 @@ struct Line {
   const SpeedFamily* family;
   const SpeedMotion* motion;
   int layers, threads;
+  const char* curve;
   long elements = 0;
   StepTimes times{};
   double bytes = 0, operations = 0;  ///< of a step and element
@@ -53,6 +54,11 @@ class SpeedReport {
     std::printf("\nfive layers of plasticity\n\n");
     head();
     for (const SpeedFamily& family : kSpeedFamilies) add(family, kForming, elements, 1, 5);
+    std::printf("\nother curves of hardening\n\n");
+    head();
+    for (const SpeedFamily& family : kSpeedFamilies)
+      if (family.kind == CellKind::crossed || family.kind == CellKind::hex24 || family.kind == CellKind::hex1)
+        for (const char* curve : {"perfect", "linear", "swift", "table"}) add(family, kForming, elements, 1, 1, curve);
     std::printf("\nas the work grows\n\n");
     head();
     for (const SpeedFamily& family : kSpeedFamilies) {
@@ -83,29 +89,32 @@ class SpeedReport {
                 "| of bandwidth | operations | of peak |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   }
 
-  void add(const SpeedFamily& family, const SpeedMotion& motion, long elements, int threads, int layers) {
+  void add(const SpeedFamily& family, const SpeedMotion& motion, long elements, int threads, int layers, const char* curve = "voce") {
     const Clock clock;
-    SteppedBlock block(family, motion, elements, threads, layers);
-    Line line{&family, &motion, layers, threads};
+    SteppedBlock block(family, motion, elements, threads, layers, curve);
+    Line line{&family, &motion, layers, threads, curve};
     line.elements = block.elements();
     line.times = block.measure(elements > 300000 ? 3 : 10);
     line.bytes = block.step_bytes() / static_cast<double>(line.elements);
-    line.operations = layers == 1 && motion.bending == 0 ? operations_of_step(family, motion) : kNothing;
+    line.operations = layers == 1 && motion.bending == 0 && voce(line) ? operations_of_step(family, motion) : kNothing;
     lines_.push_back(line);
     print_and_keep(line, clock.seconds());
   }
 
+  static bool voce(const Line& line) { return line.curve == std::string("voce"); }
+
   /// Whole step of the same work on one thread over this; 1 for one thread.
   double gain(const Line& line) const {
     for (const Line& other : lines_)
-      if (other.family == line.family && other.motion == line.motion && other.layers == line.layers && other.elements == line.elements && other.threads == 1)
+      if (other.family == line.family && other.motion == line.motion && other.curve == std::string(line.curve) && other.layers == line.layers && other.elements == line.elements && other.threads == 1)
         return whole(other.times) / whole(line.times);
     return kNothing;
   }
 
   void print_and_keep(const Line& line, double wall_time) {
     const double per_element = 1e9 / static_cast<double>(line.elements), time = whole(line.times) / static_cast<double>(line.elements);
-    const std::string name = std::string(line.family->name) + ", " + line.motion->name + ", " + std::to_string(line.layers) + (line.layers == 1 ? " layer" : " layers") +
+    const std::string motion = line.motion->name + (voce(line) ? std::string() : std::string(", ") + line.curve);
+    const std::string name = std::string(line.family->name) + ", " + motion + ", " + std::to_string(line.layers) + (line.layers == 1 ? " layer" : " layers") +
                              ", " + std::to_string(line.elements) + " elements, " + std::to_string(line.threads) + (line.threads == 1 ? " thread" : " threads");
     const std::pair<const char*, double> values[] = {{"cells, ns", per_element * line.times.cells},
                                                      {"pressure of nodes, ns", per_element * line.times.pressure},
@@ -117,8 +126,8 @@ class SpeedReport {
                                                      {"of the bandwidth", line.bytes / time / machine_.bandwidth[line.threads]},
                                                      {"operations", line.operations},
                                                      {"of the arithmetic peak", line.operations / time / machine_.peak[line.threads]}};
-    std::printf("| %s | %s | %d | %ld | %d |", line.family->name, line.motion->name, line.layers, line.elements, line.threads);
-    csv_ += csv_text(line.family->name) + ',' + csv_text(line.motion->name) + ',' + std::to_string(line.layers) + ',' + std::to_string(line.elements) + ',' + std::to_string(line.threads);
+    std::printf("| %s | %s | %d | %ld | %d |", line.family->name, motion.c_str(), line.layers, line.elements, line.threads);
+    csv_ += csv_text(line.family->name) + ',' + csv_text(motion) + ',' + std::to_string(line.layers) + ',' + std::to_string(line.elements) + ',' + std::to_string(line.threads);
     for (const auto& [quantity, value] : values) {
       if (std::isfinite(value)) std::printf(" %.3g |", value);
       else std::printf(" |");
@@ -137,7 +146,7 @@ class SpeedReport {
     Figure growth("speed_growth", "one step of growing blocks", "elements", "ns an element and step, 1 thread");
     growth.logarithmic();
     for (const Line& line : lines_)
-      if (line.motion == &kForming && line.layers == 1 && line.threads == 1)
+      if (line.motion == &kForming && voce(line) && line.layers == 1 && line.threads == 1)
         growth.add(line.family->name, static_cast<double>(line.elements), 1e9 * whole(line.times) / static_cast<double>(line.elements));
     growth.write(request_.directory);
     return rows_;

@@ -38,6 +38,11 @@ inline Counted exp(Counted a) {
   Counted::operations += 31;  // as the packed one: clamp, reduction, 13 terms
   return Counted(std::exp(a.value));
 }
+inline Counted log(Counted a) {
+  Counted::operations += 30;
+  return Counted(std::log(a.value));
+}
+inline double least(Counted a) { return a.value; }
 template <class F> Counted lanewise(F&& f, Counted a) { return Counted::result(f(a.value)); }
 inline void load(const double* from, int item, Counted& to) { to = Counted(from[item]); }
 inline void store(double* to, int item, Counted value) { to[item] = value.value; }

@@ -20,8 +20,8 @@ int cells_along(CellKind kind, double elements) {
   return std::max(2, static_cast<int>(std::lround(shape.dimension == 2 ? std::sqrt(cells) : std::cbrt(cells))));
 }
 
-MaterialConfig layered(int layers) {
-  MaterialConfig material = aluminium(true);
+MaterialConfig layered(int layers, const char* curve) {
+  MaterialConfig material = aluminium_by(curve);
   if (layers == 1) return material;
   for (int k = 0; k < layers; ++k) material.layers.push_back({1.0 / layers, material.hardening});
   material.hardening.reset();
@@ -30,9 +30,9 @@ MaterialConfig layered(int layers) {
 
 }  // namespace
 
-SteppedBlock::SteppedBlock(const SpeedFamily& family, const SpeedMotion& motion, long elements, int threads, int layers)
+SteppedBlock::SteppedBlock(const SpeedFamily& family, const SpeedMotion& motion, long elements, int threads, int layers, const char* curve)
     : motion_(motion), nodal_pressure_(std::string(family.average) == "node") {
-  BodyModel body = body_of(block_of(family.kind, cells_along(family.kind, static_cast<double>(elements))), layered(layers), family.average);
+  BodyModel body = body_of(block_of(family.kind, cells_along(family.kind, static_cast<double>(elements))), layered(layers, curve), family.average);
   const int dimension = body.mesh.dimension;
   const NodeField X = positions_of(body.mesh);
   x_ = v_ = X;

@@ -12,8 +12,8 @@ namespace forming_sim::bench {
 
 class SteppedBlock {
  public:
-  /// elements: about how many; layers: of plasticity, all alike.
-  SteppedBlock(const SpeedFamily& family, const SpeedMotion& motion, long elements, int threads, int layers = 1);
+  /// elements: about how many; layers: of plasticity, all alike, that harden by a curve.
+  SteppedBlock(const SpeedFamily& family, const SpeedMotion& motion, long elements, int threads, int layers = 1, const char* curve = "voce");
 
   /// Times of the stages of one step, s, from the quickest of some turns of some steps each.
   StepTimes measure(int turns);

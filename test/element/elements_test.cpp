@@ -217,15 +217,17 @@ TEST(Classical, ForcesBalanceAndThreadsChangeNothing) {
 TEST(Kernels, EveryVectorWidthGivesTheSame) {
   for (CellKind kind : {CellKind::crossed, CellKind::hex24, CellKind::quad1, CellKind::hex1}) {
     const int D = shape_of(kind).dimension;
-    const BodyModel b = body_of(block_of(kind, 3), aluminium(true));
-    expect_widths_agree([&](const char* name) {
-      NodeField x = positions_of(b.mesh);
-      Elements elements({b}, D, x, {}, 1, name);
-      shake(x, D, 0.01, 7);
-      NodeField f(x.size()), v(x.size(), Node::Zero());
-      elements.forces(x, v, 0, 0, f);
-      return f;
-    });
+    for (const char* curve : {"perfect", "linear", "voce", "swift", "table"}) {
+      const BodyModel b = body_of(block_of(kind, 3), aluminium_by(curve));
+      expect_widths_agree([&](const char* name) {
+        NodeField x = positions_of(b.mesh);
+        Elements elements({b}, D, x, {}, 1, name);
+        shake(x, D, 0.01, 7);
+        NodeField f(x.size()), v(x.size(), Node::Zero());
+        elements.forces(x, v, 0, 0, f);
+        return f;
+      });
+    }
   }
 }
 

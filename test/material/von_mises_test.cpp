@@ -137,6 +137,39 @@ TEST_P(Hardening, PlasticStrainAndWorkAreThoseOfATensileTest) {
   EXPECT_NEAR(point.dissipated(), plastic_work, 2e-3 * plastic_work);
 }
 
+// At strains far apart in its lanes, and after ways on either side of what the series reach.
+TEST_P(Hardening, APackFollowsTheCurve) {
+  const HardeningCurve h = curve();
+  const auto exact = [&](double p) {
+    switch (h.kind) {
+      case HardeningCurve::swift: return h.a * std::pow(h.b + p, h.c);
+      case HardeningCurve::voce: return h.a - h.b * std::exp(-h.c * p) + h.d * p;
+      case HardeningCurve::table: {
+        for (int i = 0; i + 1 < h.points; ++i)
+          if (p < h.strain[i + 1]) return h.stress[i] + (h.stress[i + 1] - h.stress[i]) * (p - h.strain[i]) / (h.strain[i + 1] - h.strain[i]);
+        return h.stress[h.points - 1];
+      }
+      default: return h.a + h.d * p;
+    }
+  };
+  const double strains[kLanes] = {0, 1e-9, .005, .01, .0499999, .05, .19, 3};
+  for (const double way : {0.0, 1e-12, 1e-6, 1e-4, 1e-3, 1e-2, .5}) {
+    portable::Pack p, dp(way);
+    for (int l = 0; l < kLanes; ++l) p.v[l] = strains[l];
+    const YieldStress<portable::Pack> at = yield_stress(h, p), beyond = yield_stress_beyond(h, p, at, dp);
+    for (int l = 0; l < kLanes; ++l) {
+      EXPECT_NEAR(at.value[l] / exact(strains[l]), 1, 1e-15) << strains[l];
+      EXPECT_NEAR(beyond.value[l] / exact(strains[l] + way), 1, 1e-15) << strains[l] << " + " << way;
+      const YieldStress<double> single = yield_stress(h, strains[l] + way);
+      EXPECT_NEAR(beyond.slope[l], single.slope, 1e-13 * single.value / (strains[l] + .01));
+      EXPECT_NEAR(beyond.bend[l], single.bend, 1e-12 * single.value / ((strains[l] + .01) * (strains[l] + .01)));
+      const double apart = 1e-6;  // the slope is that of the value
+      if (h.kind != HardeningCurve::table)
+        EXPECT_NEAR(single.slope, (exact(strains[l] + way + apart) - exact(strains[l] + way - apart)) / (2 * apart), 2e-6 * single.value / (strains[l] + .01));
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Curves, Hardening, ::testing::Range(0, 5));
 
 TEST(VonMises, EightPointsAtOnceAreEightPoints) {
@@ -255,6 +288,13 @@ TEST(VonMises, PowerOfTheVolumeRatio) {
   portable::Pack J(1.001);
   J.v[2] = 1.3;  // one lane far away
   for (int lane : {1, 2}) EXPECT_NEAR(power_minus_five_thirds(J)[lane] * std::pow(J[lane], 5.0 / 3), 1, 2e-14);
+}
+
+TEST(Pack, Logarithm) {
+  using portable::Pack;
+  const auto check = [](double x) { EXPECT_NEAR(log(Pack(x))[5], std::log(x), 3e-16 * (1 + std::fabs(std::log(x)))) << x; };
+  for (double x : {1e-300, 1e-9, .5, .999999999, 1.0, 1.000000001, 2.0, 1e300}) check(x);
+  for (double x = .4; x < 2.5; x += 1.0 / 1024) check(x);
 }
 
 TEST(Pack, ExponentialAndCubeRoot) {

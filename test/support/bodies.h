@@ -25,6 +25,20 @@ inline MaterialConfig aluminium(bool plastic = false) {
   return m;
 }
 
+/// The aluminium with a curve of any kind, near that of Voce.
+inline MaterialConfig aluminium_by(const std::string& curve) {
+  MaterialConfig m = aluminium(true);
+  HardeningConfig& h = *m.hardening;
+  h.curve = curve;
+  h.modulus = curve == "linear" ? 500e6 : 0;
+  h.strength = 500e6;
+  h.prestrain = .01;
+  h.exponent = .2;
+  h.plastic_strains = {0, .01, .03, .08, .2};
+  h.stresses = {192e6, 212e6, 250e6, 310e6, 390e6};
+  return m;
+}
+
 inline MaterialConfig rubber(double bulk_modulus) {
   MaterialConfig m;
   m.law = "hyperelastic";

@@ -19,12 +19,30 @@ template <class T> struct YieldStress {
   T value, slope, bend;
 };
 
-inline double table_value(const HardeningCurve& h, double p, bool slope) {
-  if (p >= h.strain[h.points - 1]) return slope ? 0 : h.stress[h.points - 1];
+/// That of a table: on the last line that starts at or below p, from the one on which the least p of the lanes lies.
+template <class T> YieldStress<T> table_stress(const HardeningCurve& h, const T& p) {
+  const auto rise = [&](int i) { return i + 1 < h.points ? (h.stress[i + 1] - h.stress[i]) / (h.strain[i + 1] - h.strain[i]) : 0; };
+  const double first = least(p);
   int i = 0;
-  while (i + 2 < h.points && p >= h.strain[i + 1]) ++i;
-  const double rise = (h.stress[i + 1] - h.stress[i]) / (h.strain[i + 1] - h.strain[i]);
-  return slope ? rise : h.stress[i] + rise * (p - h.strain[i]);
+  for (int beyond = h.points; beyond - i > 1;) {
+    const int middle = (i + beyond) / 2;
+    (h.strain[middle] <= first ? i : beyond) = middle;
+  }
+  T strain(h.strain[i]), stress(h.stress[i]), slope(rise(i));
+  for (++i; i < h.points; ++i) {
+    const auto there = p >= T(h.strain[i]);
+    if (!any(there)) break;
+    strain = select(there, T(h.strain[i]), strain);
+    stress = select(there, T(h.stress[i]), stress);
+    slope = select(there, T(rise(i)), slope);
+  }
+  return {stress + slope * (p - strain), slope, T(0)};
+}
+
+/// That of Swift's curve, sigma its value at p.
+template <class T> YieldStress<T> swift_stress(const HardeningCurve& h, const T& sigma, const T& p) {
+  const T over = T(1) / (T(h.b) + p), slope = T(h.c) * sigma * over;
+  return {sigma, slope, T(h.c - 1) * slope * over};
 }
 
 template <class T> YieldStress<T> yield_stress(const HardeningCurve& h, const T& p) {
@@ -35,14 +53,8 @@ template <class T> YieldStress<T> yield_stress(const HardeningCurve& h, const T&
       const T fall = T(h.b) * exp(T(-h.c) * p);
       return {T(h.a) - fall + T(h.d) * p, T(h.c) * fall + T(h.d), T(-h.c * h.c) * fall};
     }
-    case HardeningCurve::swift: {
-      const T sigma = T(h.a) * lanewise([&](double q) { return std::pow(h.b + q, h.c); }, p);
-      const T over = T(1) / (T(h.b) + p), slope = T(h.c) * sigma * over;
-      return {sigma, slope, T(h.c - 1) * slope * over};
-    }
-    case HardeningCurve::table:
-      return {lanewise([&](double q) { return table_value(h, q, false); }, p),
-              lanewise([&](double q) { return table_value(h, q, true); }, p), T(0)};
+    case HardeningCurve::swift: return swift_stress(h, T(h.a) * exp(T(h.c) * log(T(h.b) + p)), p);
+    case HardeningCurve::table: return table_stress(h, p);
     case HardeningCurve::elastic: break;
   }
   return {T(1e300), T(0), T(0)};
@@ -54,9 +66,18 @@ template <class T> T mean_decay(const T& s) {
   const T s2 = s * s;
   return (T(1) - T(1.0 / 2) * s) + s2 * ((T(1.0 / 6) - T(1.0 / 24) * s) + s2 * T(1.0 / 120));
 }
+/// (1 + z)^c - 1 for |z| <= kShortShare and c from 0 to 1, by its binomial series, to 1e-16.
+constexpr double kShortShare = 1.0 / 64;
+template <class T> T power_beyond_one(double c, const T& z) {
+  const T z2 = z * z, z4 = z2 * z2;
+  double k[8] = {1};  // of z^(n+1)/c
+  for (int n = 1; n < 8; ++n) k[n] = k[n - 1] * (c - n) / (n + 1);
+  const auto pair = [&](int n) { return T(k[n]) + T(k[n + 1]) * z; };
+  return T(c) * z * ((pair(0) + z2 * pair(2)) + z4 * (pair(4) + z2 * pair(6)));
+}
 
 /// sigma_s at p + dp, given what it is at p: after the short way of one step the exponential of
-/// Voce's curve is known without another one.
+/// Voce's curve and the power of Swift's are known without another one.
 template <class T> YieldStress<T> yield_stress_beyond(const HardeningCurve& h, const T& p, const YieldStress<T>& at, const T& dp) {
   if (h.kind == HardeningCurve::voce) {
     const T s = T(h.c) * dp;
@@ -65,6 +86,10 @@ template <class T> YieldStress<T> yield_stress_beyond(const HardeningCurve& h, c
       const T slope = at.slope - T(h.c) * lost;
       return {at.value + lost + T(h.d) * dp, slope, T(-h.c) * (slope - T(h.d))};
     }
+  }
+  if (h.kind == HardeningCurve::swift) {
+    const T z = dp / (T(h.b) + p);
+    if (!any(absolute(z) > T(kShortShare))) return swift_stress(h, at.value + at.value * power_beyond_one(h.c, z), p + dp);
   }
   return yield_stress(h, p + dp);
 }

@@ -25,7 +25,9 @@ inline double larger(double a, double b) { return a > b ? a : b; }
 inline double smaller(double a, double b) { return a < b ? a : b; }
 inline double sqrt(double a) { return std::sqrt(a); }
 inline double exp(double a) { return std::exp(a); }
+inline double log(double a) { return std::log(a); }
 inline double absolute(double a) { return std::fabs(a); }
+inline double least(double a) { return a; }  ///< of all lanes
 template <class F> double lanewise(F&& f, double a) { return f(a); }
 /// Doubles of one number: 1, or a Pack's lanes. Numbers of a point lie one after the other in memory.
 template <class T> constexpr int lanes_of = 1;
@@ -108,6 +110,10 @@ inline Pack smaller(Pack a, Pack b) { return select(a < b, a, b); }
 inline void load(const double* from, int item, Pack& to) { to = Pack::load(from + item * kLanes); }
 inline void store(double* to, int item, Pack value) { value.store(to + item * kLanes); }
 inline Pack absolute(Pack a) { return Pack((Lanes)((Bits)a.v & INT64_MAX)); }  // without the bit of the sign
+inline double least(Pack a) {
+  const auto lesser = [](double b, double c) { return b < c ? b : c; };
+  return lesser(lesser(lesser(a[0], a[1]), lesser(a[2], a[3])), lesser(lesser(a[4], a[5]), lesser(a[6], a[7])));
+}
 inline double sum(Pack a) {
   return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
 }
@@ -201,18 +207,27 @@ inline Pack sqrt(Pack a) {
   return r;
 }
 
-/// 2^(j/16) of the lowest four bits of each lane.
-inline Pack sixteenth_power(Bits j) {
-  alignas(64) static constexpr double powers[16] = {
-      1, 1.0442737824274138, 1.0905077326652577, 1.1387886347566916, 1.189207115002721, 1.241857812073484, 1.2968395546510096, 1.3542555469368927, 1.4142135623730951, 1.4768261459394993, 1.5422108254079407, 1.6104903319492543, 1.681792830507429, 1.7562521603732995, 1.8340080864093424, 1.9152065613971474};
+/// Of sixteen numbers those that the lowest four bits of each lane count.
+struct alignas(64) Sixteen {
+  double value[16];
+  Pack operator[](Bits j) const {
 #if defined(__AVX512DQ__)
-  return Pack(_mm512_permutex2var_pd(_mm512_load_pd(powers), (__m512i)j, _mm512_load_pd(powers + 8)));
+    return Pack(_mm512_permutex2var_pd(_mm512_load_pd(value), (__m512i)j, _mm512_load_pd(value + 8)));
 #else
-  Pack r;
-  for (int l = 0; l < kLanes; ++l) r.v[l] = powers[j[l] & 15];
-  return r;
+    Pack r;
+    for (int l = 0; l < kLanes; ++l) r.v[l] = value[j[l] & 15];
+    return r;
 #endif
-}
+  }
+};
+/// 2^(j/16)
+constexpr Sixteen kPowers{{1, 1.0442737824274138, 1.0905077326652577, 1.1387886347566916, 1.189207115002721, 1.241857812073484, 1.2968395546510096, 1.3542555469368927,
+                           1.4142135623730951, 1.4768261459394993, 1.5422108254079407, 1.6104903319492543, 1.681792830507429, 1.7562521603732995, 1.8340080864093424, 1.9152065613971474}};
+/// 1/(1 + (j + 1/2)/16), and minus the logarithm of that.
+constexpr Sixteen kInverses{{0.9696969696969697, 0.9142857142857143, 0.8648648648648649, 0.8205128205128205, 0.7804878048780488, 0.7441860465116279, 0.7111111111111111, 0.6808510638297872,
+                             0.6530612244897959, 0.6274509803921569, 0.6037735849056604, 0.5818181818181818, 0.5614035087719298, 0.5423728813559322, 0.5245901639344263, 0.5079365079365079}};
+constexpr Sixteen kLogarithms{{0.03077165866675366, 0.08961215868968717, 0.14518200984449783, 0.19782574332991992, 0.2478361639045812, 0.2954642128938359, 0.3409265869705932, 0.38441169891033206,
+                               0.42608439531090014, 0.46608972992459924, 0.5045560107523953, 0.5415972824327444, 0.5773153650348236, 0.6118015411059929, 0.6451379613735847, 0.6773988235918061}};
 
 /// e^x to 2 units in the last place for |x| < 700, clamped beyond: x = n ln 2 / 16 + r,
 /// |r| <= ln 2 / 32, e^r - 1 by its Taylor polynomial of degree 7, in pairs of terms that do not wait for each other.
@@ -225,8 +240,20 @@ inline Pack exp(Pack x) {
   const Pack r2 = r * r;
   const Pack beyond_one = r + r2 * ((Pack(0.5) + Pack(1.0 / 6) * r) + r2 * (Pack(1.0 / 24) + Pack(1.0 / 120) * r + r2 * (Pack(1.0 / 720) + Pack(1.0 / 5040) * r)));
   const Bits power = (Bits)shifted;  // the low bits hold n
-  const Pack start = sixteenth_power(power);
+  const Pack start = kPowers[power];
   return Pack((Lanes)((Bits)(((Whole)power >> 4) << 52) + (Bits)(start + start * beyond_one).v));
+}
+
+/// ln x to 2e-16 and to that part of itself, for normal x > 0: x = 2^n m, m = (1 + r)/c_j, c_j of the sixteen that is next to 1/m,
+/// |r| <= 1/32, ln (1 + r) by its Taylor polynomial of degree 10, in pairs of terms that do not wait for each other.
+inline Pack log(Pack x) {
+  const Whole whole = (Whole)x.v;
+  const Bits j = (Bits)(whole >> 48);
+  const Pack n(__builtin_convertvector((Bits)(whole >> 52) - 1023, Lanes)), m((Lanes)((whole & 0xfffffffffffffu) | 0x3ff0000000000000u));
+  const Pack r = m * kInverses[j] - Pack(1.0), r2 = r * r, r4 = r2 * r2;
+  const auto pair = [&](int k) { return Pack(1.0 / k) - Pack(1.0 / (k + 1)) * r; };
+  const Pack beyond_r = (pair(3) + r2 * pair(5)) + r4 * (pair(7) + r2 * pair(9));
+  return n * Pack(0.6931471805599453) + (kLogarithms[j] + (r + r2 * (r * beyond_r - Pack(0.5))));
 }
 
 }  // namespace FORMING_SIM_ISA
