@@ -15,6 +15,8 @@ STAGES = ('cells_ns', 'pressure_ns', 'nodes_ns', 'time_step_ns')
 FAMILIES = {'4 crossed triangles', '2 triangles', 'free triangles', 'axisymmetric, 4 crossed triangles', 'axisymmetric, 2 triangles',
             '24 tetrahedra', '6 tetrahedra', 'free tetrahedra', 'one-point quadrilaterals', 'one-point hexahedra'}
 MOTIONS = ('elastic', 'forming', 'full flow')
+HARDENED = ('4 crossed triangles', 'axisymmetric, 4 crossed triangles', '24 tetrahedra', 'one-point hexahedra')  # by other curves too
+CURVES = ('perfect', 'linear', 'swift', 'table')
 ONE_POINT = {family for family in FAMILIES if family.startswith('one-point')}
 
 
@@ -30,7 +32,8 @@ class Speed(BenchRun):
     def test_every_family_in_every_motion_on_one_thread_and_two(self):
         one_layer = {(line['elements'], line['motion'], line['threads']) for line in self.lines if line['layers'] == '1'}
         bent = {(family, 'forming and bending', '1') for family in ONE_POINT}
-        self.assertEqual(one_layer, {(family, motion, threads) for family in FAMILIES for motion in MOTIONS for threads in '12'} | bent)
+        hardened = {(family, f'forming, {curve}', '1') for family in HARDENED for curve in CURVES}
+        self.assertEqual(one_layer, {(family, motion, threads) for family in FAMILIES for motion in MOTIONS for threads in '12'} | bent | hardened)
         self.assertEqual({line['elements'] for line in self.lines if line['layers'] == '5'}, FAMILIES)
 
     def test_the_stages_make_the_whole(self):

@@ -70,6 +70,48 @@ TEST(Ledger, OfTheClassicalLaw) {
     }
 }
 
+// A block is pressed so fast that a step strains it by a third of the strain at yield: what a step's flow dissipates is that of the stress
+// which is left. By the stresses that the law returns to before mean and variation of a one-point cell flow together, cells
+// seemed to dissipate 1.7 % more than was put in, and some 18 % where tools rub.
+TEST(Ledger, OfCellsThatFlowByMuchInAStep) {
+  const double height = 4e-3;
+  for (const char* shape : {"strip", "plate"})
+    for (const char* law : {"green_elastic", "classical"})
+      for (const double speed : {10.0, 50.0}) {
+        BlankConfig blank = strip_of(5e-3, height, 4, 4);
+        blank.shape = shape;
+        blank.pattern = "one_point";
+        blank.width = 5e-3;
+        blank.cells_across = 4;
+        MaterialConfig metal = aluminium_by("perfect");
+        metal.law = law;
+        const double time = .2 * height / speed;
+        OneBody run(body_of(generate_blank(blank), metal), time);
+        const int D = run.model.dimension;
+        for (const bool ram : {false, true}) {
+          ToolModel plane;
+          plane.name = ram ? "ram" : "bed";
+          plane.mesh.dimension = D;
+          plane.normal = (ram ? -1 : 1) * Vec3::Unit(D - 1);
+          plane.point = (ram ? height : 0) * Vec3::Unit(D - 1);
+          if (ram) {
+            plane.motion.emplace();
+            plane.motion->kind = "trajectory";
+            plane.motion->profile = "smooth";
+            plane.motion->times = {0, time};
+            plane.motion->positions = {Vec3::Zero(), -.2 * height * Vec3::Unit(D - 1)};
+          }
+          run.model.tools.push_back(plane);
+        }
+        auto sim = run.start();
+        while (sim->step()) {
+        }
+        std::printf("  %s, %s, %g m/s: %ld steps, ledger open by %.1e\n", shape, law, speed, static_cast<long>(sim->steps()), sim->balance_error());
+        EXPECT_GT(sim->energies().plastic, .5 * sim->energies().work);
+        EXPECT_LT(sim->balance_error(), 1.5e-3);
+      }
+}
+
 TEST(LedgerWatch, ShortensStepsWhileEnergyComesFromNowhere) {
   LedgerWatch watch;
   long step = 0;

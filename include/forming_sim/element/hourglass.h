@@ -298,6 +298,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
     const Fibres<T, D> turned(constants, axes.e);
     MeanFlow<T, D> mean;
     repeat<size>([&](auto i) { mean.S[i] = point.S[i]; });
+    T varied(0);  // what the variation dissipates
     mean.modulus = T(2) * factor;
     mean.sigma = point.yield.value, mean.slope = point.yield.slope, mean.p = T(0);
     const T over = T(1) / mean.sigma, SS = contract(mean.S, mean.S);
@@ -320,12 +321,13 @@ template <class T, int D, bool Ring = false> class Hourglass {
       mean.harden(-(T(2.0 / 3) * softer * returned * sqrt(T(1.5) * SS)));
       repeat<D>([&](auto d) {
         if (!any(share[d] > T(0))) return;
-        point.dissipation += flow_to_surface<T, D>(mean, moduli, strain.plane[d], share[d], ep[d], rise[d], at[d]);
+        varied += flow_to_surface<T, D>(mean, moduli, strain.plane[d], share[d], ep[d], rise[d], at[d]);
         store_plane(ep[d], hourglass_memory, d);
         store(hourglass_memory, d * kPlaneItems<D> + kPlaneItems<D> - 1, rise[d]);
       });
       flow_of_mean(mean);
       take_mean_flow(m, factor, J, edges, mean.S, mean.p, point, memory);
+      point.dissipation += varied;
     }
     T left(1);
     if constexpr (D == 3) left = smaller(point.kept * mean.sigma / larger(mean.sigma + T(3) * T(moduli.mu) * mean.p, T(0.5) * mean.sigma), T(1));
@@ -355,10 +357,10 @@ template <class T, int D, bool Ring = false> class Hourglass {
 
   /// The mean, S after the law's step, has flowed to `after`. The classical law's memory is that; in B = s I + d it is
   /// d <- after/factor, and s such that det B stays: s <- s - (d:d - d':d')/(6 s), to the second power of d. The plastic strain is
-  /// (d - d')/(2 s) and dissipates with the stress that is left.
+  /// (d - d')/(2 s) and dissipates with the stress that is left, and so does that by which the law returned to S, along S.
   static void take_mean_flow(const SolidConstants& m, const T& factor, const T& J, const Edges<T, D, Ring>& edges, const Symmetric<T, D>& after, const T& dp, PointResponse<T, D>& point, double* memory) {
     constexpr int size = Symmetric<T, D>::size;
-    const T over = T(1) / factor, left = contract(after, after);
+    const T over = T(1) / factor, left = contract(after, after), along = contract(after, point.S);
     T half = T(0.5) * over;  // 1/(2 factor s)
     Symmetric<T, D> kept = after;
     if (m.law != Law::classical) {
@@ -370,7 +372,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
       pull(edges, B, kept);
     }
     for (int i = 0; i < size; ++i) store(memory, i, kept[i]);
-    point.dissipation += J * half * (contract(after, point.S) - left);
+    point.dissipation = point.dissipation * (along / larger(contract(point.S, point.S), T(1e-30) * T(m.mu * m.mu))) + J * half * (along - left);
     point.S = after;
     T p;
     load(memory, size, p);

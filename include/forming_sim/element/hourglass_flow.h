@@ -138,16 +138,14 @@ template <class T> [[gnu::always_inline]] inline Normal<T> normal(const Products
 /// Roots of Q_n + mu from which Newton's step lands near the surface. From farther out it would turn s round.
 constexpr double kNearSurface = 1.5;
 
-/// Where one coordinate is farther outside than that, S and s go back along themselves first, as they would by the radial return;
-/// what the variation dissipates per initial volume.
+/// Where one coordinate is farther outside than that, S and s go back along themselves first, as they would by the radial return.
 template <class T, int D>
-[[gnu::noinline]] inline T return_to_near(MeanFlow<T, D>& mean, const PlaneModuli<T>& moduli, const Plane<T>& strain, const T& share, const T& root, Plane<T>& ep) {
+[[gnu::noinline]] inline void return_to_near(MeanFlow<T, D>& mean, const PlaneModuli<T>& moduli, const Plane<T>& strain, const T& share, const T& root, Plane<T>& ep) {
   const T kept = select(share * root > T(kNearSurface), T(kNearSurface) / root, T(1)), gone = T(1) - kept;
   const Plane<T> elastic = strain - ep;
   ep = {ep.a + gone * elastic.a, ep.b + gone * elastic.b, ep.shear + gone * elastic.shear};
   mean.harden(gone * sqrt(T(1.5) * contract(mean.S, mean.S)) / (T(1.5) * mean.modulus));
   for (int i = 0; i < Symmetric<T, D>::size; ++i) mean.S[i] *= kept;
-  return T(1.0 / 3) * gone * kept * work(moduli.stress(elastic), elastic);
 }
 
 /// One coordinate flows where share is 1: mean, ep and p' (rise) follow; what the variation dissipates per initial volume.
@@ -158,7 +156,8 @@ template <class T, int D>
                                                 const PlaneOf<T, D>& at) {
   Plane<T> s, dev_s, part;
   Products<T> q;
-  T over, back, dissipated(0);
+  T over, back;
+  const Plane<T> before = ep;
   const auto find_stresses = [&] {
     s = moduli.stress(strain - ep), dev_s = deviatoric(s), part = at.part(mean.S);
     q = {contract(mean.S, mean.S), work(s, part), work(s, dev_s)};
@@ -167,7 +166,7 @@ template <class T, int D>
   find_stresses();
   Normal<T> n = normal(q, over, back);
   if (any(share * n.root > T(kNearSurface))) {
-    dissipated = return_to_near<T, D>(mean, moduli, strain, share, n.root, ep);
+    return_to_near<T, D>(mean, moduli, strain, share, n.root, ep);
     find_stresses();
     n = normal(q, over, back);
   }
@@ -190,7 +189,7 @@ template <class T, int D>
   ep = {ep.a + rate.a, ep.b + rate.b, ep.shear + rate.shear};
   rise += T(3) * L * n.varied * over * n.over_root;
   mean.harden(T(2) * L * over * root);
-  return dissipated + T(1.0 / 3) * work(moduli.stress(strain - ep), rate);
+  return T(1.0 / 3) * work(moduli.stress(strain - ep), ep - before);
 }
 
 /// The mean alone: back to Q_n = 1, along S.
