@@ -140,7 +140,7 @@ constexpr double kNearSurface = 1.5;
 
 /// Where one coordinate is farther outside than that, S and s go back along themselves first, as they would by the radial return.
 template <class T, int D>
-[[gnu::noinline]] inline void return_to_near(MeanFlow<T, D>& mean, const PlaneModuli<T>& moduli, const Plane<T>& strain, const T& share, const T& root, Plane<T>& ep) {
+[[gnu::noinline]] inline void return_to_near(MeanFlow<T, D>& mean, const Plane<T>& strain, const T& share, const T& root, Plane<T>& ep) {
   const T kept = select(share * root > T(kNearSurface), T(kNearSurface) / root, T(1)), gone = T(1) - kept;
   const Plane<T> elastic = strain - ep;
   ep = {ep.a + gone * elastic.a, ep.b + gone * elastic.b, ep.shear + gone * elastic.shear};
@@ -166,7 +166,7 @@ template <class T, int D>
   find_stresses();
   Normal<T> n = normal(q, over, back);
   if (any(share * n.root > T(kNearSurface))) {
-    return_to_near<T, D>(mean, moduli, strain, share, n.root, ep);
+    return_to_near<T, D>(mean, strain, share, n.root, ep);
     find_stresses();
     n = normal(q, over, back);
   }

@@ -71,7 +71,7 @@ constexpr double kShortShare = 1.0 / 64;
 template <class T> T power_beyond_one(double c, const T& z) {
   const T z2 = z * z, z4 = z2 * z2;
   double k[8] = {1};  // of z^(n+1)/c
-  for (int n = 1; n < 8; ++n) k[n] = k[n - 1] * (c - n) / (n + 1);
+  for (int n = 1; n < 8; ++n) k[n] = k[n - 1] * (c - n) * (1.0 / (n + 1));
   const auto pair = [&](int n) { return T(k[n]) + T(k[n + 1]) * z; };
   return T(c) * z * ((pair(0) + z2 * pair(2)) + z4 * (pair(4) + z2 * pair(6)));
 }
