@@ -53,9 +53,9 @@ void pressures(const CellGroup& g, long block, const double* constants, const Pa
 }
 
 /// Simplices of a cell that go through the law at a time, and blocks of cells: some eight points keep a processor busy while each
-/// waits for its own roots and divisions; of several layers there is more to keep of a point, and half of them fill its first cache.
+/// waits for its own roots and divisions. Crossed cells of several layers go alone: the places of one cell's points are known beforehand.
 template <class Cell> constexpr int kPoints = Cell::simplices % 6 == 0 ? 6 : Cell::simplices;
-template <class Cell, Made made> constexpr int kBlocks = kD<Cell> == 2 ? (made == Made::one_layer ? 8 : 4) / Cell::simplices : 1;
+template <class Cell, Made made> constexpr int kBlocks = kD<Cell> == 3 || (made == Made::layers && Cell::simplices == 4) ? 1 : 8 / Cell::simplices;
 
 /// Forces of the simplices of a block, summed by its nodes.
 template <class Cell> struct BlockForces {

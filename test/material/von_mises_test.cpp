@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <random>
 
 #include "forming_sim/material/law.h"
 #include "forming_sim/material/von_mises_points.h"
@@ -243,8 +244,8 @@ template <int N, int M> void compare_with_one_after_the_other(int count, int lay
     const int s = i % N;
     Edges<double, 3> e;
     e.x[0] = {{1 + stretch[i], 0.2 * stretch[i], 0}};
-    e.x[1] = {{0, 1 - 0.5 * stretch[i], 0}};
-    e.x[2] = {{0, 0, 1}};
+    e.x[1] = {{0.3 * stretch[i], 1 - 0.5 * stretch[i], 0}};
+    e.x[2] = {{-0.2 * stretch[i], 0.4 * stretch[i], 1}};
     find_reciprocal(e);
     points.e[s] = e;
     points.J[s] = 6 * e.volume;
@@ -279,6 +280,46 @@ TEST(VonMises, PointsInPassesArePointsOneAfterTheOther) {
       compare_with_one_after_the_other<6, 1>(1, layers, last);
       compare_with_one_after_the_other<2, 3>(2, layers, last);
     }
+}
+
+/// Of edges in any direction, stretched `flat` times along x, and a memory near their metric, as metals have it.
+template <int D, bool Ring> void expect_invariants_without_b(double flat) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int trial = 0; trial < 50; ++trial) {
+    Edges<double, D, Ring> e;
+    for (int m = 0; m < D; ++m)
+      for (int i = 0; i < D; ++i) e.x[m][i] = (m == i) + 0.4 * any(random);
+    for (int m = 0; m < D; ++m) e.x[m][0] *= flat;
+    if constexpr (Ring) e.x[2] = {{0.7, 0}};
+    find_reciprocal(e);
+    Symmetric<double, D> G = metric_of<D, Ring>(e.up, 1.0);
+    for (int c = 0; c < Symmetric<double, D>::size; ++c) G[c] *= 1 + 0.004 * any(random);
+    Trial<double> by_b, without;
+    find_trial(push(G, e), by_b);
+    find_trial(G, find_upright(e), without);
+    const double size = std::sqrt(by_b.m), error = 2e-15 * std::max(flat * flat, 1 / (flat * flat));  // of B, both ways
+    EXPECT_GT(size, 1e-4);
+    EXPECT_NEAR(without.s, by_b.s, error);
+    EXPECT_NEAR(without.m, by_b.m, error * size);
+    EXPECT_NEAR(without.d, by_b.d, error * size * size);
+  }
+}
+TEST(UprightEdges, InvariantsAreThoseOfB) {
+  for (double flat : {1.0, 0.1, 30.0}) {
+    expect_invariants_without_b<3, false>(flat);
+    expect_invariants_without_b<2, false>(flat);
+    expect_invariants_without_b<2, true>(flat);
+  }
+}
+TEST(UprightEdges, MetricIsThatOfTheReciprocalVectors) {
+  Edges<double, 3> e;
+  e.x[0] = {{1, 0.2, -0.3}};
+  e.x[1] = {{0.1, 0.9, 0.4}};
+  e.x[2] = {{-0.2, 0.5, 1.1}};
+  find_reciprocal(e);
+  const Symmetric<double, 3> direct = metric_of<3, false>(e.up, 1.0), found = find_upright(e).metric;
+  for (int c = 0; c < 6; ++c) EXPECT_NEAR(found[c], direct[c], 1e-14);
 }
 
 // By its series on both sides of 1, and beyond where that is right.

@@ -9,9 +9,6 @@ namespace forming_sim {
 template <class T, int D, bool Ring> struct StressPull {
   Symmetric<T, D> share;  ///< V/det sigma
 
-  void clear() {
-    repeat<Symmetric<T, D>::size>([&](auto c) { share[c] = T(0); });
-  }
   void add(const T& pressure) {
     const T part = T(kVolumePart<D, Ring>) * pressure;
     for (int c = 0; c < 3; ++c) share[c] += part;
@@ -42,5 +39,10 @@ template <class T> struct WayPull {
     return force;
   }
 };
+/// Of f y^m and f s; y: y^m; e: with its normals.
+template <class T> [[gnu::always_inline]] inline WayPull<T> pull_of_ways(const Edges<T, 3>& e, const Vector<T, 3>* y, const T& f, const T& f_s) {
+  const T part(kVolumePart<3, false>);
+  return {y, part * f * e.det, -(part * f_s)};
+}
 
 }  // namespace forming_sim

@@ -90,28 +90,28 @@ template <class T> T stress_factor(const SolidConstants& m, const T& J) {
   return m.law == Law::paper ? T(m.mu) : T(m.mu) * power_minus_five_thirds(J);
 }
 
-/// The trial state B' = s I + D (3.51) of a layer, m = D : D, the stress that it would have, S' = factor D, and Q = q_S'^2.
-template <class T, int D> struct Trial {
-  Symmetric<T, D> deviator;
-  T s, m, factor;
-  T Q() const { return T(1.5) * m * factor * factor; }
+/// What is asked of the trial state B' = s I + D (3.51) of a layer: m = D : D, d = det D.
+template <class T> struct Trial {
+  T s, m, d;
 };
-/// factor: stress_factor(m, J).
-template <class T, int D> [[gnu::always_inline]] inline void find_trial(const Symmetric<T, D>& B, const T& factor, Trial<T, D>& trial) {
-  const T s = trace(B) * T(1.0 / 3);
-  Symmetric<T, D> d;
-  repeat<Symmetric<T, D>::size>([&](auto i) { d[i] = i < 3 ? B[i] - s : B[i]; });
-  const T m = contract(d, d);
-  trial.deviator = d;
-  trial.s = s;
-  trial.m = m;
-  trial.factor = factor;
+/// And D.
+template <class T, int D> [[gnu::always_inline]] inline Symmetric<T, D> find_trial(const Symmetric<T, D>& B, Trial<T>& trial) {
+  trial.s = trace(B) * T(1.0 / 3);
+  Symmetric<T, D> deviator;
+  repeat<Symmetric<T, D>::size>([&](auto i) { deviator[i] = i < 3 ? B[i] - trial.s : B[i]; });
+  trial.m = contract(deviator, deviator);
+  trial.d = determinant(deviator, cofactor(deviator));
+  return deviator;
 }
 
+/// q_S'^2 of the stress S' = factor D that it would have; factor: stress_factor(m, J), here and below.
+template <class T> T trial_square(const Trial<T>& trial, const T& factor) { return T(1.5) * trial.m * factor * factor; }
 /// Which trial states lie outside of the yield surface.
-template <class T, int D> auto yields(const Trial<T, D>& trial, const YieldStress<T>& yield) { return trial.Q() > yield.value * yield.value * T(1 + 2 * kOnTheSurface); }
+template <class T> auto yields(const Trial<T>& trial, const T& factor, const YieldStress<T>& yield) {
+  return trial_square(trial, factor) > yield.value * yield.value * T(1 + 2 * kOnTheSurface);
+}
 /// Those that do so at the lowest stress that the curve knows: none other has to be asked for its root.
-template <class T, int D> auto may_yield(const HardeningCurve& h, const Trial<T, D>& trial) { return trial.Q() > T(h.lowest * h.lowest); }
+template <class T> auto may_yield(const HardeningCurve& h, const Trial<T>& trial, const T& factor) { return trial_square(trial, factor) > T(h.lowest * h.lowest); }
 
 /// How a trial state flows.
 template <class T> struct Flow {
@@ -120,50 +120,49 @@ template <class T> struct Flow {
   T u;     ///< u to second order
   T work;  ///< D : dev(B'^-1)
 };
-template <class T, int D> [[gnu::always_inline]] inline Flow<T> find_flow(const Trial<T, D>& trial, const YieldStress<T>& yield) {
-  const T &s = trial.s, &m = trial.m, d = determinant(trial.deviator, cofactor(trial.deviator));
+template <class T> [[gnu::always_inline]] inline Flow<T> find_flow(const Trial<T>& trial, const T& factor, const YieldStress<T>& yield) {
+  const T &s = trial.s, &m = trial.m, &d = trial.d;
   const T over_det = T(1) / (s * (s * s - T(0.5) * m) + d);
   Flow<T> flow;
   flow.k = sqrt(T(1.5) * (s * (s * m - T(6) * d) + m * m * T(1.0 / 6))) * (over_det * T(1.0 / 3));
-  flow.q = select(yields(trial, yield), sqrt(trial.Q()), yield.value);
+  flow.q = select(yields(trial, factor, yield), sqrt(trial_square(trial, factor)), yield.value);
   flow.u = first_correction(flow.q, flow.k, yield);
   flow.work = (s * m - T(3) * d) * over_det;
   return flow;
 }
 
-/// What a correction makes of a layer: u, its p, dissipation, and the yield stress after it. The trial's factor becomes that of
-/// the stress after it.
+/// What a correction makes of a layer: u, its p, dissipation, and the yield stress after it.
 template <class T> struct Correction {
   T u, p, dissipation;
   YieldStress<T> yield;
 };
-template <class T, int D>
-[[gnu::always_inline]] inline Correction<T> correct(const HardeningCurve& hardening, Trial<T, D>& trial, const Flow<T>& flow, const T& J, const T& p, YieldStress<T> yield) {
+template <class T>
+[[gnu::always_inline]] inline Correction<T> correct(const HardeningCurve& hardening, const T& factor, const Flow<T>& flow, const T& J, const T& p, YieldStress<T> yield) {
   const T u = solve_correction(hardening, flow.q, p, flow.k, flow.u, yield);
-  trial.factor *= T(1) - u;
   // J S : D_p with the stress after the correction, which is the one that moves the nodes
-  return {u, p + u * flow.k, trial.factor * J * T(0.5) * u * flow.work, yield};
+  return {u, p + u * flow.k, factor * (T(1) - u) * J * T(0.5) * u * flow.work, yield};
 }
 
 /// What a layer answers, as if the body were made of it. B: the trial B' (3.51); J: V/V0 of the element; p: plastic strain, updated.
 template <class T, int D>
 PointResponse<T, D> update_layer(const HardeningCurve& hardening, const T& factor, const Symmetric<T, D>& B, const T& J, T& p) {
   PointResponse<T, D> r;
-  Trial<T, D> trial;
-  find_trial(B, factor, trial);
+  Trial<T> trial;
+  const Symmetric<T, D> deviator = find_trial(B, trial);
   r.dissipation = T(0);
-  if (hardening.kind != HardeningCurve::elastic && any(may_yield(hardening, trial))) {
+  if (hardening.kind != HardeningCurve::elastic && any(may_yield(hardening, trial, factor))) {
     r.yield = yield_stress(hardening, p);
     r.knows_yield = true;
-    if (any(yields(trial, r.yield))) {
-      const Correction<T> c = correct(hardening, trial, find_flow(trial, r.yield), J, p, r.yield);
+    if (any(yields(trial, factor, r.yield))) {
+      const Correction<T> c = correct(hardening, factor, find_flow(trial, factor, r.yield), J, p, r.yield);
       r.kept = T(1) - c.u;
       r.dissipation = c.dissipation;
       r.yield = c.yield;
       p = c.p;
     }
   }
-  repeat<Symmetric<T, D>::size>([&](auto i) { r.S[i] = trial.factor * trial.deviator[i]; });
+  const T kept = r.kept * factor;
+  repeat<Symmetric<T, D>::size>([&](auto i) { r.S[i] = kept * deviator[i]; });
   return r;
 }
 
@@ -174,20 +173,11 @@ template <class T, int D> Symmetric<T, D> load_memory(const double* from) {
   return G;
 }
 
-/// G^x = over A of a point.
-template <class T, int D> struct Metric {
-  Symmetric<T, D> A;
-  T over;
-};
-/// From what find_normals() gives, and from what find_reciprocal() gives.
-template <class T, int D, bool Ring> Metric<T, D> metric_from_normals(const Edges<T, D, Ring>& e) { return {metric_of_normals(e), T(1) / (e.det * e.det)}; }
-template <class T, int D, bool Ring> Metric<T, D> metric_of_vectors(const Edges<T, D, Ring>& e) { return {metric_of<D, Ring>(e.up, T(1)), T(1)}; }
-
-/// (3.54) of the layer whose memory starts at `memory`, u = 1 - a; its p is stored already.
-template <class T, int D> void keep_flow(double* memory, const T& u, const Metric<T, D>& target) {
-  const T a = T(1) - u, share = u * target.over;
+/// (3.54) of the layer whose memory starts at `memory`: G <- a G + (1-a) G^x, u = 1 - a, and (1-a) G^x = share A; its p is stored already.
+template <class T, int D> void keep_flow(double* memory, const T& u, const T& share, const Symmetric<T, D>& A) {
+  const T a = T(1) - u;
   const Symmetric<T, D> G = load_memory<T, D>(memory);
-  repeat<Symmetric<T, D>::size>([&](auto c) { store(memory, c, a * G[c] + share * target.A[c]); });
+  repeat<Symmetric<T, D>::size>([&](auto c) { store(memory, c, a * G[c] + share * A[c]); });
 }
 
 /// One step of layer k of a point whose reciprocal vectors are at hand; its memory of that layer starts at `memory`; factor: stress_factor(m, J).
@@ -200,7 +190,8 @@ PointResponse<T, D> layer_step(const SolidConstants& m, int k, const T& factor, 
   const PointResponse<T, D> r = update_layer(m.layer[k].hardening, factor, push(load_memory<T, D>(memory), e), J, p);
   if (keep == Keep::yes && any(p > before)) {
     store(memory, size, p);
-    keep_flow(memory, T(1) - r.kept, metric_of_vectors(e));
+    const T u = T(1) - r.kept;
+    keep_flow(memory, u, u, metric_of<D, Ring>(e.up, T(1)));
   }
   return r;
 }
