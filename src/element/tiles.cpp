@@ -51,7 +51,7 @@ void Elements::lay_tiles(int nodes) {
   for (int n = 0; n < nodes; ++n) count[n + 1] += count[n];
   slot_start_ = count;
   for (int n = 0; n < nodes; ++n) nodal_slots_[n] += slot_start_[n];
-  slot_index_.resize(count[nodes]);
+  slot_index_.assign(count[nodes] + kSlotsFetched, 0);
   for (std::size_t s = 0; s < node_of_slot.size(); ++s)
     if (node_of_slot[s] >= 0) slot_index_[count[node_of_slot[s]]++] = static_cast<int>(s);
   slot_storage_.resize((node_of_slot.size() * record_size_ + kLanes - 1) / kLanes);

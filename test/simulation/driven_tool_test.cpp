@@ -164,7 +164,7 @@ TEST(DrivenTool, AHammerSpendsItsEnergyOnTheBlank) {
   const double fallen = start - sim->tools()[1].position.y(), left = kinetic_energy(*sim, 1, mass);
   EXPECT_NEAR(sim->energies().work, given + weight * fallen - left, 1e-3 * given);
   EXPECT_GT(sim->tools()[1].velocity.y(), 0);  // it flies back
-  const HardeningConfig& h = *aluminium(true).hardening;
+  const HardeningConfig h = *aluminium(true).hardening;
   const double squeezed = std::log(height / (height + gap + deepest)), volume = M_PI * radius * radius * height;
   const double strain = squeezed - (h.saturation_stress - (h.saturation_stress - h.yield_stress) * std::exp(-h.rate * squeezed)) / aluminium().E();  // plastic
   const double work = volume * (h.saturation_stress * strain - (h.saturation_stress - h.yield_stress) / h.rate * (1 - std::exp(-h.rate * strain)));

@@ -355,24 +355,27 @@ template <class T, int D, bool Ring = false> class Hourglass {
     return any(n * n + n * m + m * m > T(limit));
   }
 
-  /// The mean, S after the law's step, has flowed to `after`. The classical law's memory is that; in B = s I + d it is
-  /// d <- after/factor, and s such that det B stays: s <- s - (d:d - d':d')/(6 s), to the second power of d. The plastic strain is
-  /// (d - d')/(2 s) and dissipates with the stress that is left, and so does that by which the law returned to S, along S.
+  /// The mean, S after the law's step, has flowed to `after`. The classical law's memory is that, its plastic strain (S - S')/(2 factor).
+  /// In B = s I + d it is d <- d' = after/factor, and s such that det B = s^3 - s d:d/2 + det d stays; what B stores falls by
+  /// 3/2 factor J (s - s'), of which the stress that is left does all but what is of second order in the change, (d - d'):(d - d')/(4 s).
+  /// With it, too, what the law returned before is dissipated, along S.
   static void take_mean_flow(const SolidConstants& m, const T& factor, const T& J, const Edges<T, D, Ring>& edges, const Symmetric<T, D>& after, const T& dp, PointResponse<T, D>& point, double* memory) {
     constexpr int size = Symmetric<T, D>::size;
-    const T over = T(1) / factor, left = contract(after, after), along = contract(after, point.S);
-    T half = T(0.5) * over;  // 1/(2 factor s)
+    const T over = T(1) / factor, SS = contract(point.S, point.S), left = contract(after, after), along = contract(after, point.S);
+    T flowed = T(0.5) * over * (along - left);  // S' : D_p
     Symmetric<T, D> kept = after;
     if (m.law != Law::classical) {
-      const T s = trace(push(load_memory<T, D>(memory), edges)) * T(1.0 / 3), over_s = T(1) / s;
-      half *= over_s;
-      const T after_s = s - T(1.0 / 6) * over * over * over_s * (contract(point.S, point.S) - left);
+      const auto det = [](const Symmetric<T, D>& S) { return determinant(S, cofactor(S)); };
+      const T s = trace(push(load_memory<T, D>(memory), edges)) * T(1.0 / 3), over2 = over * over;
+      const T per = T(1) / (T(3) * s * s - T(0.5) * over2 * left);  // 1/s = 3 s per, to the order that is asked for
+      const T fall = over2 * (T(0.5) * s * (SS - left) + over * (det(after) - det(point.S))) * per;
+      flowed = factor * (T(1.5) * fall - T(0.75) * s * per * over2 * (SS - T(2) * along + left));
       Symmetric<T, D> B;
-      for (int i = 0; i < size; ++i) B[i] = i < 3 ? over * after[i] + after_s : over * after[i];
+      for (int i = 0; i < size; ++i) B[i] = i < 3 ? over * after[i] + (s - fall) : over * after[i];
       pull(edges, B, kept);
     }
     for (int i = 0; i < size; ++i) store(memory, i, kept[i]);
-    point.dissipation = point.dissipation * (along / larger(contract(point.S, point.S), T(1e-30) * T(m.mu * m.mu))) + J * half * (along - left);
+    point.dissipation = point.dissipation * (along / larger(SS, T(1e-30) * T(m.mu * m.mu))) + J * flowed;
     point.S = after;
     T p;
     load(memory, size, p);

@@ -5,7 +5,11 @@
 
 namespace forming_sim {
 
+/// Slots that are fetched at a time for nodes to come.
+constexpr int kSlotsFetched = 6;
+
 /// f_n = sum of the slots index[start[n]] to index[start[n + 1] - 1], in this order, + load_n, N.
+/// index has kSlotsFetched more behind those of the last node, of any slots.
 struct NodalForces {
   int dimension = 0;
   const int *start = nullptr, *index = nullptr;

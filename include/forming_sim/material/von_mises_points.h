@@ -67,6 +67,7 @@ template <int D, int N, class F> [[gnu::always_inline]] inline void each_point(F
 ///   close(sum)
 template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_inline]] inline void one_layer_of_points(const SolidConstants& m, Bundle* bundles, int count) {
   constexpr bool by_ways = D == 3;
+  if constexpr (M == 1) count = 1;
   LayerOfPoints<T, D, N * M> layer;
   T J[N * M], factor[N * M];
   Vector<T, D> y[by_ways ? N * M : 1][D];
@@ -110,6 +111,7 @@ template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_i
 ///   S x^m = sum_i w_i f_i (B_i - s_i I) x^m = x_k (sum_i w_i f_i G_i^mk) - (sum_i w_i f_i s_i) x^m.
 template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_inline]] inline void layers_of_points(const SolidConstants& m, Bundle* bundles, int count) {
   constexpr int size = Symmetric<T, D>::size;
+  if constexpr (M == 1) count = 1;
   LayerOfPoints<T, D, N * M> layer;
   T J[N * M], factor[N * M];
   UprightEdges<T, D> upright[N * M];
@@ -128,6 +130,7 @@ template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_i
       find_normals(e);
       upright[i] = find_upright(e);
       start[i] = at.memory(s);
+      find_trial(load_memory<T, D>(start[i]), upright[i], layer.trial[i]);
     });
   }
   const int n = count * N;
@@ -136,8 +139,6 @@ template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_i
     const long behind = k * kLayerItems<D> * lanes_of<T>;
     const auto memory = [&](int i) { return (M == 1 ? bundles[0].memory(i) : start[i]) + behind; };
     const T w(m.layer[k].weight);
-#pragma GCC unroll 1
-    for (int i = 0; i < n; ++i) find_trial(load_memory<T, D>(memory(i)), upright[i], layer.trial[i]);
     layer.correct_all(n, m.layer[k].hardening, factor, J, memory, [&](int i, const T& what) { bundles[i / N].dissipate(i % N, w * what); });
 #pragma GCC unroll 1
     for (int i = 0; i < n; ++i) {
@@ -151,6 +152,7 @@ template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_i
         mean[i] += share * layer.trial[i].s;
       }
       if (layer.flows[i]) keep_flow(memory(i), layer.u[i], layer.u[i], upright[i].metric);
+      if (k + 1 < m.layers) find_trial(load_memory<T, D>(memory(i) + kLayerItems<D> * lanes_of<T>), upright[i], layer.trial[i]);
     }
   } while (++k < m.layers);
   for (int b = 0; b < count; ++b) {
