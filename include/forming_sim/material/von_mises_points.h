@@ -109,6 +109,7 @@ template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_i
 
 /// Likewise with several. Of a layer its memory is all that is read and written, and what it pulls is summed as
 ///   S x^m = sum_i w_i f_i (B_i - s_i I) x^m = x_k (sum_i w_i f_i G_i^mk) - (sum_i w_i f_i s_i) x^m.
+/// The first layer's trials are found with the edges, those of each further one beside the flow of the layer before.
 template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_inline]] inline void layers_of_points(const SolidConstants& m, Bundle* bundles, int count) {
   constexpr int size = Symmetric<T, D>::size;
   if constexpr (M == 1) count = 1;
