@@ -250,17 +250,12 @@ TEST(OnePoint, WorkIsStoredOrDissipated) {
     Moved body(block_of(kind, 2), aluminium(true));
     NodeField end = body.X;
     shake(end, D, 0.03, 11);
-    double work = 0;
-    const int steps = 4000;
-    NodeField before = body.forces();
-    for (int step = 1; step <= 2 * steps; ++step) {
-      const double s = step <= steps ? double(step) / steps : 2 - double(step) / steps;  // there and back
-      const NodeField from = body.x;
-      for (std::size_t n = 0; n < end.size(); ++n) body.x[n] = body.X[n] + s * (end[n] - body.X[n]);
-      const NodeField& f = body.forces();
-      for (std::size_t n = 0; n < end.size(); ++n) work -= 0.5 * (f[n] + before[n]).dot(body.x[n] - from[n]);
-      before = f;
-    }
+    const double work = body.work_along(8000, [&](double t) {
+      const double s = 1 - std::abs(2 * t - 1);  // there and back
+      NodeField x = body.X;
+      for (std::size_t n = 0; n < end.size(); ++n) x[n] += s * (end[n] - body.X[n]);
+      return x;
+    });
     EXPECT_GT(body.elements.plastic_work(), 0.5 * work);
     EXPECT_NEAR(body.energy() + body.elements.plastic_work(), work, 2e-3 * work) << shape_of(kind).name;
   }
@@ -274,23 +269,16 @@ TEST(OnePoint, ACellPressedWhileItsModesGrowLosesNoWork) {
     for (int along = 0; along < D; ++along)
       for (int mode = 0; mode < (D == 2 ? 1 : 3); ++mode) {
         Moved body(cell_of(kind, Vec3(1, 1, 1)), aluminium(true));
-        double work = 0;
-        const int steps = 8000;
-        NodeField before = body.forces();
-        for (int step = 1; step <= steps; ++step) {
-          const double s = step / double(steps), high = 1 - 0.2 * s, wide = D == 2 ? 1 / high : 1 / std::sqrt(high);
-          const NodeField from = body.x;
-          body.place([&](const Vec3& X) {
-            const Vec3 xi = 2 * X - Vec3::Ones();  // -1 to 1 in the cell
-            Vec3 x = X;
-            for (int i = 0; i < D; ++i) x[i] *= i == up ? high : wide;
-            x[along] += 0.02 * s * (D == 2 ? xi[0] * xi[1] : xi[(mode + 1) % 3] * xi[(mode + 2) % 3]);
-            return x;
-          });
-          const NodeField& f = body.forces();
-          for (std::size_t n = 0; n < f.size(); ++n) work -= 0.5 * (f[n] + before[n]).dot(body.x[n] - from[n]);
-          before = f;
-        }
+        const double work = body.work_along(8000, [&](double s) {
+          const double high = 1 - 0.2 * s, wide = D == 2 ? 1 / high : 1 / std::sqrt(high);
+          NodeField x = body.X;
+          for (Node& at : x) {
+            const Node xi = 2 * at - Node::Ones();  // -1 to 1 in the cell
+            for (int i = 0; i < D; ++i) at[i] *= i == up ? high : wide;
+            at[along] += 0.02 * s * (D == 2 ? xi[0] * xi[1] : xi[(mode + 1) % 3] * xi[(mode + 2) % 3]);
+          }
+          return x;
+        });
         EXPECT_GT(body.elements.plastic_work(), 0.9 * work);
         EXPECT_NEAR(body.energy() + body.elements.plastic_work(), work, 2e-4 * work) << shape_of(kind).name << ", mode " << mode << " along " << along;
       }

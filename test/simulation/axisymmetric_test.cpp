@@ -73,11 +73,7 @@ TEST(Axisymmetric, ContactPressureIsUniformUnderAFlatEnd) {
   press.velocities = {Vec3::Zero(), Vec3(0, -2 * (strain * 0.01 + 1e-6) / duration, 0), Vec3::Zero()};
   run.plan.bodies[0].boundaries.push_back(press);
   run.plan.time_step.damping = 1e5;
-  ToolModel plane;
-  plane.name = "plane";
-  plane.normal = Vec3::UnitY();
-  plane.mesh.dimension = 2;
-  run.model.tools.push_back(plane);
+  run.model.tools.push_back(plane_at("plane", 2, Vec3::Zero(), Vec3::UnitY()));
   auto sim = run.start();
   while (sim->step()) {}
   const double exact = m.youngs_modulus * strain;

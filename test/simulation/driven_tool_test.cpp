@@ -8,15 +8,6 @@
 namespace forming_sim {
 namespace {
 
-/// A rigid plane that looks along `normal`.
-ToolModel plane_at(const std::string& name, int dimension, const Vec3& point, const Vec3& normal) {
-  ToolModel plane;
-  plane.name = name;
-  plane.mesh.dimension = dimension;
-  plane.point = point;
-  plane.normal = normal;
-  return plane;
-}
 void drive(ToolModel& tool, std::vector<double> times, std::vector<Vec3> forces, double mass = 0) {
   MotionConfig motion;
   motion.kind = "force";

@@ -87,22 +87,8 @@ TEST(Ledger, OfCellsThatFlowByMuchInAStep) {
         metal.law = law;
         const double time = .2 * height / speed;
         OneBody run(body_of(generate_blank(blank), metal), time);
-        const int D = run.model.dimension;
-        for (const bool ram : {false, true}) {
-          ToolModel plane;
-          plane.name = ram ? "ram" : "bed";
-          plane.mesh.dimension = D;
-          plane.normal = (ram ? -1 : 1) * Vec3::Unit(D - 1);
-          plane.point = (ram ? height : 0) * Vec3::Unit(D - 1);
-          if (ram) {
-            plane.motion.emplace();
-            plane.motion->kind = "trajectory";
-            plane.motion->profile = "smooth";
-            plane.motion->times = {0, time};
-            plane.motion->positions = {Vec3::Zero(), -.2 * height * Vec3::Unit(D - 1)};
-          }
-          run.model.tools.push_back(plane);
-        }
+        press(run, height, time, .2 * height);
+        run.model.tools[1].motion->profile = "smooth";
         auto sim = run.start();
         while (sim->step()) {
         }
@@ -160,21 +146,8 @@ TEST(LedgerWatch, KeepsATubeThatSnapsThrough) {
   run.model.axisymmetric = true;
   run.model.bodies[0].self_contact = true;
   run.plan.contact.friction = .05;
-  for (const bool ram : {false, true}) {
-    ToolModel plane;
-    plane.name = ram ? "ram" : "bed";
-    plane.mesh.dimension = 2;
-    plane.normal = Vec3(0, ram ? -1 : 1, 0);
-    plane.point = Vec3(0, ram ? 23.66e-3 : 0, 0);
-    plane.friction = .05;
-    if (ram) {
-      plane.motion.emplace();
-      plane.motion->kind = "trajectory";
-      plane.motion->times = {0, time};
-      plane.motion->positions = {Vec3::Zero(), Vec3(0, -8e-3, 0)};
-    }
-    run.model.tools.push_back(plane);
-  }
+  press(run, 23.66e-3, time, 8e-3);
+  for (ToolModel& tool : run.model.tools) tool.friction = .05;
   auto sim = run.start();
   while (sim->step()) {
   }

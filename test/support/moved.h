@@ -21,6 +21,19 @@ struct Moved {
     return f;
   }
   double energy() const { return elements.stored_energy(x); }
+  /// Goes to at(1 / steps), at(2 / steps), ..., at(1), positions of the nodes; the work that is done against its forces, J.
+  double work_along(int steps, const std::function<NodeField(double)>& at) {
+    double work = 0;
+    NodeField before = forces();
+    for (int step = 1; step <= steps; ++step) {
+      const NodeField from = x;
+      x = at(step / double(steps));
+      forces();
+      for (std::size_t n = 0; n < x.size(); ++n) work -= 0.5 * (f[n] + before[n]).dot(x[n] - from[n]);
+      before = f;
+    }
+    return work;
+  }
 };
 
 inline double largest(const NodeField& f) {

@@ -92,14 +92,33 @@ inline BodyLoads& add_flying(Model& model, RunPlan& plan, BodyModel body, const 
   return plan.bodies.back();
 }
 
-/// The rigid plane x = 0 with the bodies to its right, in plane strain.
-inline ToolModel wall_at_zero() {
+/// A rigid plane that looks along `normal`.
+inline ToolModel plane_at(const std::string& name, int dimension, const Vec3& point, const Vec3& normal) {
   ToolModel plane;
-  plane.name = "wall";
-  plane.normal = Vec3::UnitX();
-  plane.mesh.dimension = 2;
+  plane.name = name;
+  plane.mesh.dimension = dimension;
+  plane.point = point;
+  plane.normal = normal;
   return plane;
 }
+/// It goes by `way` in `time`.
+inline void lead(ToolModel& tool, double time, const Vec3& way) {
+  MotionConfig motion;
+  motion.kind = "trajectory";
+  motion.times = {0, time};
+  motion.positions = {Vec3::Zero(), way};
+  tool.motion = motion;
+}
+/// Puts a body of this height, which stands on 0 along its last axis, between a bed and a ram that comes down by `way`.
+inline void press(OneBody& run, double height, double time, double way) {
+  const int D = run.model.dimension;
+  const Vec3 up = Vec3::Unit(D - 1);
+  run.model.tools = {plane_at("bed", D, Vec3::Zero(), up), plane_at("ram", D, height * up, -up)};
+  lead(run.model.tools[1], time, -way * up);
+}
+
+/// The rigid plane x = 0 with the bodies to its right, in plane strain.
+inline ToolModel wall_at_zero() { return plane_at("wall", 2, Vec3::Zero(), Vec3::UnitX()); }
 
 /// What the bodies of the paper's impact are made of: G 26.5, K 65.1 GPa, 2800 kg/m3.
 inline MaterialConfig impact_material() {

@@ -28,18 +28,9 @@ Found squeeze(double less, double layer, bool plastic, int cells = 4, bool walls
   if (walls)
     for (const char* side : {"left", "right"}) run.plan.bodies[0].boundaries.push_back(symmetric(side, Vec3::UnitX()));
   for (int up = 0; up < 2; ++up) {
-    ToolModel plane;
-    plane.name = up ? "punch" : "die";
-    plane.mesh.dimension = 2;
-    plane.normal = up ? Vec3(0, -1, 0) : Vec3(0, 1, 0);
+    ToolModel plane = plane_at(up ? "punch" : "die", 2, Vec3::Zero(), up ? Vec3(0, -1, 0) : Vec3(0, 1, 0));
     plane.position = Vec3(0, up ? kThickness : 0, 0);
-    if (up) {
-      MotionConfig motion;
-      motion.kind = "trajectory";
-      motion.times = {0, time};
-      motion.positions = {Vec3::Zero(), Vec3(0, -less, 0)};
-      plane.motion = motion;
-    }
+    if (up) lead(plane, time, Vec3(0, -less, 0));
     run.model.tools.push_back(plane);
   }
   auto sim = run.start();
@@ -108,18 +99,10 @@ TEST(Squeeze, WithinSomeWaysOfAWaveOfShearIsTold) {
   const auto told = [&](double ways, double friction, const std::string& swing, bool moves) {
     OneBody run(body_of(generate_blank(strip_of(8 * kThickness, kThickness, 8, 1)), material), ways * T);
     run.plan.contact.swing = swing;
-    ToolModel plane;
-    plane.name = "ram";
-    plane.mesh.dimension = 2;
-    plane.normal = Vec3(0, -1, 0);
+    ToolModel plane = plane_at("ram", 2, Vec3::Zero(), Vec3(0, -1, 0));
     plane.position = Vec3(0, 1.1 * kThickness, 0);
     plane.friction = friction;
-    if (moves) {
-      plane.motion.emplace();
-      plane.motion->kind = "trajectory";
-      plane.motion->times = {0, ways * T};
-      plane.motion->positions = {Vec3::Zero(), Vec3(0, -1e-5, 0)};
-    }
+    if (moves) lead(plane, ways * T, Vec3(0, -1e-5, 0));
     run.model.tools.push_back(plane);
     const auto simulation = run.start();
     for (const std::string& warning : simulation->warnings())
