@@ -7,7 +7,7 @@
 //   B_ii = d_i C^ii,  B_ij^2 = d_i d_j C^ij^2,  B_01 B_12 B_20 = d_0 d_1 d_2 C^01 C^12 C^20:
 // trace, D : D and det D follow without a root and without the components in space. With A = det^2 G^x,
 //   d_0 d_1 = A^22,  d_0 d_1 d_2 = det^2,  l_21 = -A^12 / A^22,
-// which are products of the normals, whose differences are those of small numbers of flat elements once, not twice.
+// products of the normals: of flat elements the differences of near numbers are taken once, in the normals, as in every reciprocal vector.
 #include "forming_sim/material/von_mises.h"
 
 namespace forming_sim {

@@ -67,7 +67,7 @@ template <int D, int N, class F> [[gnu::always_inline]] inline void each_point(F
 ///   close(sum)
 template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_inline]] inline void one_layer_of_points(const SolidConstants& m, Bundle* bundles, int count) {
   constexpr bool by_ways = D == 3;
-  if constexpr (M == 1) count = 1;
+  if constexpr (M == 1) count = 1;  // told to the compiler
   LayerOfPoints<T, D, N * M> layer;
   T J[N * M], factor[N * M];
   Vector<T, D> y[by_ways ? N * M : 1][D];
@@ -112,7 +112,7 @@ template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_i
 /// The first layer's trials are found with the edges, those of each further one beside the flow of the layer before.
 template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_inline]] inline void layers_of_points(const SolidConstants& m, Bundle* bundles, int count) {
   constexpr int size = Symmetric<T, D>::size;
-  if constexpr (M == 1) count = 1;
+  if constexpr (M == 1) count = 1;  // told to the compiler, here and by `memory`
   LayerOfPoints<T, D, N * M> layer;
   T J[N * M], factor[N * M];
   UprightEdges<T, D> upright[N * M];
