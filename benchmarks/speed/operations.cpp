@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "forming_sim/element/edge_points.h"
-#include "forming_sim/element/hourglass.h"
+#include "forming_sim/element/one_point_law.h"
 #include "forming_sim/material/law.h"
 #include "speed/counted.h"
 
@@ -62,10 +62,13 @@ template <int D, bool Ring, bool OnePointCell> class CountedElement {
     Vector<Counted, D> force[D], r[Cell::modes];
     PointResponse<Counted, D> point;
     if constexpr (OnePointCell) {
-      const PlaneModuli<Counted> moduli(solid_);
-      Hourglass<Counted, D> hourglass(moduli, constants_.data(), edges, sums.mode, x);
-      point = von_mises_with_hourglass<true>(solid_, edges, J, memory_.data(), hourglass, hourglass_.data());
-      hourglass.gradient(Counted(volume_), r);
+      const PlaneModuli moduli(solid_);
+      forming_sim::OnePointCell<Counted, D, Ring> cell(moduli, constants_.data(), memory_.data(), hourglass_.data());
+      cell.e = edges, cell.sums = sums, cell.J = J;
+      if (try_one_layer(solid_, cell)) flow_alone(solid_, moduli, cell);
+      finish_one_layer(cell);
+      point = cell.point;
+      cell.hourglass.gradient(Counted(volume_), r);
     } else {
       point = von_mises_step(solid_, edges, J, memory_.data(), Keep::yes);
     }

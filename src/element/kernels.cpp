@@ -248,8 +248,8 @@ template <class Cell>
     const double* memory = memory_of<Cell>(g, block, s);
     if constexpr (Cell::one_point) {
       const Variation<Cell> variation(g, constants, e, x);
-      if constexpr (Cell::ring) bound.set(e, x, memory, initial_volume(g, memory), constants, variation.hourglass);
-      else bound.set(e, memory, initial_volume(g, memory), constants, variation.hourglass);
+      if constexpr (Cell::ring) bound.set(e, x, memory, initial_volume(g, memory), constants, variation.sums.mode, variation.hourglass);
+      else bound.set(e, memory, initial_volume(g, memory), constants, variation.sums.mode);
       if (variation.hourglass.far()) bound.omega2 += corner_rate<Cell>(g, view, block, bound.omega2);
     } else {
       Pack at_edges;
@@ -340,9 +340,11 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
 }
 
 template <class Cell, Made made> void forces_of_blocks(const CellGroup& g, const NodalView& view, int first, int last) {
-  const PlaneModuli<Pack> moduli(g.solid);
   if constexpr (Cell::one_point) {
-    for (int b = first; b < last; ++b) forces_of_one_point_block<Cell, made>(g, moduli, view, b);
+    const PlaneModuli moduli(g.solid);
+    WaitingBlocks<Cell> waiting(g, moduli, view);
+    for (int b = first; b < last; ++b) forces_of_one_point_block<Cell, made>(g, moduli, view, b, waiting);
+    waiting.end();
   } else if constexpr (made == Made::any) {
     for (int b = first; b < last; ++b) forces_of_any_law<Cell>(g, view, b);
   } else {

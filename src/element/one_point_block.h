@@ -9,13 +9,13 @@
 #include "element/bulk_viscosity.h"
 #include "element/classical_block.h"
 #include "element/corner_block.h"
-#include "forming_sim/element/hourglass.h"
+#include "forming_sim/element/one_point_law.h"
 
 namespace forming_sim {
 namespace FORMING_SIM_ISA {
 
 /// Edges of one-point cells and the sums of their corners.
-template <class Cell> void gather_one_point(const int* nodes, const double* field, const double* constants, Vector<Pack, kD<Cell>>* edge, CornerSums<Pack, kD<Cell>>& sums) {
+template <class Cell> void gather_one_point(const int* nodes, const double* field, const double* constants, Vector<Pack, kD<Cell>> (&edge)[kE<Cell>], CornerSums<Pack, kD<Cell>>& sums) {
   constexpr int D = kD<Cell>, half = Cell::nodes / 2;
   if constexpr (Cell::ring) edge[2] = {{Pack(0.0), Pack(0.0)}};
   repeat<half>([&](auto a) {
@@ -38,78 +38,147 @@ template <class Cell> void fetch_constants(const CellGroup& g, long block) {
 /// What varies across the cells of a block whose nodes are gathered.
 template <class Cell> class Variation {
  public:
-  Variation(const CellGroup& g, const double* constants, const CellEdges<Cell>& e, const Vector<Pack, kD<Cell>>* x) : moduli_(g.solid), hourglass(moduli_, constants, e, sums_.mode, x) {
-    sums_.add_all(x);
-    hourglass.find_strains();
+  Variation(const CellGroup& g, const double* constants, const CellEdges<Cell>& e, const Vector<Pack, kD<Cell>>* x) : moduli_(g.solid), hourglass(moduli_, constants) {
+    sums.add_all(x);
+    hourglass.find_strains(e, sums.mode, x);
   }
   Variation(const Variation&) = delete;
 
  private:
-  PlaneModuli<Pack> moduli_;
-  CornerSums<Pack, kD<Cell>> sums_;
+  PlaneModuli moduli_;
 
  public:
+  CornerSums<Pack, kD<Cell>> sums;
   Hourglass<Pack, kD<Cell>, Cell::ring> hourglass;
 };
 
-template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_block(const CellGroup& g, const PlaneModuli<Pack>& moduli, const NodalView& view, long block) {
-  constexpr int D = kD<Cell>;
-  const double* constants = constants_of<Cell>(g, block);
-  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
-  double* memory = memory_of<Cell>(g, block, 0);
-  fetch_memory(g, memory, 2);
-  fetch_constants<Cell>(g, block);
-  fetch_ahead(hourglass_of<Cell>(g, block), 2L * g.hourglass_items * static_cast<long>(sizeof(Lane)), g.hourglass_items);
-  CellEdges<Cell> e;
-  CornerSums<Pack, D> sums;
-  gather_one_point<Cell>(nodes, view.x, constants, e.x, sums);
-  find_reciprocal(e);
-  const Pack V0 = initial_volume(g, memory), J = e.volume / V0;
-  g.upright[block] = all(J > Pack(0.0));
-  const int in_use = lanes_in_use(g, block);
+/// A block in a step. It opens with its nodes gathered and closes with its forces handed out.
+template <class Cell> class OnePointBlock : public OnePointCell<Pack, kD<Cell>, Cell::ring> {
+  static constexpr int D = kD<Cell>;
+  using Base = OnePointCell<Pack, D, Cell::ring>;
 
-  Vector<Pack, D> x[Cell::ring ? Cell::nodes : 1];
-  if constexpr (Cell::ring) gather<Cell>(nodes, view.x, x);
-  Hourglass<Pack, D, Cell::ring> hourglass(moduli, constants, e, sums.mode, x);
-  PointResponse<Pack, D> point;
-  Pack p = Pack(g.solid.K) * (J - Pack(1.0));
-  if constexpr (made == Made::any) {
-    Vector<Pack, D> w[kE<Cell>];
-    const bool classical = g.solid.law == Law::classical;
-    if (classical) p = classical_step_of_edges<Cell>(g, view, block, w);
-    point = step_with_hourglass(g.solid, e, classical ? w : nullptr, J, memory, hourglass, hourglass_of<Cell>(g, block));
-  } else {
-    point = von_mises_with_hourglass<made == Made::one_layer>(g.solid, e, J, memory, hourglass, hourglass_of<Cell>(g, block));
+ public:
+  Pack V0, p;  ///< p: the pressure
+  using Base::e, Base::sums, Base::J, Base::constants, Base::memory, Base::hourglass, Base::point;
+
+  OnePointBlock(const CellGroup& g, const PlaneModuli& moduli, const NodalView& view, long block)
+      : Base(moduli, constants_of<Cell>(g, block), memory_of<Cell>(g, block, 0), hourglass_of<Cell>(g, block)), g_(g), view_(view), block_(block) {}
+
+  long block() const { return block_; }
+  void wait_as(const OnePointBlock& other) {
+    Base::wait_as(other);
+    V0 = other.V0, p = other.p;
+    block_ = other.block_;
   }
-  if (is_viscous(g)) p += viscosity_of_block<Cell>(g, view, block);
-  g.plastic_work[block] += sum_of_first(point.dissipation * V0, in_use);
 
-  Vector<Pack, D> r[OnePoint<D>::modes], M[D], force[D];
-  hourglass.gradient(V0, r);
-  for (int c = 0; c < 3; ++c) point.S[c] += p;  // sigma = p I + S (3.4)
-  repeat<D>([&](auto i) {
-    repeat<D>([&](auto j) { M[i][j] = r[0][i] * sums.mode[0][j] - e.volume * point.S[kFull[i][j]]; });
-    repeat<OnePoint<D>::modes - 1>([&](auto k) { M[i] += r[k + 1][i] * sums.mode[k + 1]; });
-  });
-  repeat<D>([&](auto m) { repeat<D>([&](auto i) { force[m][i] = dot(M[i], e.up[m]); }); });
-  Pack hoop;  // of a ring, through the weights of x_3
-  if constexpr (Cell::ring) hoop = e.volume * e.up[2][0] * point.S[2];
+  void open() {
+    fetch_memory(g_, memory, 2);
+    fetch_constants<Cell>(g_, block_);
+    fetch_ahead(Base::hourglass_memory, 2L * g_.hourglass_items * static_cast<long>(sizeof(Lane)), g_.hourglass_items);
+    gather_one_point<Cell>(nodes(), view_.x, constants, e.x, sums);
+    find_reciprocal(e);
+    V0 = initial_volume(g_, memory), J = e.volume / V0;
+    p = Pack(g_.solid.K) * (J - Pack(1.0));
+    g_.upright[block_] = all(J > Pack(0.0));
+    if constexpr (Cell::ring) gather<Cell>(nodes(), view_.x, Base::x);
+  }
 
-  const CornerForces<Pack, D> corners(constants, force, r);
-  const int* slots = g.slots + block * Cell::nodes * kLanes;
-  repeat<Cell::nodes / 2>([&](auto a) {
-    constexpr int opposite = a + Cell::nodes / 2;
-    Vector<Pack, D> low, high;
-    corners.template at<a>(low, high);
-    if constexpr (Cell::ring) {
-      low[0] -= weight(constants, OnePoint<D, true>::hoop + a) * hoop + hourglass.hoop_force(V0, a);
-      high[0] -= weight(constants, OnePoint<D, true>::hoop + opposite) * hoop + hourglass.hoop_force(V0, opposite);
+  void close() {
+    if (is_viscous(g_)) p += viscosity_of_block<Cell>(g_, view_, block_);
+    g_.plastic_work[block_] += sum_of_first(point.dissipation * V0, lanes_in_use(g_, block_));
+
+    Vector<Pack, D> r[OnePoint<D>::modes], M[D], force[D];
+    hourglass.gradient(V0, r);
+    for (int c = 0; c < 3; ++c) point.S[c] += p;  // sigma = p I + S (3.4)
+    repeat<D>([&](auto i) {
+      repeat<D>([&](auto j) { M[i][j] = r[0][i] * sums.mode[0][j] - e.volume * point.S[kFull[i][j]]; });
+      repeat<OnePoint<D>::modes - 1>([&](auto k) { M[i] += r[k + 1][i] * sums.mode[k + 1]; });
+    });
+    repeat<D>([&](auto m) { repeat<D>([&](auto i) { force[m][i] = dot(M[i], e.up[m]); }); });
+    Pack hoop;  // of a ring, through the weights of x_3
+    if constexpr (Cell::ring) hoop = e.volume * e.up[2][0] * point.S[2];
+
+    const CornerForces<Pack, D> corners(constants, force, r);
+    const int* slots = g_.slots + block_ * Cell::nodes * kLanes;
+    repeat<Cell::nodes / 2>([&](auto a) {
+      constexpr int opposite = a + Cell::nodes / 2;
+      Vector<Pack, D> low, high;
+      corners.template at<a>(low, high);
+      if constexpr (Cell::ring) {
+        low[0] -= weight(constants, OnePoint<D, true>::hoop + a) * hoop + hourglass.hoop_force(V0, a);
+        high[0] -= weight(constants, OnePoint<D, true>::hoop + opposite) * hoop + hourglass.hoop_force(V0, opposite);
+      }
+      add_vectors(low, slots + a * kLanes, g_.sums);
+      add_vectors(high, slots + opposite * kLanes, g_.sums);
+    });
+    g_.pressed[block_] = false;
+    if (hourglass.far()) guard_corners<Cell>(g_, view_, block_);
+  }
+
+ private:
+  const int* nodes() const { return g_.nodes + block_ * Cell::nodes * kLanes; }
+
+  const CellGroup& g_;
+  const NodalView& view_;
+  long block_;
+};
+
+/// Blocks whose cells ask to flow, until there are two.
+template <class Cell> class WaitingBlocks {
+ public:
+  WaitingBlocks(const CellGroup& g, const PlaneModuli& moduli, const NodalView& view) : g_(g), moduli_(moduli), blocks_{{g, moduli, view, 0}, {g, moduli, view, 0}} {}
+
+  void add(const OnePointBlock<Cell>& block) {
+    put_one_layer(flow_, count_, block);
+    blocks_[count_++].wait_as(block);
+    if (count_ == 2) flow();
+  }
+  /// An odd one flows beside what was there before it.
+  void end() {
+    if (count_ > 0) flow();
+  }
+
+ private:
+  [[gnu::noinline, gnu::flatten]] void flow() {
+    flow_.find_planes(TwinItems<const double*>{{blocks_[0].constants, blocks_[count_ - 1].constants}});
+    flow_.flow(g_.solid, moduli_);
+    for (int b = 0; b < count_; ++b) {
+      take_one_layer(flow_, b, blocks_[b]);
+      finish_one_layer(blocks_[b]);
+      blocks_[b].close();
     }
-    add_vectors(low, slots + a * kLanes, g.sums);
-    add_vectors(high, slots + opposite * kLanes, g.sums);
-  });
-  g.pressed[block] = false;
-  if (hourglass.far()) guard_corners<Cell>(g, view, block);
+    count_ = 0;
+  }
+
+  const CellGroup& g_;
+  const PlaneModuli& moduli_;
+  OnePointBlock<Cell> blocks_[2];
+  FlowTogether<Twin<Pack>, kD<Cell>, Cell::ring> flow_{};
+  int count_ = 0;
+};
+
+template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_block(const CellGroup& g, const PlaneModuli& moduli, const NodalView& view, long b, WaitingBlocks<Cell>& waiting) {
+  OnePointBlock<Cell> block(g, moduli, view, b);
+  block.open();
+  if constexpr (made == Made::one_layer) {
+    if (try_one_layer(g.solid, block)) return waiting.add(block);
+    finish_one_layer(block);
+  } else if constexpr (made == Made::layers) {
+    step_of_layers(g.solid, moduli, block);
+  } else if (g.solid.law == Law::hyperelastic) {
+    block.find_strains();
+    block.hourglass.set_elastic();
+    block.answer(hyperelastic_step(g.solid, block.e, block.J, block.memory));
+  } else {
+    Vector<Pack, kD<Cell>> w[kE<Cell>];
+    block.p = classical_step_of_edges<Cell>(g, view, b, w);
+    block.factor = Pack(g.solid.mu);
+    block.answer(classical_step(g.solid, block.e, w, block.J, block.memory, Keep::yes));
+    block.find_strains();
+    if (block.hourglass.try_layer(g.solid.layer[0], block.point, block.memory, block.hourglass_memory)) flow_alone(g.solid, moduli, block);
+    finish_one_layer(block);
+  }
+  block.close();
 }
 
 }  // namespace FORMING_SIM_ISA

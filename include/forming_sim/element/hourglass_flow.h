@@ -63,8 +63,8 @@ template <class T> Plane<T> deviatoric(const Plane<T>& s) {
 template <class T, int D> struct PlaneOf {
   Vector<T, D> t, v;  ///< t_1, and in 3D t_2
 
-  /// fibres: those that take z, turned with the cell.
-  PlaneOf(const Fibres<T, D>& turned, const double* constants, int d) {
+  /// Of coordinate d. turned: the fibres that take z, turned with the cell.
+  template <class Items> void set(const Fibres<T, D>& turned, const Items& constants, int d) {
     T slope;
     const int i = D == 2 ? d : (d + 1) % 3;
     load(constants, OnePoint<D>::slopes + i, slope);
@@ -117,6 +117,17 @@ template <class T> auto is_outside(const Quadratic<T>& Q, double limit) {
   return (left < T(0)) | (Q.under_root() > left * left);
 }
 
+/// n_x^2 - n_x n_y + n_y^2 + 3 t^2 of a plane stress: the square of its Mises norm.
+template <class T> T face_square(const Plane<T>& s) { return s.a * (s.a - s.b) + s.b * s.b + T(3) * s.shear * s.shear; }
+
+/// Where s can be outside, without directions: Q_n + mu <= Q_n + n m + m^2 with n^2 = Q_n and m <= h (s + H |p'| n/sigma_s), s the norm of
+/// the face stress over sigma_s, and m^2 <= 2 h^2 (s^2 + (H p'/sigma_s)^2) since n <= 1 once the law has answered. Asked times sigma_s^4,
+/// without roots and divisions. n2: 3/2 S:S; q2: face_square; back: H p'; sigma2: sigma_s^2.
+template <class T> auto may_be_outside(const T& n2, const T& q2, const T& back, const T& sigma2) {
+  const T m2 = T(2 * kFaceStress * kFaceStress) * (q2 + back * back), left = larger(T(1 + 1e-12) * sigma2 - n2 - m2, T(0));
+  return n2 * m2 > left * left;
+}
+
 template <class T> [[gnu::always_inline]] inline Normal<T> normal(const Products<T>& q, const T& over, const T& back) {
   constexpr double h = kFaceStress;
   const Quadratic<T> Q(q, over, back);
@@ -145,14 +156,14 @@ template <class T, int D>
   const Plane<T> elastic = strain - ep;
   ep = {ep.a + gone * elastic.a, ep.b + gone * elastic.b, ep.shear + gone * elastic.shear};
   mean.harden(gone * sqrt(T(1.5) * contract(mean.S, mean.S)) / (T(1.5) * mean.modulus));
-  for (int i = 0; i < Symmetric<T, D>::size; ++i) mean.S[i] *= kept;
+  repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] *= kept; });
 }
 
 /// One coordinate flows where share is 1: mean, ep and p' (rise) follow; what the variation dissipates per initial volume.
 /// At the edge where the whole cell flows one way and m comes to lie across S, it goes no further; where m is more than that,
 /// the surface is smooth there, and S, however small, is no reason to stop.
 template <class T, int D>
-[[gnu::always_inline]] inline T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli<T>& moduli, const Plane<T>& strain, const T& share, Plane<T>& ep, T& rise,
+[[gnu::always_inline]] inline T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli& moduli, const Plane<T>& strain, const T& share, Plane<T>& ep, T& rise,
                                                 const PlaneOf<T, D>& at) {
   Plane<T> s, dev_s, part;
   Products<T> q;
@@ -185,7 +196,7 @@ template <class T, int D>
   if (any(turned)) L *= select(turned, n.Sm / select(turned, n.Sm - after, T(1)), T(1));
   const Plane<T> rate{T(3) * L * direction.a, T(3) * L * direction.b, T(3) * L * direction.shear};
   const Symmetric<T, D> deviator = at.deviator(s);
-  for (int i = 0; i < Symmetric<T, D>::size; ++i) mean.S[i] = (T(1) - L * of_S) * mean.S[i] - L * of_s * deviator[i];
+  repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] = (T(1) - L * of_S) * mean.S[i] - L * of_s * deviator[i]; });
   ep = {ep.a + rate.a, ep.b + rate.b, ep.shear + rate.shear};
   rise += T(3) * L * n.varied * over * n.over_root;
   mean.harden(T(2) * L * over * root);
@@ -198,7 +209,7 @@ template <class T, int D> [[gnu::always_inline]] inline void flow_of_mean(MeanFl
   if (!any(q2 > mean.sigma * mean.sigma)) return;
   const T q = sqrt(q2), stiff = T(1.5) * mean.modulus;
   const T dp = larger(q - mean.sigma, T(0)) / (stiff + mean.slope), kept = T(1) - stiff * dp / larger(q, mean.sigma);
-  for (int i = 0; i < Symmetric<T, D>::size; ++i) mean.S[i] *= kept;
+  repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] *= kept; });
   mean.harden(dp);
 }
 

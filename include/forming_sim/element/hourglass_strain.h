@@ -12,13 +12,13 @@ template <class T> struct Plane {
 };
 
 /// Elastic moduli as Young's, that of plane stress over 1, Poisson's ratio.
-template <class T> struct PlaneModuli {
+struct PlaneModuli {
   double E, plane, nu, mu;
   explicit PlaneModuli(const SolidConstants& m)
       : E(9 * m.K * m.mu / (3 * m.K + m.mu)), plane(0), nu((3 * m.K - 2 * m.mu) / (2 * (3 * m.K + m.mu))), mu(m.mu) {
     plane = E / (1 - nu * nu);
   }
-  Plane<T> stress(const Plane<T>& e) const {
+  template <class T> Plane<T> stress(const Plane<T>& e) const {
     return {T(plane) * (e.a + T(nu) * e.b), T(plane) * (T(nu) * e.a + e.b), T(mu) * e.shear};
   }
 };
@@ -33,7 +33,7 @@ template <class T, int D> struct Fibres {
   Fibres() = default;
   /// base: in which the components that are kept are given. With the vectors E_m of the start they take z; with x^m, since
   /// z_alpha,m = x^m . sum_a h_alpha,a x_a - start_alpha,m, they take the sums of the modes.
-  Fibres(const double* constants, const Vector<T, D>* base) {
+  template <class Items> Fibres(const Items& constants, const Vector<T, D>* base) {
     repeat<D>([&](auto i) {
       repeat<D>([&](auto m) {
         T component;
@@ -48,7 +48,7 @@ template <class T, int D> struct Fibres {
 /// Of the angle between the fibres u_i and u_j of the plane across coordinate d: one_point.h.
 template <class T> struct Skew {
   T cotangent, over_sine2, first, second;
-  Skew(const double* constants, int d) {
+  template <class Items> Skew(const Items& constants, int d) {
     constexpr int at = OnePoint<3>::skew;
     load(constants, at + 4 * d, cotangent);
     load(constants, at + 4 * d + 1, over_sine2);
@@ -80,6 +80,31 @@ template <class T, int D> struct HourglassStrain {
         warp[d] = dot(f.along[d], z[3]);
       });
     }
+  }
+  /// Number by number.
+  void set(const HourglassStrain& s) {
+    repeat<D>([&](auto d) {
+      plane[d].a = s.plane[d].a;
+      plane[d].b = s.plane[d].b;
+      if constexpr (D == 3) {
+        plane[d].shear = s.plane[d].shear;
+        warp[d] = s.warp[d];
+      }
+    });
+  }
+  void clear() {
+    repeat<D>([&](auto d) { plane[d] = {T(0), T(0), T(0)}; });
+    if constexpr (D == 3) repeat<3>([&](auto d) { warp[d] = T(0); });
+  }
+  void add(const T& w, const HourglassStrain& s) {
+    repeat<D>([&](auto d) {
+      plane[d].a += w * s.plane[d].a;
+      plane[d].b += w * s.plane[d].b;
+      if constexpr (D == 3) {
+        plane[d].shear += w * s.plane[d].shear;
+        warp[d] += w * s.warp[d];
+      }
+    });
   }
   /// The sum of their squares, of a ring without the hoops.
   T square() const {
@@ -124,7 +149,7 @@ template <class T, int D> struct HourglassStrain {
 
 /// g = dU/dz per volume of an elastic cell. fibres: those that take z.
 template <int D> void hourglass_stiffness(const SolidConstants& m, const Fibres<double, D>& fibres, const double* constants, const Vector<double, D>* z, Vector<double, D>* g) {
-  const PlaneModuli<double> moduli(m);
+  const PlaneModuli moduli(m);
   HourglassStrain<double, D> e, s;
   e.from(z, fibres, constants);
   for (int d = 0; d < D; ++d) s.plane[d] = moduli.stress(e.plane[d]);

@@ -56,9 +56,9 @@ template <class T> class OnePointRingBound {
   OnePointRingBound(const CellGroup& g, const Vector<T, 2>*) : g_(g) {}
 
   template <class Hourglass>
-  void set(const Edges<T, 2, true>& e, const Vector<T, 2>* x, const double* memory, const T& V0, const double* constants, const Hourglass& hourglass) {
+  void set(const Edges<T, 2, true>& e, const Vector<T, 2>* x, const double* memory, const T& V0, const double* constants, const Vector<T, 2>* sums, const Hourglass& hourglass) {
     const T J = e.volume / V0, rho(g_.density);
-    const PlaneModuli<T> moduli(g_.solid);
+    const PlaneModuli moduli(g_.solid);
     Symmetric<T, 3> M;
     for (int i = 0; i < 6; ++i) M[i] = T(0);
     T gram[2][3] = {{T(0), T(0), T(0)}, {T(0), T(0), T(0)}}, mixed[4] = {T(0), T(0), T(0), T(0)};  // of (fibre, hoop): 11 22 12
@@ -74,7 +74,7 @@ template <class T> class OnePointRingBound {
       const T hoop = share * e.up[2][0];
       add_deviatoric(M, radial, axial, gr, gz, hoop);
       sum_ += radial * (gr + hoop) * (gr + hoop) + axial * gz * gz;
-      const Vector<T, 2> fibre[2] = {hourglass.fibre_rate(0, a), hourglass.fibre_rate(1, a)};
+      const Vector<T, 2> fibre[2] = {hourglass.fibre_rate(e, sums, 0, a), hourglass.fibre_rate(e, sums, 1, a)};
       const T turn[2] = {hourglass.hoop_rate(1, a), hourglass.hoop_rate(0, a)};
       for (int d = 0; d < 2; ++d) {
         gram[d][0] += radial * fibre[d][0] * fibre[d][0] + axial * fibre[d][1] * fibre[d][1];

@@ -26,7 +26,8 @@ template <class T, int D> class OnePointBound {
 
   OnePointBound(const CellGroup& g, const Vector<T, D>*) : g_(g) {}
 
-  void set(const Edges<T, D>& e, const double* memory, const T& V0, const double* constants, const Hourglass<T, D>& hourglass) {
+  /// sums: of the modes, CornerSums.
+  void set(const Edges<T, D>& e, const double* memory, const T& V0, const double* constants, const Vector<T, D>* sums) {
     const T J = e.volume / V0;
     T item;
     Symmetric<T, D> S, H;  // sum_mk inertia_mk x^m x^k, sum_m k_m x^m x^m
@@ -46,13 +47,19 @@ template <class T, int D> class OnePointBound {
     const T uniform = deviatoric + T(g_.solid.K) / (g_.solid.law == Law::classical ? e.volume : V0) * sum_;
     T turned(0);
     load(constants, Cell::looseness, item);
-    for (int a = 0; a < Cell::modes; ++a)
+    for (int a = 0; a < Cell::modes; ++a) {
+      T z[D];
+      for (int m = 0; m < D; ++m) {
+        load(constants, Cell::start + a * D + m, z[m]);
+        z[m] = dot(e.up[m], sums[a]) - z[m];
+      }
       for (int m = 0; m < D; ++m)
         for (int k = 0; k < D; ++k) {
           T inertia;
           load(constants, Cell::inertia + kPair<D>[m][k], inertia);
-          turned += item * inertia * hourglass.z(a, m) * hourglass.z(a, k);
+          turned += item * inertia * z[m] * z[k];
         }
+    }
     const T t = sqrt(turned);
     const T modes = largest(H) / rho * (T(1) + t) * (T(1) + t);
     load(constants, Cell::slant, item);

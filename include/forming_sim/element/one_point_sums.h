@@ -55,7 +55,8 @@ template <class T, int D> struct CornerSums {
     repeat<half>([&](auto a) { add<a>(x[a], x[a + half]); });
   }
 
-  void find_edges(const double* constants, Vector<T, D>* edge) const {
+  /// edge: an array of vectors, or where one starts. (A reference to it can be seen through when a pointer cannot.)
+  template <class Vectors> void find_edges(const double* constants, Vectors& edge) const {
     T share;
     repeat<D>([&](auto m) {
       repeat<D>([&](auto i) {

@@ -1,0 +1,109 @@
+#pragma once
+// A step of the laws in one-point cells: the law at the centre, the trial of what varies about it, and, where a cell asks for it, both
+// flowing together (element/flow_together.h).
+#include "forming_sim/element/hourglass.h"
+
+namespace forming_sim {
+
+/// A cell in a step.
+template <class T, int D, bool Ring> struct OnePointCell {
+  Edges<T, D, Ring> e;  ///< with their reciprocal vectors
+  CornerSums<T, D> sums;
+  Vector<T, D> x[Ring ? OnePoint<D>::nodes : 1];  ///< of a ring, the corners
+  T J, factor;          ///< V/V0; stress per deviator, as the law has it
+  const double* constants;
+  double *memory, *hourglass_memory;
+  PointResponse<T, D> point;  ///< what mean and variation answer
+  Hourglass<T, D, Ring> hourglass;
+
+  OnePointCell(const PlaneModuli& moduli, const double* of_cell, double* its_memory, double* its_hourglass)
+      : constants(of_cell), memory(its_memory), hourglass_memory(its_hourglass), hourglass(moduli, of_cell) {}
+
+  void find_strains() { hourglass.find_strains(e, sums.mode, x); }
+
+  /// `point` becomes this, number by number: what is copied as a whole has to lie in memory from its beginning on.
+  void answer(const PointResponse<T, D>& a) {
+    repeat<Symmetric<T, D>::size>([&](auto i) { point.S[i] = a.S[i]; });
+    point.dissipation = a.dissipation;
+    point.kept = a.kept;
+    point.knows_yield = a.knows_yield;
+    point.yield.value = a.yield.value;
+    point.yield.slope = a.yield.slope;
+    point.yield.bend = a.yield.bend;
+  }
+  /// What the forces ask for, as another cell has it, in the same way.
+  void wait_as(const OnePointCell& other) {
+    const auto copy = [](auto& to, const auto& from) __attribute__((always_inline)) {
+      repeat<static_cast<int>(std::extent_v<std::remove_reference_t<decltype(to)>>)>([&](auto m) { repeat<D>([&](auto i) { to[m][i] = from[m][i]; }); });
+    };
+    copy(e.up, other.e.up);
+    copy(sums.mode, other.sums.mode);
+    e.volume = other.e.volume;
+    constants = other.constants, memory = other.memory, hourglass_memory = other.hourglass_memory;
+    hourglass.wait_as(other.hourglass);
+  }
+};
+
+/// A cell of a single layer that asks to flow.
+template <class Flow, class T, int D, bool Ring> void put_one_layer(Flow& flow, int half, const OnePointCell<T, D, Ring>& cell) {
+  flow.put_cell(half, cell.e, cell.hourglass.strain(), cell.factor, cell.J);
+  flow.put_layer(half, cell.point, cell.memory, cell.hourglass_memory);
+}
+template <class Flow, class T, int D, bool Ring> void take_one_layer(Flow& flow, int half, OnePointCell<T, D, Ring>& cell) {
+  cell.hourglass.take_flow(flow, half, cell.point, cell.memory, cell.hourglass_memory);
+}
+template <class T, int D, bool Ring> void flow_alone(const SolidConstants& m, const PlaneModuli& moduli, OnePointCell<T, D, Ring>& cell) {
+  FlowTogether<T, D, Ring> flow;
+  put_one_layer(flow, 0, cell);
+  flow.find_planes(cell.constants);
+  flow.flow(m, moduli);
+  take_one_layer(flow, 0, cell);
+}
+
+/// The law of a body of a single layer, and the trial of what varies; whether the cell asks to flow.
+template <class T, int D, bool Ring> bool try_one_layer(const SolidConstants& m, OnePointCell<T, D, Ring>& cell) {
+  cell.factor = stress_factor(m, cell.J);
+  cell.answer(layer_step(m, 0, cell.factor, cell.e, cell.J, cell.memory, Keep::yes));
+  cell.find_strains();
+  return cell.hourglass.try_layer(m.layer[0], cell.point, cell.memory, cell.hourglass_memory);
+}
+template <class T, int D, bool Ring> void finish_one_layer(OnePointCell<T, D, Ring>& cell) {
+  cell.hourglass.finish_only_layer(cell.point.dissipation, cell.hourglass_memory);
+}
+
+/// One step of a body of several.
+template <class T, int D, bool Ring> void step_of_layers(const SolidConstants& m, const PlaneModuli& moduli, OnePointCell<T, D, Ring>& cell) {
+  constexpr int size = Symmetric<T, D>::size;
+  Symmetric<T, D> S;
+  T dissipation(0);
+  repeat<size>([&](auto i) { S[i] = T(0); });
+  cell.hourglass.clear();
+  cell.factor = stress_factor(m, cell.J);
+  cell.find_strains();
+  FlowTogether<T, D, Ring> flow;
+  bool is_put = false;
+  double *memory = cell.memory, *hourglass_memory = cell.hourglass_memory;
+  for (int k = 0; k < m.layers; ++k) {
+    cell.answer(layer_step(m, k, cell.factor, cell.e, cell.J, memory, Keep::yes));
+    if (cell.hourglass.try_layer(m.layer[k], cell.point, memory, hourglass_memory)) {
+      if (!is_put) {
+        flow.put_cell(0, cell.e, cell.hourglass.strain(), cell.factor, cell.J);
+        flow.find_planes(cell.constants);
+        is_put = true;
+      }
+      flow.put_layer(0, cell.point, memory, hourglass_memory);
+      flow.flow(m, moduli);
+      cell.hourglass.take_flow(flow, 0, cell.point, memory, hourglass_memory);
+    }
+    const T w(m.layer[k].weight);
+    cell.hourglass.finish_layer(w, cell.point.dissipation, hourglass_memory);
+    repeat<size>([&](auto i) { S[i] += w * cell.point.S[i]; });
+    dissipation += w * cell.point.dissipation;
+    memory += kLayerItems<D> * lanes_of<T>;
+    hourglass_memory += kHourglassItems<D> * lanes_of<T>;
+  }
+  repeat<size>([&](auto i) { cell.point.S[i] = S[i]; });
+  cell.point.dissipation = dissipation;
+}
+
+}  // namespace forming_sim
