@@ -8,6 +8,17 @@
 #include "forming_sim/element/edge_points.h"
 
 namespace forming_sim {
+namespace {
+
+/// Puts points far from each other into the lanes of a block: those that follow each other have nodes in common, and where a block adds
+/// to one place again and again, each sum waits for the last.
+void spread(std::vector<int>::iterator begin, std::vector<int>::iterator end) {
+  const std::vector<int> points(begin, end);
+  const std::size_t blocks = points.size() / kLanes;  // what is over stays last
+  for (std::size_t i = 0; i < blocks * kLanes; ++i) begin[static_cast<long>(i)] = points[i % kLanes * blocks + i / kLanes];
+}
+
+}  // namespace
 
 void Elements::put_points_at_edges(const BodyModel& body, const NodeField& X) {
   std::vector<std::array<int, 4>> simplices;
@@ -39,8 +50,15 @@ void Elements::put_points_at_edges(const BodyModel& body, const NodeField& X) {
   std::vector<int> order(points.count());
   std::iota(order.begin(), order.end(), 0);
   const int of_tile = blocks_of_a_tile(g.blocks, g.cell_simplices) * kLanes;
-  for (int first = 0; first < g.cells; first += of_tile)
-    std::stable_sort(order.begin() + first, order.begin() + std::min(first + of_tile, g.cells), [&](int a, int b) { return points.nodes_of(a) < points.nodes_of(b); });
+  for (int first = 0; first < g.cells; first += of_tile) {
+    const auto begin = order.begin() + first, end = order.begin() + std::min(first + of_tile, g.cells);
+    std::stable_sort(begin, end, [&](int a, int b) { return points.nodes_of(a) < points.nodes_of(b); });
+    for (auto same = begin; same != end;) {
+      const auto next = std::find_if(same, end, [&](int point) { return points.nodes_of(point) > points.nodes_of(*same); });
+      spread(same, next);
+      same = next;
+    }
+  }
 
   std::vector<int> place(points.count());
   for (int b = 0; b < g.blocks; ++b) {
