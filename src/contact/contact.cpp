@@ -70,8 +70,9 @@ void Contact::set_masses(const std::vector<double>& inverse_mass, const std::vec
   impl_->listed = false;
 }
 
-ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v, NodeField& v_before, const Predict& predict, const Move& move, const ToolsAt& tools_at, double full_dt) {
+ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v, NodeField& v_before, const Predict& predict, const Move& move, const ToolsAt& tools_at, double full_dt, double damping) {
   Impl& m = *impl_;
+  m.damping = damping;
   v_before.resize(x.size());
   ContactStep step;
   switch (m.method) {

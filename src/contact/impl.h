@@ -44,6 +44,8 @@ struct Contact::Impl {
   std::vector<double> inverse_mass;
   std::vector<HeldNode> held;
   std::vector<int> held_of;
+  double damping = 0;       ///< of the kick, 1/s
+  double inertia = 1;       ///< 1 + a/2: by so much the workspace's masses are heavier, since damping acts on what contact does too
   // ---- what the next step depends on
   PairRecords records;
   double thickest = 0;      ///< of their layers, at least `layer`
@@ -79,6 +81,7 @@ struct Contact::Impl {
   double step_way(const std::vector<ToolMotion>& motion, const NodeField& x) const;
   /// A list that holds every pair of features nearer than `reach`.
   void ensure_list(const NodeField& x, const std::vector<ToolMotion>& motion, double reach, double step_bound);
+  void set_inertia(double wanted);
   /// Into the workspace: x at the start, v_star, v before the kick (of tools: over the step before).
   void gather(const NodeField& x, const NodeField& v, const NodeField& v_star, double dt, const std::vector<ToolMotion>& motion, const std::vector<PlanePose>& planes);
   PairConstants constants() const { return {features, work, modulus, layer, &waves}; }

@@ -76,6 +76,7 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
   for (int v : body_vertices) x_at_build.push_back(x[v]);
   travel = used = 0;
   ++builds;
+  inertia = 1;
   for (int i = 0; i < work.body_entries; ++i) {
     work.share[i].inverse_mass = inverse_mass[work.vertex[i]];
     const int h = held_of[work.vertex[i]];
@@ -89,7 +90,15 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
   }
 }
 
+void Contact::Impl::set_inertia(double wanted) {
+  if (wanted == inertia) return;
+  for (int i = 0; i < work.body_entries; ++i) work.share[i].inverse_mass = inverse_mass[work.vertex[i]] / wanted;
+  for (TiePair& pair : tie_pairs) pair.mass *= wanted / inertia;
+  inertia = wanted;
+}
+
 void Contact::Impl::gather(const NodeField& x, const NodeField& v, const NodeField& v_star, double dt, const std::vector<ToolMotion>& motion, const std::vector<PlanePose>& planes) {
+  set_inertia(1 + 0.25 * damping * (previous_dt + dt));
   team.share(work.body_entries, kNodesOfAThread, [&](long first, long last) {
     for (long i = first; i < last; ++i) {
       const int n = work.vertex[i];

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "forming_sim/config/fault.h"
-#include "forming_sim/mesh/axis.h"
 
 namespace forming_sim {
 
@@ -24,39 +23,31 @@ ResolvedPressure resolve(const PressureConfig& config, const std::string& body, 
   const auto holds = [&](int node) {
     return std::binary_search(set->second.begin(), set->second.end(), node);
   };
-  for (Facet facet : mesh.surface) {
-    const auto end = facet.nodes.begin() + mesh.dimension;
-    if (!std::all_of(facet.nodes.begin(), end, holds)) continue;
-    std::for_each(facet.nodes.begin(), end, [&](int& node) { node += first_node; });
-    resolved.facets.push_back(facet);
+  for (Face face : faces_of(mesh)) {
+    if (!std::all_of(face.begin(), face.end(), holds)) continue;
+    for (int k = 0; k < face.corners; ++k) face.nodes[k] += first_node;
+    resolved.faces.push_back(face);
   }
-  if (resolved.facets.empty())
+  if (resolved.faces.empty())
     throw Error(
         Code::invalid_scene,
         where + ", which holds all nodes of no surface face; a pressure needs whole faces of the surface");
   return resolved;
 }
 
-PressureSet::PressureSet(std::vector<ResolvedPressure> pressures, int dimension, bool axisymmetric)
-    : pressures_(std::move(pressures)), dimension_(dimension), axisymmetric_(axisymmetric) {}
-
-Vec3 PressureSet::share(const Facet& facet, int k, const NodeField& x) const {
-  const Vec3 a = vec3(x[facet.nodes[0]]), ab = vec3(x[facet.nodes[1]]) - a;
-  if (dimension_ == 3) return 1.0 / 6 * ab.cross(vec3(x[facet.nodes[2]]) - a);
-  const double part = axisymmetric_ ? turned_share(x[facet.nodes[k]][0], x[facet.nodes[1 - k]][0]) : 0.5;
-  return part * Vec3(ab.y(), -ab.x(), 0);
-}
+PressureSet::PressureSet(std::vector<ResolvedPressure> pressures, bool axisymmetric)
+    : pressures_(std::move(pressures)), axisymmetric_(axisymmetric) {}
 
 double PressureSet::add(double t, const NodeField& x, NodeField& f) const {
   double total = 0;
   for (const ResolvedPressure& pressure : pressures_) {
     const double p = pressure.profile.at(t);
     if (p == 0) continue;
-    for (const Facet& facet : pressure.facets) {
+    for (const Face& face : pressure.faces) {
       Vec3 area = Vec3::Zero();
-      for (int k = 0; k < dimension_; ++k) {
-        const Vec3 part = share(facet, k, x);
-        f[facet.nodes[k]] -= node(p * part);
+      for (int k = 0; k < face.corners; ++k) {
+        const Vec3 part = area_share(face, k, x, axisymmetric_);
+        f[face.nodes[k]] -= node(p * part);
         area += part;
       }
       total += p * area.norm();
@@ -71,10 +62,9 @@ double PressureSet::work(double t, const NodeField& x, const NodeField& v_before
   for (const ResolvedPressure& pressure : pressures_) {
     const double p = pressure.profile.at(t);
     if (p == 0) continue;
-    for (const Facet& facet : pressure.facets) {
-      for (int k = 0; k < dimension_; ++k)
-        work -= p * share(facet, k, x).dot(vec3(v_before[facet.nodes[k]]) + vec3(v_after[facet.nodes[k]]));
-    }
+    for (const Face& face : pressure.faces)
+      for (int k = 0; k < face.corners; ++k)
+        work -= p * area_share(face, k, x, axisymmetric_).dot(vec3(v_before[face.nodes[k]]) + vec3(v_after[face.nodes[k]]));
   }
   return 0.5 * dt * work;
 }

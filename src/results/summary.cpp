@@ -115,7 +115,7 @@ bool came_to_its_end(Code code) { return code == Code::success || code == Code::
 /// Tools that were there for nothing, in a run that came to its end.
 void tell_idle_tools(const Simulation& simulation, std::vector<std::string>& warnings) {
   for (std::size_t i = 0; i < simulation.tools().size(); ++i)
-    if (simulation.tools()[i].peak_force.isZero(0))
+    if (!simulation.tools()[i].touched)
       warnings.push_back("tool " + simulation.model().tools[i].name + " has touched nothing in the whole run: look at its position, unit_scale and motion, or leave it out");
 }
 

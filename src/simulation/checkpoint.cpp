@@ -9,7 +9,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f6600000008u;
+constexpr std::uint64_t kLayout = 0x6d726f6600000009u;
 }  // namespace
 
 template <class Archive> void Simulation::Impl::exchange(Archive& a) {
@@ -34,13 +34,15 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.number(rests);
   a.number(settled);
   a.number(pressed);
-  a.numbers(contact_pressure.data(), contact_pressure.size());
+  a.numbers(contact_force.data(), contact_force.size());
   for (Reaction& reaction : reactions) {
     a.numbers(reaction.impulse.data(), 3);
     a.numbers(reaction.angular.data(), 3);
   }
-  for (ToolStatus& tool : tools)
+  for (ToolStatus& tool : tools) {
     for (Vec3* value : {&tool.force, &tool.moment, &tool.impulse, &tool.angular, &tool.peak_force}) a.numbers(value->data(), 3);
+    a.number(tool.touched);
+  }
 }
 
 std::vector<char> Simulation::save() const {

@@ -2,6 +2,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "simulation/impl.h"
@@ -134,7 +135,41 @@ std::vector<double> Simulation::plastic_strain() const { return impl_->elements.
 std::vector<Sym> Simulation::stress() const { return impl_->elements.observe(impl_->x).stress; }
 std::vector<double> Simulation::volume_ratio() const { return impl_->elements.observe(impl_->x).volume_ratio; }
 
-const std::vector<double>& Simulation::contact_pressure() const { return impl_->contact_pressure; }
+std::vector<double> Simulation::contact_pressure() const {
+  const Impl& s = *impl_;
+  std::vector<double> pressure(s.x.size(), 0.0);
+  if (!s.pressed) return pressure;
+  constexpr double kTouches = 1e-3;  // of the largest force on a face: what is less than that has left
+  const auto touches = [&](const Face& face) {
+    double least = std::numeric_limits<double>::max(), most = 0;
+    for (int n : face) {
+      const double force = std::abs(s.contact_force[n]);
+      least = std::min(least, force), most = std::max(most, force);
+    }
+    return least > kTouches * most;
+  };
+  // Every node's share of the area vectors of its faces: of those that touch with all their nodes, and of all.
+  std::vector<Vec3> touching(s.x.size(), Vec3::Zero()), all = touching;
+  const auto each_share = [&](auto&& work) {
+    for (const Face& face : s.faces) {
+      if (std::none_of(face.begin(), face.end(), [&](int n) { return s.contact_force[n] != 0; })) continue;
+      const bool whole = touches(face);
+      for (int k = 0; k < face.corners; ++k) work(face.nodes[k], whole, area_share(face, k, s.x, s.model.axisymmetric));
+    }
+  };
+  each_share([&](int n, bool whole, const Vec3& share) {
+    all[n] += share;
+    if (whole) touching[n] += share;
+  });
+  std::vector<double> area(s.x.size(), 0.0);
+  each_share([&](int n, bool whole, const Vec3& share) {
+    const Vec3& towards = touching[n].isZero(0) ? all[n] : touching[n];
+    if (whole || share.dot(towards) > 0.5 * share.norm() * towards.norm()) area[n] += share.norm();
+  });
+  for (int n : s.touchable)
+    if (area[n] > 0) pressure[n] = s.contact_force[n] / area[n];
+  return pressure;
+}
 
 std::vector<double> Simulation::contact_gap() const {
   const Impl& s = *impl_;

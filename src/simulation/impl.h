@@ -26,9 +26,9 @@ struct Simulation::Impl {
   NodeField X;                      ///< initial positions
   NodeField x, v, v_before;         ///< v at the half step
   NodeField external;               ///< pressure and gravity at x, N; empty where there is none
-  NodeField v_kicked;               ///< by the forces of the elements alone; while there is damping
   Elements elements;
   std::vector<Facet> surface;       ///< joined
+  std::vector<Face> faces;          ///< likewise
   std::vector<double> physical_mass;
   std::vector<ResolvedBoundary> all_boundaries;
   BoundarySet boundaries;           ///< that hold in the running stage
@@ -39,7 +39,7 @@ struct Simulation::Impl {
   PressureSet pressures;
   StageRunner stages;
   std::optional<Contact> contact;
-  std::vector<double> contact_pressure, node_impulse;  ///< per node: running mean, Pa; of a step, N s
+  std::vector<double> contact_force, node_impulse;     ///< per node, normal: running mean, N; of a step, N s
   std::vector<int> touchable;                          ///< nodes that contact can press on
   bool pressed = false;                                ///< some contact pressure is not zero
   std::vector<ToolStatus> tools;
@@ -115,12 +115,12 @@ struct Simulation::Impl {
   /// (dt_previous + dt)/2 f/m with damping.
   Kick kick_of(double step_dt) const;
   /// v* = v + kick, with prescribed motion.
-  void predict(double step_dt, const NodeField& from, NodeField& v_star) const;
+  void predict(double step_dt, NodeField& v_star) const;
   void find_loads();
   void take_step();
   void book(const ContactStep& done);
-  /// over_kick: what makes forces of the impulses of contact, 1/s.
-  void mean_contact_pressure(double over_kick);
+  /// kick: time in which its impulses act as forces do, s.
+  void mean_contact_force(double kick);
   /// Work of prescribed motion, pressure, gravity and damping over the kick.
   void book_loads();
   void book_reactions(double kick);

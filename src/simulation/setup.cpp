@@ -87,7 +87,7 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
       elements(model.bodies, model.dimension, X,
                {p.time_step.mass_scaling, p.time_step.linear_viscosity, p.time_step.quadratic_viscosity,
                 !by_cells(), model.axisymmetric}, n),
-      stages(plan.stages, model), contact_pressure(X.size(), 0.0), node_impulse(contact_pressure) {
+      stages(plan.stages, model), contact_force(X.size(), 0.0), node_impulse(contact_force) {
   set_up_loads();
   raise_step();
   give_tools_mass();
@@ -112,6 +112,10 @@ void Simulation::Impl::set_up_loads() {
     for (const BoundaryConfig& c : loads.boundaries) held.push_back(resolve(c, body.name, body.mesh, body.first_node));
     if (model.axisymmetric) hold_at_axis(body, held);
     for (const PressureConfig& c : loads.pressures) pressed.push_back(resolve(c, body.name, body.mesh, body.first_node));
+    for (Face face : faces_of(body.mesh)) {
+      for (int k = 0; k < face.corners; ++k) face.nodes[k] += body.first_node;
+      faces.push_back(face);
+    }
     for (Facet facet : body.mesh.surface) {
       for (int a = 0; a < model.dimension; ++a) facet.nodes[a] += body.first_node;
       facet.element += body.first_element;
@@ -119,7 +123,7 @@ void Simulation::Impl::set_up_loads() {
     }
   }
   boundaries = BoundarySet(held, model.dimension);
-  pressures = PressureSet(std::move(pressed), model.dimension, model.axisymmetric);
+  pressures = PressureSet(std::move(pressed), model.axisymmetric);
   boundaries.apply_velocity(0, 0, x, v);
   holding = held.size();
   once_held = boundaries.nodes();

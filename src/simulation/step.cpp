@@ -20,8 +20,8 @@ NodalForces Simulation::Impl::forces() const {
 
 Kick Simulation::Impl::kick_of(double step_dt) const { return Kick(0.5 * (previous_dt + step_dt), damping_rate()); }
 
-void Simulation::Impl::predict(double step_dt, const NodeField& from, NodeField& v_star) const {
-  kick_nodes(elements.team(), kick_of(step_dt), from, forces(), elements.nodal_mass(), v_star);
+void Simulation::Impl::predict(double step_dt, NodeField& v_star) const {
+  kick_nodes(elements.team(), kick_of(step_dt), v, forces(), elements.nodal_mass(), v_star);
   boundaries.apply_velocity(time, step_dt, x, v_star);
 }
 
@@ -43,9 +43,9 @@ void Simulation::Impl::take_step() {
   double departed = 0;  // squared
   if (contact) {
     const ContactStep done = contact->advance(
-        time, dt, x, v, v_before, [&](double step_dt, NodeField& v_star) { predict(step_dt, v, v_star); },
+        time, dt, x, v, v_before, [&](double step_dt, NodeField& v_star) { predict(step_dt, v_star); },
         [&](double step_dt, const NodeField& with, NodeField& at) { departed = move_nodes(elements.team(), step_dt, with, then, at); },
-        [&](double step_dt) { return tool_motions(step_dt); }, full_dt());
+        [&](double step_dt) { return tool_motions(step_dt); }, full_dt(), damping_rate());
     dt = done.dt;
     book(done);
   } else {
@@ -81,10 +81,8 @@ void Simulation::Impl::book(const ContactStep& done) {
          << " s up to which the explicit contact is stable: set time_step.maximum to a fifth of contact.explicit_stable_dt_s, or contact.method to implicit";
     warnings.push_back(text.str());
   }
-  // The impulse j of contact comes after the kick: m v = m (v_before (1 - a/2) + dt f/m)/(1 + a/2) + j, a = alpha dt, dt the kick's. A force F
-  // in the place of f is (1 + a/2) j/dt, in equilibrium the one that f is balanced by, whatever the damping and the steps.
-  const double kick = 0.5 * (previous_dt + done.dt), over_kick = (1 + 0.5 * damping_rate() * kick) / kick;
-  if (done.active > 0 || contact->ties() || pressed) mean_contact_pressure(over_kick);
+  const double kick = 0.5 * (previous_dt + done.dt);  // in which impulses of contact act as forces do
+  if (done.active > 0 || contact->ties() || pressed) mean_contact_force(kick);
   for (std::size_t k = 0; k < tools.size(); ++k) {
     ToolStatus& tool = tools[k];
     if (!tool.present) {
@@ -92,31 +90,32 @@ void Simulation::Impl::book(const ContactStep& done) {
       continue;
     }
     Vec3 impulse = done.tool_impulse[k], about = done.tool_angular_impulse[k] - tool.position.cross(impulse);
+    tool.touched = tool.touched || !impulse.isZero(0);
     if (model.axisymmetric) {  // around the circle what is radial cancels, and so do the moments
       impulse.x() = 0;
       about.setZero();
     }
-    tool.impulse += kick * over_kick * impulse;
-    if (!model.axisymmetric) tool.angular += kick * over_kick * done.tool_angular_impulse[k];
-    if (ForceDrive* drive = stages.drive(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k], kick * over_kick * impulse.dot(drive->guide()));
-    tool.force += (over_kick * impulse - tool.force) / kForceMeanSteps;
-    tool.moment += (over_kick * about - tool.moment) / kForceMeanSteps;
+    tool.impulse += impulse;
+    if (!model.axisymmetric) tool.angular += done.tool_angular_impulse[k];
+    if (ForceDrive* drive = stages.drive(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k], impulse.dot(drive->guide()));
+    tool.force += (impulse / kick - tool.force) / kForceMeanSteps;
+    tool.moment += (about / kick - tool.moment) / kForceMeanSteps;
     if (tool.force.squaredNorm() > tool.peak_force.squaredNorm()) tool.peak_force = tool.force;
   }
 }
 
-void Simulation::Impl::mean_contact_pressure(double over_kick) {
+void Simulation::Impl::mean_contact_force(double kick) {
   const std::vector<double>& area = contact->nodal_area();
   for (int n : touchable) node_impulse[n] = 0;
   contact->add_normal_impulses(node_impulse);
   double most_now = 0;
   for (int n : touchable) {
-    contact_pressure[n] += (over_kick * node_impulse[n] / area[n] - contact_pressure[n]) / kForceMeanSteps;
-    most_now = std::max(most_now, std::abs(contact_pressure[n]));
+    contact_force[n] += (node_impulse[n] / kick - contact_force[n]) / kForceMeanSteps;
+    most_now = std::max(most_now, std::abs(contact_force[n]) / area[n]);
   }
   pressed = most_now > 1e-12 * contact->stiffness();
   if (!pressed)
-    for (int n : touchable) contact_pressure[n] = 0;
+    for (int n : touchable) contact_force[n] = 0;
 }
 
 void Simulation::Impl::book_loads() {
@@ -124,17 +123,15 @@ void Simulation::Impl::book_loads() {
   const std::vector<double>& mass = elements.nodal_mass();
   for (std::size_t i = 0; i < external.size(); ++i) work += 0.5 * kick * external[i].dot(v_before[i] + v[i]);
   if (alpha > 0) {
-    v_kicked.resize(v.size());
-    predict(dt, v_before, v_kicked);
-    const auto drag = [&](int i) -> Node { return alpha * kick * 0.5 * mass[i] * (v_before[i] + v_kicked[i]); };
     const auto mean = [&](int i) -> Node { return 0.5 * (v_before[i] + v[i]); };
     double lost = 0;
-    for (int i = 0; i < static_cast<int>(v.size()); ++i) lost += drag(i).dot(mean(i));
+    for (int i = 0; i < static_cast<int>(v.size()); ++i) lost += mass[i] * mean(i).squaredNorm();
     for (std::size_t k = 0; k < boundaries.nodes().size(); ++k) {  // held directions are not damped
       const int i = boundaries.nodes()[k];
-      const Vec3 whole = vec3(drag(i));
-      lost -= (whole - boundaries.projector(static_cast<int>(k)) * whole).dot(vec3(mean(i)));
+      const Vec3 whole = vec3(mean(i));
+      lost -= mass[i] * (whole - boundaries.projector(static_cast<int>(k)) * whole).dot(whole);
     }
+    lost *= alpha * kick;
     damping += lost;
     if (stages.settling()) settled_away += lost * settle.damping() / alpha;
   }
@@ -152,7 +149,6 @@ void Simulation::Impl::book_reactions(double kick) {
   } else {
     held_impulse.clear();
   }
-  const double over_kick = 1 + 0.5 * damping_rate() * kick;
   double done = 0;    // against contact it is in ContactStep::held_work
   std::size_t r = 0;  // both lists increase
   for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -160,7 +156,7 @@ void Simulation::Impl::book_reactions(double kick) {
     while (once_held[r] != i) ++r;
     Vec3 impulse = boundaries.reaction_impulse(static_cast<int>(k), vec3(force_on(i, f)), mass[i], vec3(v_before[i]), vec3(v[i]), kick);
     done += 0.5 * impulse.dot(vec3(v_before[i]) + vec3(v[i]));
-    if (!held_impulse.empty()) impulse -= over_kick * held_impulse[k];
+    if (!held_impulse.empty()) impulse -= held_impulse[k];
     reactions[r].impulse += impulse;
     reactions[r].angular += vec3(x[i]).cross(impulse);
   }

@@ -292,14 +292,87 @@ class Features(unittest.TestCase):
                 with h5py.File(self.path(out + '/result.h5')) as result:
                     last = result['frames'][sorted(result['frames'])[-1]]
                     pressure, facets = last['contact_pressure'][:], result['topology/surface'][:]
-                    start = result['topology/initial_positions'][:]
-                    area = numpy.zeros(len(start))
-                    for a, b, c in facets:
-                        area[[a, b, c]] += numpy.linalg.norm(numpy.cross(start[b] - start[a], start[c] - start[a])) / 6
+                    start, now = result['topology/initial_positions'][:], last['positions'][:]
+                    area = numpy.zeros(len(now))
+                    for a, b, c in facets:  # those that touch with all their nodes, as they are now
+                        if min(start[[a, b, c], 2]) > 0.0019:
+                            area[[a, b, c]] += numpy.linalg.norm(numpy.cross(now[b] - now[a], now[c] - now[a])) / 6
                     force = last['tools/0/force'][2]
                 self.assertGreater(-speed * force, 1000)  # below 0: a tie that pulls
                 self.assertAlmostEqual((pressure * area).sum(), force, delta=1e-3 * abs(force))
                 self.assertEqual(abs(pressure[start[:, 2] < 0.0019]).max(), 0)
+
+    def pressed_plate(self, pattern, **fields):
+        """A plate between frictionless planes of symmetry, so that what presses its top evenly makes one state of stress."""
+        plate = body('plate', boundaries=[{'set': name, 'kind': 'symmetric', 'normal': normal} for name, normal in
+                                          (('bottom', [0, 0, 1]), ('left', [1, 0, 0]), ('right', [1, 0, 0]), ('front', [0, 1, 0]), ('back', [0, 1, 0]))])
+        plate['blank']['pattern'] = pattern
+        return dict(plate, **fields)
+
+    def test_an_even_pressure_presses_evenly(self):
+        """Also on hexahedra that stay whole: every corner of a face gets a fourth."""
+        lame = ALUMINIUM['youngs_modulus'] * (1 - 0.34) / (1 + 0.34) / (1 - 2 * 0.34)
+        for pattern in ('one_point', 'fine', 'coarse'):
+            with self.subTest(pattern=pattern):
+                data = scene(self.pressed_plate(pattern, pressures=[{'set': 'top', 'times': [0.0, 1e-4], 'values': [0.0, 1e8], 'profile': 'smooth'}]), dimension=3)
+                data['stages'] = [{'kind': 'form', 'duration': 1e-4}, {'kind': 'settle', 'limit': 5e-3, 'kinetic_fraction': 1e-9}]
+                self.run_scene(data)
+                with h5py.File(self.path('out/result.h5')) as result:
+                    start, last = result['topology/initial_positions'][:], result['frames'][sorted(result['frames'])[-1]]
+                    sunk = (start - last['positions'][:])[start[:, 2] > 0.0019, 2]
+                    stress = last['stress'][:, 2]
+                exact = 0.002 * 1e8 / lame
+                self.assertLess(numpy.ptp(sunk), 1e-4 * exact)
+                self.assertAlmostEqual(sunk.mean(), exact, delta=2e-3 * exact)  # of small strains
+                self.assertLess(abs(stress + 1e8).max(), 1e5)
+
+    def test_contact_pressure_is_that_of_the_face_that_touches_now(self):
+        """A block that is pressed to half its height without friction: force over what its top has become, the same at edges and corners."""
+        for pattern in ('one_point', 'fine'):
+            with self.subTest(pattern=pattern):
+                block = body('plate', boundaries=[{'set': name, 'kind': 'symmetric', 'normal': normal} for name, normal in
+                                                  (('bottom', [0, 0, 1]), ('left', [1, 0, 0]), ('front', [0, 1, 0]))],
+                             material={'hardening': {'curve': 'perfect', 'yield_stress': 2e8}})
+                block['blank'] = {'shape': 'plate', 'length': 0.002, 'width': 0.002, 'thickness': 0.002, 'cells_along': 3, 'cells_across': 3, 'cells_through': 3,
+                                  'pattern': pattern}
+                data = scene(block, dimension=3, tools=[{'name': 'press', 'point': [0.0, 0.0, 0.002], 'normal': [0.0, 0.0, -1.0],
+                                                         'motion': {'kind': 'trajectory', 'times': [0.0, 1e-3], 'positions': [[0.0, 0.0, 0.0], [0.0, 0.0, -0.001]]}}])
+                data['stages'] = [{'kind': 'form', 'duration': 1e-3}]
+                self.run_scene(data)
+                with h5py.File(self.path('out/result.h5')) as result:
+                    start, last = result['topology/initial_positions'][:], result['frames'][sorted(result['frames'])[-1]]
+                    pressure = last['contact_pressure'][:][start[:, 2] > 0.00199]
+                self.assertLess(abs(pressure - 2e8).max(), 6e6)
+
+    def test_a_body_that_tools_hold_keeps_their_forces_while_it_settles(self):
+        """Pressed and pulled along by friction, without sliding: damping, which changes all the time, neither lets go of it nor makes energy."""
+        block = body('strip', boundaries=[{'set': 'bottom', 'kind': 'fixed'}])
+        data = scene(block, tools=[{'name': 'ram', 'point': [0.0, 0.002], 'normal': [0.0, -1.0], 'friction': 0.3, 'motion': {
+            'kind': 'trajectory', 'times': [0.0, 1e-4, 2e-4], 'positions': [[0.0, 0.0], [0.0, -4e-6], [1e-6, -4e-6]]}}])
+        data['stages'] = [{'kind': 'form', 'duration': 2.5e-4}, {'kind': 'settle', 'limit': 1e-3, 'kinetic_fraction': 1e-11}]
+        data['output'] = {'frames': 2, 'history_interval': 1e-5}
+        summary = self.run_scene(data)
+        self.assertEqual(summary['status']['name'], 'success')
+        rows = self.history()
+        formed, rest = [r for r in rows if r['stage'] == 'form'][-1], rows[-1]
+        self.assertEqual(rest['stage'], 'settle')
+        for quantity in ('tool_ram_force_x_N_per_m', 'tool_ram_force_y_N_per_m'):
+            self.assertAlmostEqual(float(rest[quantity]), float(formed[quantity]), delta=2e-4 * abs(float(formed[quantity])))
+        taken = [float(r['damping_J_per_m']) for r in rows]
+        self.assertGreater(taken[-1], 0)
+        self.assertEqual(taken, sorted(taken))
+        self.assertLess(abs(float(rest['contact_J_per_m']) - float(formed['contact_J_per_m'])), 1e-3 * float(formed['contact_J_per_m']))
+
+    def test_a_wall_that_presses_around_the_axis_is_not_idle(self):
+        """What is radial cancels in the force of an axisymmetric tool; still it has touched."""
+        plug = body('strip', boundaries=[{'set': 'bottom', 'kind': 'fixed', 'axes': ['y']},
+                                         {'set': 'top', 'kind': 'velocity', 'axes': ['y'], 'times': [0.0], 'velocities': [[0.0, -1.0, 0.0]]}])
+        data = scene(plug, axisymmetric=True, tools=[{'name': 'wall', 'point': [0.010, 0.0], 'normal': [-1.0, 0.0]},
+                                                     {'name': 'far', 'point': [0.020, 0.0], 'normal': [-1.0, 0.0]}])
+        summary = self.run_scene(data)
+        idle = [w for w in summary['warnings'] if 'has touched nothing' in w]
+        self.assertEqual(len(idle), 1, idle)
+        self.assertIn('tool far ', idle[0])
 
     def test_pairs_of_the_contact(self):
         """Two strips, one on the other: tied they move as one; sliding the upper stays behind, and its slip says by how much."""

@@ -82,17 +82,17 @@ inline Found press(const Press& given) {
   auto sim = run.start();
   while (sim->step()) {
   }
-  // Nodes of the lower face from left to right, and the force of each: its pressure is over the width of the start.
+  // Nodes of the lower face from left to right, and the force of each.
   std::vector<int> face = run.model.bodies[0].mesh.sets.at("bottom");
   std::sort(face.begin(), face.end(), [&](int i, int j) { return sim->positions()[i][0] < sim->positions()[j][0]; });
-  const auto width = [&](const NodeField& x, std::size_t i) { return (x[face[i + 1]][0] - x[face[i - 1]][0]) / 2; };
+  const auto width = [&](std::size_t i) { return (sim->positions()[face[i + 1]][0] - sim->positions()[face[i - 1]][0]) / 2; };
   std::vector<std::array<double, 3>> nodes;  // place, force, pressure
   // The half width from the second moment of the pressure: a^2 / 4 for Hertz.
   Found found{};
   double moment = 0;
   for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-    const double x = sim->positions()[face[i]][0], f = sim->contact_pressure()[face[i]] * width(sim->initial_positions(), i);
-    nodes.push_back({x, f, f / width(sim->positions(), i)});
+    const double x = sim->positions()[face[i]][0], p = sim->contact_pressure()[face[i]], f = p * width(i);
+    nodes.push_back({x, f, p});
     found.force += f;
     moment += f * x * x;
   }

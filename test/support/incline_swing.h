@@ -3,7 +3,7 @@
 // say of it.
 //
 // The block settles while it slides on the belt, under damping, in plane strain on a plane. Then the damping becomes another
-// one, or none: the nodes move a little within the layer, and from there on the swing is left to itself.
+// one, or none, which moves nothing: the swing grows out of rounding.
 #include "support/level_block.h"
 #include "support/slide_eigenvalues.h"
 
@@ -21,6 +21,7 @@ inline Block sliding_block(int cells, int rows, double mu, double damping) {
   block.settling = 2000;
   block.damping = damping;
   block.swing = "free";
+  block.after = 0.8;
   return block;
 }
 

@@ -128,7 +128,7 @@ class Contact {
   void set_masses(const std::vector<double>& inverse_mass, const std::vector<HeldNode>& held);
 
   /// Fills the velocities after the kick of all nodes for a step of this dt:
-  /// v_star = v + (dt_prev + dt)/2 f/m, prescribed components inserted.
+  /// v_star = v + (dt_prev + dt)/2 f/m, prescribed components inserted; with damping as Kick has it (element/nodes.h).
   using Predict = std::function<void(double dt, NodeField& v_star)>;
   /// x += dt v.
   using Move = std::function<void(double dt, const NodeField& v, NodeField& x)>;
@@ -142,7 +142,9 @@ class Contact {
   /// would cross. Throws Error(contact_error) naming the pair when that does
   /// not help, or when a node that nothing can move is run over.
   /// full_dt: the step that could be taken had none been halved lately, 0: dt. All halvings since count.
-  ContactStep advance(double time, double dt, NodeField& x, NodeField& v, NodeField& v_before, const Predict& predict, const Move& move, const ToolsAt& tools, double full_dt = 0);
+  /// damping: alpha of the kick, 1/s. It acts on what contact makes of the velocities too, m v (1 + a/2) = m v_before (1 - a/2) + kick f + J,
+  /// a = alpha kick: so J is kick times the force that f is balanced by, however alpha changes, and what damping takes is a m ((v_before + v)/2)^2.
+  ContactStep advance(double time, double dt, NodeField& x, NodeField& v, NodeField& v_before, const Predict& predict, const Move& move, const ToolsAt& tools, double full_dt = 0, double damping = 0);
 
   /// Independent check: edges of one surface that pierce facets of another
   /// (2D: crossing segments), nodes behind a plane, and parts wholly inside.

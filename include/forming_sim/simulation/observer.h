@@ -81,6 +81,7 @@ struct ToolStatus {
   Vec3 impulse = Vec3::Zero();             ///< of all contact so far, N s: differences give the mean force of an interval
   Vec3 angular = Vec3::Zero();             ///< likewise about the origin, N m s; axisymmetric: 0
   Vec3 peak_force = Vec3::Zero();          ///< `force` of greatest magnitude so far
+  bool touched = false;                    ///< contact has acted on it, in whatever direction
   bool present = true;                     ///< false once withdrawn
 };
 

@@ -84,9 +84,10 @@ class Simulation {
   /// Of each surface facet (same order as surface()): the stretch of the facet itself, hence on the surface.
   std::vector<SurfaceStrain> surface_strain() const;
 
-  /// Normal contact pressure on the surface per node, Pa: force over the area that the
-  /// node stood for at the start, a running mean as the tool forces are. 0 inside, below 0 where a tie pulls.
-  const std::vector<double>& contact_pressure() const;
+  /// Normal contact pressure on the surface per node, Pa: the force, a running mean as the tool forces are, over what the node has now
+  /// of its faces that touch with all their nodes and of those within 60 degrees of these; where none does, of the mean of all.
+  /// 0 inside, below 0 where a tie pulls.
+  std::vector<double> contact_pressure() const;
   /// Per node, m, as Contact::gaps and Contact::slip have them; empty where nothing can meet, or rub.
   /// The gaps are searched at every call.
   std::vector<double> contact_gap() const;
