@@ -90,7 +90,6 @@ void incline_problem(Report& report) {
   sliding.mu = 0.49;
   sliding.belt = 0.5;
   sliding.damping = 0;
-  sliding.pause = 0.1;
   report.begin("incline slides", "A block on an incline of tan = .5 with friction .49", slides(sliding));
   all_kinds(report, sliding);
   swings(report);

@@ -93,7 +93,7 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
 void Contact::Impl::set_inertia(double wanted) {
   if (wanted == inertia) return;
   for (int i = 0; i < work.body_entries; ++i) work.share[i].inverse_mass = inverse_mass[work.vertex[i]] / wanted;
-  for (TiePair& pair : tie_pairs) pair.mass *= wanted / inertia;
+  for (TiePair& pair : tie_pairs) pair.mass = wanted * pair.undamped;
   inertia = wanted;
 }
 

@@ -290,11 +290,12 @@ void prepare_tie(const Workspace& work, TiePair& pair) {
     w += work.projector[n] ? Mat3(b2m * *work.projector[n]) : Mat3(b2m * Mat3::Identity());
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(w);
-  pair.mass.setZero();
+  pair.undamped.setZero();
   for (int k = 0; k < 3; ++k) {
     const double value = solver.eigenvalues()[k];
-    if (value > 1e-12 * total) pair.mass += solver.eigenvectors().col(k) * solver.eigenvectors().col(k).transpose() / value;
+    if (value > 1e-12 * total) pair.undamped += solver.eigenvectors().col(k) * solver.eigenvectors().col(k).transpose() / value;
   }
+  pair.mass = pair.undamped;
 }
 
 void aim_tie(const Tie& tie, const Workspace& work, const std::vector<ToolMotion>& motion, TiePair& pair) {

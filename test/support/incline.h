@@ -24,8 +24,7 @@ struct Block {
   double belt = 0;           ///< speed of the slope up along itself, m/s
   double settling = 500;     ///< damping while it settles, 1/s; a sixth of critical of the slowest swing
   double damping = 500;      ///< after settling, 1/s
-  double pause = 0;          ///< after settling, until what damping gave to each impulse is forgotten, s; then the measuring begins
-  double after = 0.4;        ///< time after settling, pause and measuring, s
+  double after = 0.4;        ///< time after settling, s
   double longest_step = 0;   ///< s; 0: the stable one
   double viscosity = 0;      ///< coefficient of the linear bulk viscosity
   std::string swing = "damped";
@@ -153,9 +152,7 @@ inline Found rest_or_slide(const Block& block) {
   double settling_time = 0;
   const std::unique_ptr<Simulation> run = settled(block, &settling_time);
   Simulation& sim = *run;
-  const double mass = mass_of(sim), begin = sim.time();
-  while (sim.time() < begin + block.pause && sim.step()) {
-  }
+  const double mass = mass_of(sim);
   const auto mean = [&](const NodeField& field) {
     double sum = 0;
     for (std::size_t i = 0; i < field.size(); ++i) sum += sim.nodal_mass()[i] * vec3(field[i]).dot(down);

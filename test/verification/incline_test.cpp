@@ -14,7 +14,6 @@ TEST(Incline, StickingAndSlidingBlock) {
       if (mu < .5) {
         block.belt = .5;
         block.damping = 0;
-        block.pause = .1;
       }
       const incline::Found found = incline::rest_or_slide(block);
       const double exact = incline::exact(block);

@@ -118,7 +118,6 @@ TEST(SlidingSwing, WavesThatLeaveAndADelayEndItTogether) {
 
     incline::Block sliding = block;
     sliding.swing = "damped";
-    sliding.pause = .1;
     const incline::Found found = incline::rest_or_slide(sliding);
     std::printf("    acceleration/g %.7f, of a rigid one %.7f\n", found.acceleration, incline::exact(sliding));
     EXPECT_NEAR(found.acceleration, incline::exact(sliding), 2e-6);
@@ -132,7 +131,6 @@ TEST(SlidingSwing, DampedABlockSlidesAsARigidOne) {
   incline::Block block;
   block.facets = false;
   block.damping = 0;
-  block.pause = .1;
   block.mu = .49;
   for (const int cells : {3, 6}) {
     block.cells = cells;
@@ -144,7 +142,6 @@ TEST(SlidingSwing, DampedABlockSlidesAsARigidOne) {
     EXPECT_NEAR(found.acceleration, incline::exact(block), 1e-4 * incline::exact(block));
     EXPECT_GT(free.acceleration, 1.3 * incline::exact(block));
   }
-  block.pause = 0;
   block.mu = .51;
   block.swing = "damped";
   block.belt = .01;
