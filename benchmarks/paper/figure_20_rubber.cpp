@@ -19,8 +19,9 @@ class Fold : public Observer {
     time = s.time();
     volume_error = std::abs(volume(s, s.positions()) / volume(s, s.initial_positions()) - 1);
     // Nodes that feel a pressure where no tool is near: the strip touches itself there.
+    const std::vector<double> pressure = s.contact_pressure();
     for (std::size_t n = 0; n < s.positions().size(); ++n) {
-      if (!(s.contact_pressure()[n] > 0)) continue;
+      if (!(pressure[n] > 0)) continue;
       double nearest = 1e300;
       for (std::size_t k = 0; k < s.tools().size(); ++k) {
         const Vec3 point = s.model().tools[k].point + s.tools()[k].position;

@@ -64,7 +64,6 @@ template <class Cell> class OnePointBlock : public OnePointCell<Pack, kD<Cell>, 
   OnePointBlock(const CellGroup& g, const PlaneModuli& moduli, const NodalView& view, long block)
       : Base(moduli, constants_of<Cell>(g, block), memory_of<Cell>(g, block, 0), hourglass_of<Cell>(g, block)), g_(g), view_(view), block_(block) {}
 
-  long block() const { return block_; }
   void wait_as(const OnePointBlock& other) {
     Base::wait_as(other);
     V0 = other.V0, p = other.p;
@@ -140,7 +139,7 @@ template <class Cell> class WaitingBlocks {
 
  private:
   [[gnu::noinline, gnu::flatten]] void flow() {
-    flow_.find_planes(TwinItems<const double*>{{blocks_[0].constants, blocks_[count_ - 1].constants}});
+    flow_.find_planes(TwinItems{{blocks_[0].constants, blocks_[count_ - 1].constants}});
     flow_.flow(g_.solid, moduli_);
     for (int b = 0; b < count_; ++b) {
       take_one_layer(flow_, b, blocks_[b]);

@@ -1,8 +1,6 @@
 #include "forming_sim/loads/pressure.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
-#include <cmath>
 
 #include "forming_sim/config/fault.h"
 

@@ -77,7 +77,7 @@ std::vector<double> beside(unsigned seed, double bent, unsigned other_seed, doub
   own.put(flow, half);
   other.put(flow, 1 - half);
   const double *first = half == 0 ? own.constants.data() : other.constants.data(), *second = half == 0 ? other.constants.data() : own.constants.data();
-  flow.find_planes(TwinItems<const double*>{{first, second}});
+  flow.find_planes(TwinItems{{first, second}});
   flow.flow(own.solid, PlaneModuli(own.solid));
   own.take(flow, half);
   return own.all();
@@ -106,7 +106,7 @@ TEST(FlowTogether, AnIdleHalfDoesNoHarm) {
   Cell own(3, 4.0);
   FlowTogether<Twin<double>, 3, false> flow{};  // whose second half is nothing but zeros
   own.put(flow, 0);
-  flow.find_planes(TwinItems<const double*>{{own.constants.data(), own.constants.data()}});
+  flow.find_planes(TwinItems{{own.constants.data(), own.constants.data()}});
   flow.flow(own.solid, PlaneModuli(own.solid));
   own.take(flow, 0);
   EXPECT_EQ(own.all(), Cell(3, 4.0).alone().all());

@@ -86,12 +86,13 @@ inline Found press(const Press& given) {
   std::vector<int> face = run.model.bodies[0].mesh.sets.at("bottom");
   std::sort(face.begin(), face.end(), [&](int i, int j) { return sim->positions()[i][0] < sim->positions()[j][0]; });
   const auto width = [&](std::size_t i) { return (sim->positions()[face[i + 1]][0] - sim->positions()[face[i - 1]][0]) / 2; };
+  const std::vector<double> pressure = sim->contact_pressure();
   std::vector<std::array<double, 3>> nodes;  // place, force, pressure
   // The half width from the second moment of the pressure: a^2 / 4 for Hertz.
   Found found{};
   double moment = 0;
   for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-    const double x = sim->positions()[face[i]][0], p = sim->contact_pressure()[face[i]], f = p * width(i);
+    const double x = sim->positions()[face[i]][0], p = pressure[face[i]], f = p * width(i);
     nodes.push_back({x, f, p});
     found.force += f;
     moment += f * x * x;

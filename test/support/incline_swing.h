@@ -52,9 +52,10 @@ inline Grown let_swing(const Block& block, double steps = 0.4, double from = 1e-
   double settling_time = 0;
   const std::unique_ptr<Simulation> run = settled(even, &settling_time);
   Simulation& sim = *run;
+  const std::vector<double> pressure = sim.contact_pressure();
   std::vector<int> base;
   for (std::size_t i = 0; i < level.size(); ++i)
-    if (sim.contact_pressure()[i] > 0) base.push_back(static_cast<int>(i));
+    if (pressure[i] > 0) base.push_back(static_cast<int>(i));
   const slide::Complex lambda = slide::fastest_growing(slide::eigenvalues(elements, level, base, block.mu));
   if (lambda != 0.0) {
     grown.linear = of(slide::growth(lambda, block.damping));

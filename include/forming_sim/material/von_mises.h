@@ -167,7 +167,7 @@ PointResponse<T, D> update_layer(const HardeningCurve& hardening, const T& facto
 }
 
 /// G^X of the layer whose memory starts at `from`.
-template <class T, int D, class Items> Symmetric<T, D> load_memory(const Items& from) {
+template <class T, int D> Symmetric<T, D> load_memory(const double* from) {
   Symmetric<T, D> G;
   repeat<Symmetric<T, D>::size>([&](auto i) { load(from, i, G[i]); });
   return G;

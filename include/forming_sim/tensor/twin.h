@@ -23,7 +23,6 @@ template <class T> struct Twin {
   friend Twin operator/(const Twin& a, const Twin& b) { return {a.half[0] / b.half[0], a.half[1] / b.half[1]}; }
   friend Twin operator-(const Twin& a) { return {-a.half[0], -a.half[1]}; }
   Twin& operator+=(const Twin& b) { return *this = *this + b; }
-  Twin& operator-=(const Twin& b) { return *this = *this - b; }
   Twin& operator*=(const Twin& b) { return *this = *this * b; }
   friend auto operator>(const Twin& a, const Twin& b) { return TwinMask<decltype(a.half[0] > b.half[0])>{{a.half[0] > b.half[0], a.half[1] > b.half[1]}}; }
   friend auto operator<(const Twin& a, const Twin& b) { return TwinMask<decltype(a.half[0] < b.half[0])>{{a.half[0] < b.half[0], a.half[1] < b.half[1]}}; }
@@ -38,17 +37,13 @@ template <class T> Twin<T> smaller(const Twin<T>& a, const Twin<T>& b) { return 
 template <class T> Twin<T> sqrt(const Twin<T>& a) { return {sqrt(a.half[0]), sqrt(a.half[1])}; }
 template <class T> Twin<T> absolute(const Twin<T>& a) { return {absolute(a.half[0]), absolute(a.half[1])}; }
 
-/// Numbers in memory of which each half has its own. Items: double*, or const double*.
-template <class Items> struct TwinItems {
-  Items half[2];
+/// Numbers in memory of which each half has its own.
+struct TwinItems {
+  const double* half[2];
 };
-template <class T, class Items> void load(const TwinItems<Items>& from, int item, Twin<T>& to) {
+template <class T> void load(const TwinItems& from, int item, Twin<T>& to) {
   load(from.half[0], item, to.half[0]);
   load(from.half[1], item, to.half[1]);
-}
-template <class T> void store(const TwinItems<double*>& to, int item, const Twin<T>& value) {
-  store(to.half[0], item, value.half[0]);
-  store(to.half[1], item, value.half[1]);
 }
 
 /// A half of a number; of one that is no twin itself.
