@@ -23,8 +23,10 @@ std::vector<std::string> history_columns(const Model& model, const std::vector<P
   for (const ToolModel& tool : model.tools) {
     for (const char* axis : kAxes) columns.push_back("tool_" + tool.name + "_force_" + axis + "_N" + per_width);
     for (const char* axis : kAxes) columns.push_back("tool_" + tool.name + "_position_" + axis + "_m");
-    if (model.axisymmetric) continue;
-    for (const char* axis : kAxes) columns.push_back("tool_" + tool.name + "_moment_" + axis + "_N_m" + per_width);
+    if (model.axisymmetric)
+      columns.push_back("tool_" + tool.name + "_radial_force_N");
+    else
+      for (const char* axis : kAxes) columns.push_back("tool_" + tool.name + "_moment_" + axis + "_N_m" + per_width);
   }
   for (const char* name : {"max_plastic_strain", "max_surface_strain", "min_thickness_m", "max_thinning", "min_gap_over_h0"})
     columns.push_back(name);
@@ -35,7 +37,10 @@ std::vector<std::string> history_columns(const Model& model, const std::vector<P
       columns.push_back("probe_" + probe.name + "_stress_" + component + "_Pa");
     if (!probe.held) continue;
     for (const char* axis : kAxes) columns.push_back("probe_" + probe.name + "_reaction_force_" + axis + "_N" + per_width);
-    for (const char* axis : kAxes) columns.push_back("probe_" + probe.name + "_reaction_moment_" + axis + "_N_m" + per_width);
+    if (model.axisymmetric)
+      columns.push_back("probe_" + probe.name + "_reaction_radial_force_N");
+    else
+      for (const char* axis : kAxes) columns.push_back("probe_" + probe.name + "_reaction_moment_" + axis + "_N_m" + per_width);
   }
   return columns;
 }
@@ -85,12 +90,14 @@ void History::write(const Simulation& simulation) {
   for (std::size_t i = 0; i < simulation.tools().size(); ++i) {
     const ToolStatus& tool = simulation.tools()[i];
     Reaction& before = record_.history_tools[i];
-    const Vec3 force = elapsed > 0 ? Vec3((tool.impulse - before.impulse) / elapsed) : tool.force;
+    const Vec3 force = elapsed > 0 ? Vec3((tool.felt.impulse - before.impulse) / elapsed) : tool.force;
     add(values, force);
     add(values, tool.position);
-    if (!simulation.model().axisymmetric)
-      add(values, elapsed > 0 ? Vec3((tool.angular - before.angular) / elapsed - tool.position.cross(force)) : tool.moment);
-    before = {tool.impulse, tool.angular};
+    if (simulation.model().axisymmetric)
+      values.push_back(csv_number(elapsed > 0 ? (tool.felt.radial - before.radial) / elapsed : tool.radial_force));
+    else
+      add(values, elapsed > 0 ? Vec3((tool.felt.angular - before.angular) / elapsed - tool.position.cross(force)) : tool.moment);
+    before = tool.felt;
   }
   values.push_back(csv_number(measures.plastic_strain.value));
   values.push_back(csv_number(measures.surface_strain.value));
@@ -109,7 +116,10 @@ void History::write(const Simulation& simulation) {
     const double rate = elapsed > 0 ? 1 / elapsed : 0;
     const Vec3 force = rate * (now.impulse - before.impulse), about_origin = rate * (now.angular - before.angular);
     add(values, force);
-    add(values, simulation.model().axisymmetric ? about_origin : Vec3(about_origin - probe.position.cross(force)));
+    if (simulation.model().axisymmetric)
+      values.push_back(csv_number(rate * (now.radial - before.radial)));
+    else
+      add(values, Vec3(about_origin - probe.position.cross(force)));
     before = now;
   }
   record_.history_time = simulation.time();

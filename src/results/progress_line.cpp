@@ -69,8 +69,11 @@ void EndTable::on_end(const Simulation& simulation, Code, const std::string&) {
   std::printf("crossings            %ld\nsmallest gap / layer %.3g\n", contact.crossings, contact.min_gap_over_layer);
   if (contact.explicit_stable_dt > 0) std::printf("stable contact step  %.3g s\n", contact.explicit_stable_dt);
   for (std::size_t i = 0; i < simulation.tools().size(); ++i) {
-    const Vec3& force = simulation.tools()[i].peak_force;
-    std::printf("peak force on %-12s [%.4g, %.4g, %.4g] %s\n", simulation.model().tools[i].name.c_str(), force.x(), force.y(), force.z(), per_width ? "N/m" : "N");
+    const ToolStatus& tool = simulation.tools()[i];
+    const Vec3& force = tool.peak_force;
+    std::printf("peak force on %-12s [%.4g, %.4g, %.4g] %s", simulation.model().tools[i].name.c_str(), force.x(), force.y(), force.z(), per_width ? "N/m" : "N");
+    if (simulation.model().axisymmetric) std::printf(", radially %.4g N", tool.peak_radial_force);
+    std::printf("\n");
   }
   for (const std::string& warning : simulation.warnings()) std::printf("note: %s\n", warning.c_str());
   std::fflush(stdout);

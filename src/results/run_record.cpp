@@ -15,6 +15,9 @@ using nlohmann::json;
 json of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 Vec3 vector(const json& j) { return Vec3(j.at(0), j.at(1), j.at(2)); }
 
+json of(const Reaction& r) { return {of(r.impulse), of(r.angular), r.radial}; }
+Reaction reaction(const json& j) { return {vector(j.at(0)), vector(j.at(1)), j.at(2)}; }
+
 json of(const Peak& peak) {
   return {{"value", peak.value}, {"element", peak.element}, {"position", of(peak.position)}, {"time", peak.time}};
 }
@@ -77,8 +80,8 @@ std::string RunRecord::to_json() const {
             {"history_reactions", json::array()}};
   for (const auto& [level, most] : kinetic_peak.levels) j["kinetic_peak"].push_back({level, most});
   for (const StageRecord& s : stages) j["stages"].push_back(of(s));
-  for (const Reaction& tool : history_tools) j["history_tools"].push_back({of(tool.impulse), of(tool.angular)});
-  for (const Reaction& reaction : history_reactions) j["history_reactions"].push_back({of(reaction.impulse), of(reaction.angular)});
+  for (const Reaction& tool : history_tools) j["history_tools"].push_back(of(tool));
+  for (const Reaction& reaction : history_reactions) j["history_reactions"].push_back(of(reaction));
   return j.dump();
 }
 
@@ -98,8 +101,8 @@ RunRecord RunRecord::from_json(const std::string& text) {
     for (const json& s : j.at("stages")) record.stages.push_back(stage(s));
     record.notes = j.at("notes").get<std::vector<std::string>>();
     record.history_time = j.at("history_time");
-    for (const json& tool : j.at("history_tools")) record.history_tools.push_back({vector(tool.at(0)), vector(tool.at(1))});
-    for (const json& reaction : j.at("history_reactions")) record.history_reactions.push_back({vector(reaction.at(0)), vector(reaction.at(1))});
+    for (const json& tool : j.at("history_tools")) record.history_tools.push_back(reaction(tool));
+    for (const json& held : j.at("history_reactions")) record.history_reactions.push_back(reaction(held));
     return record;
   } catch (const json::exception& error) {
     throw Error(Code::resume_error, std::string("the checkpoint's record of the run cannot be read: ") + error.what());

@@ -103,6 +103,7 @@ Json tools(const Simulation& simulation) {
     const ToolStatus& tool = simulation.tools()[i];
     list.push_back({{"name", simulation.model().tools[i].name},
                     {"peak_force", vector(tool.peak_force)},
+                    {"peak_radial_force", simulation.model().axisymmetric ? number(tool.peak_radial_force) : Json(nullptr)},
                     {"unit", simulation.model().per_width() ? "N/m" : "N"},
                     {"position", vector(tool.position)},
                     {"present", tool.present}});

@@ -59,6 +59,7 @@ void print_summary(const SimulateFormingResult& result) {
   for (const ToolState& tool : s.tools) {
     row(("peak force on " + tool.name).c_str(), std::hypot(tool.peak_force.x, tool.peak_force.y, tool.peak_force.z), 1,
         s.dimension == 2 && !s.axisymmetric ? "N per m of width" : "N");
+    if (s.axisymmetric) row(("peak radial force on " + tool.name).c_str(), tool.peak_radial_force, 1, "N");
   }
   if (!result.files.empty()) std::printf("files in %s:\n", result.directory.c_str());
   for (const std::string& file : result.files) std::printf("  %s\n", file.c_str());

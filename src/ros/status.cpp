@@ -29,6 +29,8 @@ ToolState tool_message(const std::string& name, const ToolStatus& status) {
   message.force = vector_message(status.force);
   message.moment = vector_message(status.moment);
   message.peak_force = vector_message(status.peak_force);
+  message.radial_force = status.radial_force;
+  message.peak_radial_force = status.peak_radial_force;
   message.present = status.present;
   return message;
 }

@@ -116,7 +116,7 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom` |
 | `thinning` | the largest 1 - t/t0 of a node of `top`, t its thickness, t0 that of the start; where and when it is |
 | `bodies` | for each body: name, mass, centre, momentum, angular momentum about the origin, `bounding_box` (`min`, `max`) |
-| `tools` | for each tool: name and the vector of its peak force, of means over some 50 steps: shorter peaks are in `history.csv`, as means from row to row |
+| `tools` | for each tool: name and the vector of its peak force (axisymmetric: along the axis, and `peak_radial_force` outward, summed around the circle), of means over some 50 steps: shorter peaks are in `history.csv`, as means from row to row |
 | `springback` | `angle_deg_formed`, `angle_deg_released`, `change_deg`, `probe`, `kinetic_over_internal` |
 )";
 }

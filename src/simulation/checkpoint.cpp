@@ -9,7 +9,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f6600000009u;
+constexpr std::uint64_t kLayout = 0x6d726f660000000au;
 }  // namespace
 
 template <class Archive> void Simulation::Impl::exchange(Archive& a) {
@@ -35,12 +35,17 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.number(settled);
   a.number(pressed);
   a.numbers(contact_force.data(), contact_force.size());
-  for (Reaction& reaction : reactions) {
+  const auto exchange_reaction = [&](Reaction& reaction) {
     a.numbers(reaction.impulse.data(), 3);
     a.numbers(reaction.angular.data(), 3);
-  }
+    a.number(reaction.radial);
+  };
+  for (Reaction& reaction : reactions) exchange_reaction(reaction);
   for (ToolStatus& tool : tools) {
-    for (Vec3* value : {&tool.force, &tool.moment, &tool.impulse, &tool.angular, &tool.peak_force}) a.numbers(value->data(), 3);
+    for (Vec3* value : {&tool.force, &tool.moment, &tool.peak_force}) a.numbers(value->data(), 3);
+    a.number(tool.radial_force);
+    a.number(tool.peak_radial_force);
+    exchange_reaction(tool.felt);
     a.number(tool.touched);
   }
 }

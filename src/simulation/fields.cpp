@@ -34,15 +34,11 @@ Reaction Simulation::reaction(const std::vector<int>& nodes) const {
   for (int node : nodes) {
     const auto place = std::lower_bound(impl_->once_held.begin(), impl_->once_held.end(), node);
     if (place == impl_->once_held.end() || *place != node) continue;
-    const Reaction& one = impl_->reactions[place - impl_->once_held.begin()];
-    sum.impulse += one.impulse;
-    sum.angular += one.angular;
+    Reaction one = impl_->reactions[place - impl_->once_held.begin()];
+    if (impl_->model.axisymmetric && impl_->X[node][0] == 0) one.impulse.x() = 0;  // of the axis itself
+    sum += one;
   }
-  if (impl_->model.axisymmetric) {  // around the circle what is radial cancels, and so do the moments
-    sum.impulse.x() = 0;
-    sum.angular.setZero();
-  }
-  return sum;
+  return impl_->model.axisymmetric ? around_circle(sum) : sum;
 }
 const std::vector<std::string>& Simulation::warnings() const { return impl_->warnings; }
 

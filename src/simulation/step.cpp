@@ -87,20 +87,20 @@ void Simulation::Impl::book(const ContactStep& done) {
     ToolStatus& tool = tools[k];
     if (!tool.present) {
       tool.force = tool.moment = Vec3::Zero();
+      tool.radial_force = 0;
       continue;
     }
-    Vec3 impulse = done.tool_impulse[k], about = done.tool_angular_impulse[k] - tool.position.cross(impulse);
-    tool.touched = tool.touched || !impulse.isZero(0);
-    if (model.axisymmetric) {  // around the circle what is radial cancels, and so do the moments
-      impulse.x() = 0;
-      about.setZero();
-    }
-    tool.impulse += impulse;
-    if (!model.axisymmetric) tool.angular += done.tool_angular_impulse[k];
-    if (ForceDrive* drive = stages.drive(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k], impulse.dot(drive->guide()));
-    tool.force += (impulse / kick - tool.force) / kForceMeanSteps;
-    tool.moment += (about / kick - tool.moment) / kForceMeanSteps;
+    Reaction felt{done.tool_impulse[k], done.tool_angular_impulse[k]};
+    tool.touched = tool.touched || !felt.impulse.isZero(0);
+    if (model.axisymmetric) felt = around_circle(felt);
+    tool.felt += felt;
+    if (ForceDrive* drive = stages.drive(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k], felt.impulse.dot(drive->guide()));
+    const auto run_on = [&](auto& mean, const auto& impulse) { mean += (impulse / kick - mean) / kForceMeanSteps; };
+    run_on(tool.force, felt.impulse);
+    run_on(tool.moment, model.axisymmetric ? felt.angular : Vec3(felt.angular - tool.position.cross(felt.impulse)));
+    run_on(tool.radial_force, felt.radial);
     if (tool.force.squaredNorm() > tool.peak_force.squaredNorm()) tool.peak_force = tool.force;
+    if (std::abs(tool.radial_force) > std::abs(tool.peak_radial_force)) tool.peak_radial_force = tool.radial_force;
   }
 }
 

@@ -158,6 +158,10 @@ class Tools(SceneRun):
         idle = [w for w in summary['warnings'] if 'has touched nothing' in w]
         self.assertEqual(len(idle), 1, idle)
         self.assertIn('tool far ', idle[0])
+        wall = summary['tools'][0]
+        felt = [float(r['tool_wall_radial_force_N']) for r in self.history()]
+        self.assertGreater(wall['peak_radial_force'], 0)
+        self.assertAlmostEqual(max(felt) / wall['peak_radial_force'], 1, delta=0.05)
 
     def test_pairs_of_the_contact(self):
         """Two strips, one on the other: tied they move as one; sliding the upper stays behind, and its slip says by how much."""

@@ -24,7 +24,7 @@ Checkpoint example_checkpoint() {
   record.surface_strain = {0.3, 12, Vec3(1, 2, 3), 1e-3};
   record.thinning = {0.2, 7, Vec3(4, 5, 6), 2e-3};
   record.stages.push_back({"form", "form", 1e-3, 1, 2, 3});
-  record.history_tools = {{Vec3(0, -1, 0), Vec3(0, 0, 2)}};
+  record.history_tools = {{Vec3(0, -1, 0), Vec3(0, 0, 2), 3}};
   checkpoint.record = record.to_json();
   return checkpoint;
 }
@@ -61,6 +61,7 @@ TEST(Checkpoint, IsLoadedAsSaved) {
   EXPECT_EQ(record.stages[0].kinetic_over_internal(), 0.2);
   EXPECT_EQ(record.history_tools[0].impulse, Vec3(0, -1, 0));
   EXPECT_EQ(record.history_tools[0].angular, Vec3(0, 0, 2));
+  EXPECT_EQ(record.history_tools[0].radial, 3);
   EXPECT_NO_THROW(require_same_run(loaded, small_scene(), "checkpoint.h5"));
 }
 

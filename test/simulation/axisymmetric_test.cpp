@@ -89,8 +89,8 @@ TEST(Axisymmetric, ContactPressureIsUniformUnderAFlatEnd) {
   EXPECT_NEAR(-sim->tools()[0].force.y(), exact * area, 0.01 * exact * area);
 }
 
-// A ring is blown up against a rigid cylinder: what is radial cancels around the circle.
-TEST(Axisymmetric, AToolTellsWhatGoesAlongTheAxis) {
+// A ring is blown up against a rigid cylinder: what is radial cancels around the circle in the force, and is told beside it.
+TEST(Axisymmetric, AToolTellsWhatGoesAlongTheAxisAndWhatGoesOutward) {
   const Mesh mesh = bent_section(3, 6, [](double s, double t) { return Vec3(0.04 + 0.01 * s, 0.02 * t, 0); });
   OneBody run = one_ring(mesh, aluminium(), 40e-6);
   PressureConfig p;
@@ -109,9 +109,57 @@ TEST(Axisymmetric, AToolTellsWhatGoesAlongTheAxis) {
   while (sim->step())
     for (double each : sim->contact_pressure()) pressed = std::max(pressed, each);
   EXPECT_GT(pressed, 1e6);
-  EXPECT_EQ(sim->tools()[0].force.x(), 0);
-  EXPECT_EQ(sim->tools()[0].peak_force.norm(), std::abs(sim->tools()[0].peak_force.y()));
+  const ToolStatus& tool = sim->tools()[0];
+  EXPECT_EQ(tool.force.x(), 0);
+  EXPECT_EQ(tool.peak_force.norm(), std::abs(tool.peak_force.y()));
+  double outward = 0;
+  for (const Facet& facet : sim->surface()) {
+    const Vec3 a = vec3(sim->positions()[facet.nodes[0]]), b = vec3(sim->positions()[facet.nodes[1]]);
+    if (std::min(a.x(), b.x()) < 0.0495) continue;
+    const std::vector<double> p = sim->contact_pressure();
+    outward += M_PI * (a.x() + b.x()) * std::abs(a.y() - b.y()) * 0.5 * (p[facet.nodes[0]] + p[facet.nodes[1]]);
+  }
+  EXPECT_NEAR(tool.radial_force, outward, 0.01 * outward);
+  EXPECT_GE(tool.peak_radial_force, tool.radial_force);
+  EXPECT_GT(tool.felt.radial, 0);
   EXPECT_LT(sim->balance_error(), 0.005);
+}
+
+// A bar that cannot grow is pressed by the strain e: its side feels lambda e, the walls that hold it feel that over 2 pi R h.
+TEST(Axisymmetric, WhatHoldsASideTellsWhatPressesOutward) {
+  const double strain = 1e-3, duration = 400e-6, R = 0.01, h = 0.01;
+  const MaterialConfig m = aluminium();
+  OneBody run = one_ring(bar(0, h, 4, 4), m, duration);
+  BoundaryConfig press, base, side;
+  press.set = "top";
+  press.kind = "velocity";
+  press.axes = {"y"};
+  press.profile = "smooth";
+  press.times = {0, duration / 2, duration};
+  press.velocities = {Vec3::Zero(), Vec3(0, -2 * strain * h / duration, 0), Vec3::Zero()};
+  base.set = "bottom";
+  base.kind = "fixed";
+  base.axes = {"y"};
+  side.set = "right";
+  side.kind = "fixed";
+  side.axes = {"x"};
+  run.plan.bodies[0].boundaries = {press, base, side};
+  auto sim = run.start();
+  std::vector<int> outside, base_nodes;
+  for (std::size_t n = 0; n < sim->initial_positions().size(); ++n) {
+    if (sim->initial_positions()[n][0] > R * (1 - 1e-9)) outside.push_back(static_cast<int>(n));
+    if (sim->initial_positions()[n][1] == 0 && sim->initial_positions()[n][0] < R / 2) base_nodes.push_back(static_cast<int>(n));
+  }
+  while (sim->time() < 0.9 * duration) sim->step();
+  const Reaction before = sim->reaction(outside);
+  const double then = sim->time();
+  while (sim->step()) {}
+  const Reaction after = sim->reaction(outside);
+  EXPECT_EQ(after.impulse.x(), 0);
+  const double lambda = m.youngs_modulus * m.poissons_ratio / ((1 + m.poissons_ratio) * (1 - 2 * m.poissons_ratio));
+  const double inward = 2 * M_PI * R * h * lambda * strain;  // of what holds, on the bar
+  EXPECT_NEAR((after.radial - before.radial) / (sim->time() - then), -inward, 0.02 * inward);
+  EXPECT_EQ(sim->reaction(base_nodes).radial, 0);  // the axis holds, nothing there presses outward
 }
 
 // The hoop counts: a ring that grows by 1 % all round has this strain on its surface.

@@ -26,11 +26,22 @@ struct Energies {
   double residual() const { return kinetic + elastic + contact + plastic + friction + damping - work - initial; }
 };
 
-/// What holds or drives nodes has pushed on them so far (per metre of width in plane strain).
+/// What holds or drives nodes, or touches a tool, has pushed with so far (per metre of width in plane strain).
 struct Reaction {
   Vec3 impulse = Vec3::Zero();  ///< N s
   Vec3 angular = Vec3::Zero();  ///< about the origin, N m s
+  double radial = 0;            ///< axisymmetric: outward, summed around the circle, where `impulse` has nothing radial and `angular` is 0; N s
+
+  Reaction& operator+=(const Reaction& more) {
+    impulse += more.impulse;
+    angular += more.angular;
+    radial += more.radial;
+    return *this;
+  }
 };
+
+/// Of a section what the whole circle feels: what is radial cancels, and so do the moments.
+inline Reaction around_circle(const Reaction& section) { return {Vec3(0, section.impulse.y(), 0), Vec3::Zero(), section.impulse.x()}; }
 
 /// What limits the time step.
 struct StepLimit {
@@ -76,11 +87,12 @@ struct ToolStatus {
   Vec3 position = Vec3::Zero();            ///< of the tool's frame, m
   Mat3 rotation = Mat3::Identity();        ///< tool frame to world
   Vec3 velocity = Vec3::Zero();
-  Vec3 force = Vec3::Zero();               ///< on the tool by the bodies, running mean over about 50 steps; N (N/m in plane strain); axisymmetric: along the axis, what is radial cancels
+  Vec3 force = Vec3::Zero();               ///< on the tool by the bodies, running mean over about 50 steps; N (N/m in plane strain); axisymmetric: along the axis
   Vec3 moment = Vec3::Zero();              ///< about `position`
-  Vec3 impulse = Vec3::Zero();             ///< of all contact so far, N s: differences give the mean force of an interval
-  Vec3 angular = Vec3::Zero();             ///< likewise about the origin, N m s; axisymmetric: 0
+  double radial_force = 0;                 ///< axisymmetric: likewise outward, summed around the circle, N: what bursts a ring or clamps a punch
+  Reaction felt;                           ///< of all contact so far: differences give the mean force of an interval
   Vec3 peak_force = Vec3::Zero();          ///< `force` of greatest magnitude so far
+  double peak_radial_force = 0;
   bool touched = false;                    ///< contact has acted on it, in whatever direction
   bool present = true;                     ///< false once withdrawn
 };
