@@ -16,6 +16,11 @@ std::string number_text(double value) {
   return std::string(buffer, end);
 }
 
+std::string three_digits(double value) {
+  const double digits = std::pow(10, 2 - std::floor(std::log10(value)));
+  return number_text(std::round(value * digits) / digits);
+}
+
 std::string given_text(double value) { return number_text(value); }
 std::string given_text(int value) { return std::to_string(value); }
 std::string given_text(bool value) { return value ? "true" : "false"; }

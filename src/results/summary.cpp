@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "forming_sim/config/words.h"
 #include "forming_sim/results/body_measures.h"
 #include "forming_sim/results/text_file.h"
 #include "forming_sim/results/version.h"
@@ -120,6 +121,13 @@ void tell_idle_tools(const Simulation& simulation, std::vector<std::string>& war
       warnings.push_back("tool " + simulation.model().tools[i].name + " has touched nothing in the whole run: look at its position, unit_scale and motion, or leave it out");
 }
 
+/// Layers that bodies leave no room: what is shut in by tools that stand almost h0 too far out is too soft.
+void tell_flat_layers(const ContactStatus& contact, std::vector<std::string>& warnings) {
+  constexpr double kFlat = 0.1;  // of h0: p = 9 E, by far more than metals bear
+  if (contact.min_gap_over_layer >= kFlat) return;
+  warnings.push_back("contact layers were pressed to " + three_digits(contact.min_gap_over_layer) + " of their thickness h0, " + three_digits(contact.layer) + " m, by pressures far above their stiffness: a body that is shut in is too soft by that much room; give contact.stiffness its bulk modulus, or a smaller contact.layer");
+}
+
 /// The released angle is that of a run that came to its end.
 Json springback(const Simulation& simulation, const Scene& scene, const RunRecord& record, Gauge& gauge, Code code) {
   if (!scene.output.springback) return nullptr;
@@ -207,7 +215,10 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
   j["springback"] = springback(simulation, scene, record, gauge, code);
   j["stages"] = stages(record);
   std::vector<std::string> warnings = simulation.warnings();
-  if (came_to_its_end(code)) tell_idle_tools(simulation, warnings);
+  if (came_to_its_end(code)) {
+    tell_idle_tools(simulation, warnings);
+    if (simulation.plan().contact.method == "implicit") tell_flat_layers(contact, warnings);
+  }
   warnings.insert(warnings.end(), record.notes.begin(), record.notes.end());
   j["warnings"] = warnings;
   return j;

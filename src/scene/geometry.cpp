@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "forming_sim/config/words.h"
 #include "forming_sim/loads/rotation.h"
 #include "forming_sim/loads/velocity_field.h"
 #include "forming_sim/mesh/axis.h"

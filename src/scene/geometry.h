@@ -16,10 +16,7 @@ struct Geometry {
 /// Meshes every body and tool whose own fields are not among the `known` faults.
 Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known);
 
-/// A value above 0, rounded for notes and faults.
-std::string three_digits(double value);
-
-/// Refuses bodies and tools of sizes that betray a wrong unit scale; notes: tools whose sizes are odd. Only those
+/// Refuses bodies and tools of sizes that betray a wrong unit scale; notes: bodies and tools whose sizes are odd. Only those
 /// of the scene's bodies and tools that are meshed are looked at.
 void check_sizes(const Scene& scene, const std::vector<Mesh>& bodies, const std::vector<Mesh>& tools, std::vector<Fault>& faults, std::vector<std::string>& notes);
 

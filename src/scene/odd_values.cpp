@@ -1,6 +1,7 @@
 // Values that are taken, and told because more often they are a wrong unit or a slip of the pen than meant.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "forming_sim/config/words.h"
 #include "geometry.h"
@@ -12,6 +13,7 @@ namespace {
 constexpr double kLeastYield = 1e-5, kMostYield = 0.1;    // of Young's modulus: lead .0004, spring steel .01
 constexpr double kLightest = 100, kHeaviest = 25000;      // kg/m3: foams, tungsten and gold
 constexpr double kMuchScaling = 1e4;
+constexpr double kFast = 0.1;                             // of the waves: what moves so squeezes metal by a tenth before the rest of it knows
 
 double first_yield(const HardeningConfig& h) {
   if (h.curve == "swift") return h.strength * std::pow(h.prestrain, h.exponent);
@@ -34,31 +36,68 @@ void tell_odd_material(const BodyConfig& body, std::vector<std::string>& notes) 
     notes.push_back("the yield stress of body " + body.name + " is " + number_text(odd) + " Pa, " + three_digits(odd / m.E()) + " of Young's modulus: metals have .0005 to .01; give both in Pa");
 }
 
-void tell_odd_speed(const BodyConfig& body, std::vector<std::string>& notes) {
-  const MaterialConfig& m = body.material;
-  const double wave = std::sqrt((m.K() + 4. / 3 * m.mu()) / m.density), speed = body.initial_velocity.norm();
-  if (speed > wave)
-    notes.push_back("body " + body.name + " begins with " + three_digits(speed) + " m/s, faster than waves in it, " + three_digits(wave) + " m/s: give velocities in m/s");
+double wave_speed(const MaterialConfig& m) { return std::sqrt((m.K() + 4. / 3 * m.mu()) / m.density); }
+
+double greatest(const std::vector<Vec3>& values) {
+  double most = 0;
+  for (const Vec3& v : values) most = std::max(most, v.norm());
+  return most;
+}
+
+/// Of a trajectory the mean from knot to knot.
+double fastest(const MotionConfig& motion) {
+  if (motion.kind != "trajectory") return std::max(greatest(motion.velocities), motion.initial_velocity.norm());
+  double most = 0;
+  for (std::size_t k = 1; k < motion.positions.size(); ++k) most = std::max(most, (motion.positions[k] - motion.positions[k - 1]).norm() / (motion.times[k] - motion.times[k - 1]));
+  return most;
+}
+
+void tell_odd_speeds(const Scene& scene, std::vector<std::string>& notes) {
+  double slowest = std::numeric_limits<double>::infinity();
+  const auto tell = [&](const std::string& what, double speed, double wave, const std::string& whose) {
+    notes.push_back(what + " with " + three_digits(speed) + " m/s, where waves " + whose + " have " + three_digits(wave) + " m/s: give velocities in m/s, lengths in m and times in s");
+  };
+  for (const BodyConfig& body : scene.bodies) {
+    const double wave = wave_speed(body.material), speed = body.initial_velocity.norm();
+    slowest = std::min(slowest, wave);
+    if (speed > wave) tell("body " + body.name + " begins", speed, wave, "in it");
+    for (const BoundaryConfig& boundary : body.boundaries)
+      if (const double driven = greatest(boundary.velocities); driven > kFast * wave) tell("set " + boundary.set + " of body " + body.name + " is driven", driven, wave, "in it");
+  }
+  for (const ToolConfig& tool : scene.tools)
+    if (const double speed = tool.motion ? fastest(*tool.motion) : 0; speed > kFast * slowest) tell("tool " + tool.name + " moves", speed, slowest, "in the bodies");
+}
+
+/// Loads and motions that go on when the stages are over.
+void tell_late(const Scene& scene, double end, std::vector<std::string>& notes) {
+  const auto tell = [&](const std::string& what, const std::vector<double>& times) {
+    if (times.empty() || times.back() <= end * (1 + 1e-9)) return;
+    notes.push_back(what + " goes on to " + three_digits(times.back()) + " s and the stages end at " + three_digits(end) + " s: what comes later does not happen");
+  };
+  const auto rests = [&](const auto& values) { return std::all_of(values.begin(), values.end(), [&](const auto& value) { return value == values.front(); }); };
+  for (const BodyConfig& body : scene.bodies) {
+    for (const BoundaryConfig& b : body.boundaries)
+      if (!rests(b.velocities) || !rests(b.spins_deg_s)) tell("the motion of set " + b.set + " of body " + body.name, b.times);
+    for (const PressureConfig& p : body.pressures)
+      if (!rests(p.values)) tell("the pressure on set " + p.set + " of body " + body.name, p.times);
+  }
+  for (const ToolConfig& tool : scene.tools)
+    if (tool.motion) tell("the motion of tool " + tool.name, tool.motion->times);
 }
 
 }  // namespace
 
 void tell_odd_values(const Scene& scene, std::vector<std::string>& notes) {
-  for (const BodyConfig& body : scene.bodies) {
-    tell_odd_material(body, notes);
-    tell_odd_speed(body, notes);
-  }
+  for (const BodyConfig& body : scene.bodies) tell_odd_material(body, notes);
+  tell_odd_speeds(scene, notes);
   if (scene.time_step.mass_scaling > kMuchScaling)
     notes.push_back("time_step.mass_scaling " + number_text(scene.time_step.mass_scaling) + " makes waves " + three_digits(std::sqrt(scene.time_step.mass_scaling)) +
                     " times as slow: look at kinetic_over_internal_forming, and expect bodies to be squeezed flat where tools are faster than these waves");
   double end = 0;
   for (const StageConfig& stage : scene.stages) end += stage.kind == "settle" ? stage.limit : stage.duration;
-  const std::string ends = "the stages end at " + three_digits(end) + " s";
-  for (const ToolConfig& tool : scene.tools)
-    if (tool.motion && !tool.motion->times.empty() && tool.motion->times.back() > end * (1 + 1e-9))
-      notes.push_back("the motion of tool " + tool.name + " goes on to " + three_digits(tool.motion->times.back()) + " s and " + ends + ": what comes later does not happen");
+  tell_late(scene, end, notes);
   const auto interval = [&](double given, const std::string& field) {
-    if (given > end) notes.push_back("output." + field + " is " + three_digits(given) + " s and " + ends + ": nothing is written between the first state and the last");
+    if (given > end) notes.push_back("output." + field + " is " + three_digits(given) + " s and the stages end at " + three_digits(end) + " s: nothing is written between the first state and the last");
   };
   interval(scene.output.interval, "interval");
   interval(scene.output.history_interval, "history_interval");

@@ -10,16 +10,12 @@
 
 namespace forming_sim {
 
-std::string three_digits(double value) {
-  const double digits = std::pow(10, 2 - std::floor(std::log10(value)));
-  return number_text(std::round(value * digits) / digits);
-}
-
 namespace {
 
 constexpr double kLargest = 100, kSmallest = 1e-6;  // m
 constexpr double kRatio = 200;                      // of a tool to the bodies
 constexpr double kOddRatio = 20;                    // likewise: taken, and told
+constexpr double kOddSize = 5;                      // of a body from a mesh, m: likewise
 
 /// Largest extent along an axis, m; 0 without nodes.
 double extent(const Mesh& mesh) { return mesh.nodes.empty() ? 0 : bounds(mesh).sizes().maxCoeff(); }
@@ -65,6 +61,8 @@ void check_sizes(const Scene& scene, const std::vector<Mesh>& bodies, const std:
     largest_body = std::max(largest_body, size);
     least_edge = std::min(least_edge, shortest_edge(bodies[i]));
     all_known = all_known && size > 0;
+    if (size > kOddSize && size <= kLargest && scene.bodies[i].mesh)
+      notes.push_back("body " + scene.bodies[i].name + " measures " + in_metres(size) + ": " + right_scale(*scene.bodies[i].mesh, size, size / kOddSize));
     check_extent(scene.bodies[i].mesh, size, join_path("bodies", i) + (scene.bodies[i].blank ? ".blank" : ""), faults);
   }
   for (std::size_t i = 0; i < tools.size(); ++i) {

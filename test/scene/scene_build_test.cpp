@@ -328,7 +328,7 @@ TEST(SceneBuild, OddValuesAreTold) {
   told("the density of body plate is 7.85 kg/m3: steel has 7850", [](Scene& s) { s.bodies[0].material.density = 7.85; });
   told("the yield stress of body plate is 200 Pa", [](Scene& s) { s.bodies[0].material.hardening->yield_stress = 200; });
   told("the yield stress of body plate is 2e+10 Pa", [](Scene& s) { s.bodies[0].material.hardening->yield_stress = 2e10; });
-  told("body plate begins with 10000 m/s, faster than waves in it", [](Scene& s) { s.bodies[0].initial_velocity = Vec3(0, 0, 1e4); });
+  told("body plate begins with 10000 m/s, where waves in it have", [](Scene& s) { s.bodies[0].initial_velocity = Vec3(0, 0, 1e4); });
   told("time_step.mass_scaling 1000000 makes waves 1000 times as slow", [](Scene& s) { s.time_step.mass_scaling = 1e6; });
   told("output.interval is 50 s and the stages end at", [](Scene& s) { s.output.interval = 50; });
   told("probe tip is put 100 m outside body plate", [](Scene& s) {
@@ -344,6 +344,57 @@ TEST(SceneBuild, OddValuesAreTold) {
     motion.velocities = {Vec3::Zero(), Vec3::UnitZ()};
     s.tools[0].motion = motion;
   });
+  told("tool " + plate_scene().tools[0].name + " moves with 2000 m/s, where waves in the bodies have", [](Scene& s) {
+    MotionConfig motion;
+    motion.kind = "trajectory";
+    motion.times = {0, 1e-5};
+    motion.positions = {Vec3::Zero(), Vec3(0, 0, 0.02)};
+    s.tools[0].motion = motion;
+  });
+  const auto driven = [](double speed, double until) {
+    BoundaryConfig drive;
+    drive.set = "left";
+    drive.kind = "velocity";
+    drive.times = {0, until};
+    drive.velocities = {Vec3::Zero(), Vec3(speed, 0, 0)};
+    return drive;
+  };
+  told("set left of body plate is driven with 2000 m/s", [&](Scene& s) { s.bodies[0].boundaries.push_back(driven(2000, 1e-6)); });
+  told("the motion of set left of body plate goes on to 1000 s", [&](Scene& s) { s.bodies[0].boundaries.push_back(driven(1, 1000)); });
+  told("the pressure on set top of body plate goes on to 1000 s", [](Scene& s) {
+    PressureConfig pressure;
+    pressure.set = "top";
+    pressure.times = {0, 1000};
+    pressure.values = {0, 1e6};
+    s.bodies[0].pressures.push_back(pressure);
+  });
+  EXPECT_TRUE(notes_of([](Scene& s) {  // level: nothing is missed
+    PressureConfig pressure;
+    pressure.set = "top";
+    pressure.times = {0, 1000};
+    pressure.values = {1e6, 1e6};
+    s.bodies[0].pressures.push_back(pressure);
+  }).empty());
+}
+
+// A body that measures 20 m is more often one in millimetres.
+TEST(SceneBuild, ABodyOfManyMetresIsTold) {
+  Scene scene = plate_scene();
+  scene.tools.clear();
+  scene.bodies[0].blank.reset();
+  MeshConfig mesh;
+  mesh.unit_scale = 1;
+  mesh.cell_type = "tetrahedron";
+  mesh.points = {Vec3(0, 0, 0), Vec3(20, 0, 0), Vec3(0, 20, 0), Vec3(0, 0, 20)};
+  mesh.cells = {0, 1, 2, 3};
+  scene.bodies[0].mesh = mesh;
+  const auto tells = [&] {
+    const std::vector<std::string> notes = build_model(scene).notes;
+    return std::any_of(notes.begin(), notes.end(), [](const std::string& note) { return note.find("measures 20 m: with unit_scale 0.001 it would be 0.02 m") != std::string::npos; });
+  };
+  EXPECT_TRUE(tells());
+  scene.bodies[0].mesh->unit_scale = 0.1;
+  EXPECT_FALSE(tells());
 }
 
 TEST(SceneBuild, ABodyInTwoPartsIsTold) {

@@ -10,6 +10,8 @@ namespace forming_sim {
 
 /// The shortest decimal that reads back to the same number: 0.1, 7.05e+10; "nan", "inf".
 std::string number_text(double value);
+/// A value above 0, rounded for notes and faults.
+std::string three_digits(double value);
 
 /// What was given, as a user would write it: numbers, [x, y, z], words in quotes,
 /// lists of more than 6 shortened.

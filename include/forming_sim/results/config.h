@@ -43,8 +43,8 @@ struct OutputConfig {
   std::optional<SpringbackConfig> springback;
 
   template <class Visitor> static void declare(Visitor&& visit) {
-    visit(FORMING_SIM_FIELD(interval), Field().unit("s").at_least(0).computed("total duration / frames").doc("simulated time between frames of result.h5"));
-    visit(FORMING_SIM_FIELD(frames), Field().at_least(1).at_most(1e5).doc("frames over the whole run, where interval is not given"));
+    visit(FORMING_SIM_FIELD(interval), Field().unit("s").at_least(0).computed("time of the stages / frames; settle stages count for no more than the others together").doc("simulated time between frames of result.h5"));
+    visit(FORMING_SIM_FIELD(frames), Field().at_least(1).at_most(1e5).doc("frames over the run, where interval is not given"));
     visit(FORMING_SIM_FIELD(history_interval), Field().unit("s").at_least(0).computed("a tenth of interval").doc("simulated time between rows of history.csv"));
     visit(FORMING_SIM_FIELD(checkpoint_interval), Field().unit("s").at_least(0).computed("only on cancel").doc("simulated time between checkpoints"));
     visit(FORMING_SIM_FIELD(probes), Field().doc("points and sets to follow"));

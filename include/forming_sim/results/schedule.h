@@ -1,6 +1,7 @@
 #pragma once
 // When something is due again: at the first step at or after every multiple of
 // an interval of simulated time, so that a resumed run keeps the same times.
+#include <algorithm>
 #include <cmath>
 
 #include "forming_sim/scene/scene.h"
@@ -35,6 +36,14 @@ inline double longest_time(const std::vector<StageConfig>& stages) {
   return time;
 }
 
+/// Simulated time that `frames` are spread over, s. Settle stages mostly end long before their limits: together they count for
+/// no more than the other stages, so that these get their share of frames, but a run to all limits has at most 20 times `frames`.
+inline double time_of_frames(const std::vector<StageConfig>& stages) {
+  double settling = 0, others = 0;
+  for (const StageConfig& stage : stages) (stage.kind == "settle" ? settling += stage.limit : others += stage.duration);
+  return others > 0 ? std::max(others + std::min(settling, others), (others + settling) / 20) : settling;
+}
+
 /// Intervals of simulated time, s, with the defaults that OutputConfig states.
 struct OutputIntervals {
   double frames = 0, history = 0, checkpoint = 0;
@@ -42,7 +51,7 @@ struct OutputIntervals {
 inline OutputIntervals output_intervals(const Scene& scene) {
   OutputIntervals intervals;
   const OutputConfig& output = scene.output;
-  intervals.frames = output.interval > 0 ? output.interval : longest_time(scene.stages) / output.frames;
+  intervals.frames = output.interval > 0 ? output.interval : time_of_frames(scene.stages) / output.frames;
   intervals.history = output.history_interval > 0 ? output.history_interval : intervals.frames / 10;
   intervals.checkpoint = output.checkpoint_interval;
   return intervals;
