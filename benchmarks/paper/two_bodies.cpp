@@ -114,7 +114,7 @@ ImpactFound collide(const ImpactCase& c) {
   const Energies& e = sim.energies();
   found.energy = (e.kinetic + e.elastic) / e.initial - 1;
   found.restitution = momentum(0) / whole;
-  found.momentum = c.wall ? (momentum(0) + whole + sim.tools()[0].impulse[0]) / whole : (momentum(0) + momentum(1)) / whole;
+  found.momentum = c.wall ? (momentum(0) + whole + sim.tools()[0].felt.impulse[0]) / whole : (momentum(0) + momentum(1)) / whole;
   const ContactStatus status = sim.contact_status();
   found.crossings = status.crossings;
   found.halvings = status.halvings;

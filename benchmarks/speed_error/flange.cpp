@@ -17,7 +17,7 @@ class PunchForce : public Observer {
   explicit PunchForce(double duration) : duration_(duration) {}
   void on_step(const Simulation& sim) override {
     while (static_cast<int>(force.size()) < kForceParts && sim.time() >= duration_ * static_cast<double>(force.size() + 1) / kForceParts) {
-      const double impulse = sim.tools()[2].impulse[1];  // die, pad, punch
+      const double impulse = sim.tools()[2].felt.impulse[1];  // die, pad, punch
       force.push_back((impulse - impulse_) / (sim.time() - time_));
       impulse_ = impulse;
       time_ = sim.time();

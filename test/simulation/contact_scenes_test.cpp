@@ -139,9 +139,9 @@ TEST(ContactScenes, ATipIntoACoarseBlock) {
     double least = 1;
     while (sim->step())
       for (double ratio : sim->volume_ratio()) least = std::min(least, ratio);
-    std::printf("  %g m/s: least V/V0 %.3f, impulse on the wedge %.3g N s\n", speed, least, -sim->tools()[0].impulse.y());
+    std::printf("  %g m/s: least V/V0 %.3f, impulse on the wedge %.3g N s\n", speed, least, -sim->tools()[0].felt.impulse.y());
     EXPECT_GT(least, .6);
-    EXPECT_LT(sim->tools()[0].impulse.y(), 0);
+    EXPECT_LT(sim->tools()[0].felt.impulse.y(), 0);
     EXPECT_EQ(sim->contact_status().crossings, 0);
     EXPECT_EQ(sim->contact_status().halvings, 0);
   }

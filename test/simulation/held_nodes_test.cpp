@@ -68,7 +68,7 @@ Momentum run_to_the_end(const OneBody& run) {
     kicks += 0.5 * (before + sim->dt());
   }
   EXPECT_LT(sim->balance_error(), 1e-3);
-  return {momentum_of(*sim) - start, sim->reaction(all).impulse, sim->tools()[0].impulse, mass * kicks * run.plan.gravity};
+  return {momentum_of(*sim) - start, sim->reaction(all).impulse, sim->tools()[0].felt.impulse, mass * kicks * run.plan.gravity};
 }
 
 // The nodes along y are held and pressed at once: what the tool pushes there goes into what holds them.

@@ -68,7 +68,7 @@ inline Impact hit_wall(int cells, double safety, const ContactConfig& contact = 
   const double start = gap / v;
   double early = 0, late = 0, t_early = 0, t_late = 0, first = 0, last = 0, before = 0;
   while (sim->step()) {
-    const double t = sim->time() - start, impulse = -sim->tools()[0].impulse[bar.axis];
+    const double t = sim->time() - start, impulse = -sim->tools()[0].felt.impulse[bar.axis];
     if (impulse > before) {
       if (first == 0) first = sim->time();
       last = sim->time();
@@ -78,7 +78,7 @@ inline Impact hit_wall(int cells, double safety, const ContactConfig& contact = 
     if (t < 1.0e-3) late = impulse, t_late = t;
   }
   const double momentum = 2 * rho * L * bar.section * v;  // for restitution 1
-  return {(late - early) / (t_late - t_early) / bar.section, last - first, sim->tools()[0].impulse.norm() / momentum * 2 - 1,
+  return {(late - early) / (t_late - t_early) / bar.section, last - first, sim->tools()[0].felt.impulse.norm() / momentum * 2 - 1,
           sim->balance_error(), sim->contact_status().crossings, size_of(*sim), sim->energies().contact / sim->energies().initial};
 }
 

@@ -190,7 +190,7 @@ inline Found strike(const Strike& given, int threads = 1) {
     }
     if (sim->steps() % 10 == 0) found.approach = std::max(found.approach, end_of_flight - height());
     if (sim->time() - since < 0.05 * kDuration) continue;  // nodes that come into contact one by one even out
-    const double impulse = sim->tools()[0].impulse.y();
+    const double impulse = sim->tools()[0].felt.impulse.y();
     found.force = std::max(found.force, -parts * (impulse - before) / (sim->time() - since));
     before = impulse;
     since = sim->time();

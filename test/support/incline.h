@@ -159,12 +159,12 @@ inline Found rest_or_slide(const Block& block) {
     return sum / mass;
   };
   const double t0 = sim.time(), half0 = t0 - 0.5 * sim.dt(), v0 = mean(sim.velocities()), x0 = mean(sim.positions());
-  const Vec3 impulse0 = sim.tools()[0].impulse;
+  const Vec3 impulse0 = sim.tools()[0].felt.impulse;
   while (sim.step()) {
   }
   const double t = sim.time() - t0, between = sim.time() - 0.5 * sim.dt() - half0;  // half steps, where velocities are
   const double change = mean(sim.velocities()) - v0, way = mean(sim.positions()) - x0;
-  const Vec3 impulse = sim.tools()[0].impulse - impulse0;
+  const Vec3 impulse = sim.tools()[0].felt.impulse - impulse0;
   RunSize size = size_of(sim);
   size.wall_time += settling_time;
   return {(change / between + block.damping * way / t) / kGravity, way / t, mean(sim.velocities()) + block.belt, impulse.dot(down) / -impulse.dot(normal), sim.balance_error(),

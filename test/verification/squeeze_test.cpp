@@ -38,12 +38,12 @@ Found squeeze(double less, double layer, bool plastic, int cells = 4, bool walls
   double before = 0, since = 0;
   try {
     while (sim->step()) {
-      if (since == 0 && sim->time() > 1.5 * time) before = sim->tools()[1].impulse.y(), since = sim->time();
+      if (since == 0 && sim->time() > 1.5 * time) before = sim->tools()[1].felt.impulse.y(), since = sim->time();
     }
   } catch (const Error& e) {
     found.error = e.what();
   }
-  if (since > 0) found.pressure = (sim->tools()[1].impulse.y() - before) / (sim->time() - since) / (8 * kThickness);
+  if (since > 0) found.pressure = (sim->tools()[1].felt.impulse.y() - before) / (sim->time() - since) / (8 * kThickness);
   found.balance = sim->balance_error();
   found.crossings = sim->contact_status().crossings;
   found.halvings = sim->contact_status().halvings;

@@ -30,9 +30,9 @@ double measured_friction(const Choice& choice) {
   scene.contact.swing = choice.swing;
   Simulation sim(build_plan(scene), build_model(scene), 1);
   while (sim.time() < 1.2e-3 && sim.step()) {}
-  const Vec3 die = sim.tools()[0].impulse, holder = sim.tools()[1].impulse;
+  const Vec3 die = sim.tools()[0].felt.impulse, holder = sim.tools()[1].felt.impulse;
   while (sim.time() < 2e-3 && sim.step()) {}
-  const Vec3 on_die = sim.tools()[0].impulse - die, on_holder = sim.tools()[1].impulse - holder;
+  const Vec3 on_die = sim.tools()[0].felt.impulse - die, on_holder = sim.tools()[1].felt.impulse - holder;
   EXPECT_EQ(sim.contact_status().crossings, 0);
   EXPECT_LT(std::abs(sim.balance_error()), 1e-3);
   const double found = .5 * (std::abs(on_die.x() / on_die.y()) + std::abs(on_holder.x() / on_holder.y()));

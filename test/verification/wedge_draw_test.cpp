@@ -62,7 +62,7 @@ Found draw() {
   double next = 1.1e-3;
   while (sim->step()) {
     if (sim->time() < next) continue;
-    impulse.push_back(sim->tools()[0].impulse);
+    impulse.push_back(sim->tools()[0].felt.impulse);
     next += kWindow;
   }
   EXPECT_LT(std::abs(sim->balance_error()), 1e-3);
