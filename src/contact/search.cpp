@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "contact/impl.h"
 
@@ -55,6 +56,20 @@ double Contact::Impl::step_way(const std::vector<ToolMotion>& motion, const Node
              [&](size_t t, const Vec3& p) { return motion[t].inverse_mass > 0 ? pose0(motion[t], p) : pose1(motion[t], p); });
 }
 
+// Squares and cubes of lengths must stay numbers.
+void Contact::Impl::check_reach(const NodeField& x, double radius) const {
+  constexpr double kFarthest = 1e30;  // m
+  const auto lost = std::find_if(body_vertices.begin(), body_vertices.end(), [&](int v) { return !(x[v].cwiseAbs().maxCoeff() < kFarthest); });
+  if (lost == body_vertices.end() && radius < kFarthest) return;
+  std::ostringstream text;
+  if (lost != body_vertices.end())
+    text << name_of_vertex(*lost) << " is at (" << vec3(x[*lost]).transpose() << ") m";
+  else
+    text << "a body or tool would go " << radius << " m in a step";
+  text << ", farther than numbers reach: look for a motion, a boundary, a pressure, gravity or an initial velocity in other units than m, s, Pa";
+  throw Error(Code::contact_error, text.str());
+}
+
 void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion>& motion, double reach, double step_bound) {
   const std::vector<bool> present = ToolSet::present(motion);
   if (listed && present == listed_present) {
@@ -68,6 +83,7 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
     if (used + reach <= list.radius - std::max(0.1 * features.mean_edge, step_bound)) return;
   }
   const double radius = reach + std::max(0.25 * features.mean_edge, 4 * step_bound);
+  check_reach(x, radius);
   list = build_list(features, x, {*tool_index, motion, present, tools.is_plane, tools.planes(motion)}, ties, radius, work);
   listed = true;
   listed_present = present;

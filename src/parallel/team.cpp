@@ -5,8 +5,12 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
+
+#include "forming_sim/config/fault.h"
 
 namespace forming_sim {
 namespace {
@@ -101,20 +105,28 @@ struct Team::Impl {
     wake.notify_all();
     return number;
   }
+
+  void end() {
+    ends = true;
+    pieces = 0;
+    call_others();
+    for (std::thread& other : others) other.join();
+  }
 };
 
 Team::Team(int threads) : impl_(std::make_unique<Impl>()) {
   impl_->claims = std::make_unique<Claim[]>(static_cast<std::size_t>(threads) * kParts);
   impl_->others.reserve(threads);
-  for (int k = 1; k < threads; ++k) impl_->others.emplace_back([this, k] { impl_->serve(k); });
+  try {
+    for (int k = 1; k < threads; ++k) impl_->others.emplace_back([this, k] { impl_->serve(k); });
+  } catch (const std::system_error& error) {
+    const std::size_t started = impl_->others.size() + 1;
+    impl_->end();
+    throw SceneError({{Code::invalid_scene, "threads", std::to_string(threads), "the system starts no more than " + std::to_string(started) + " (" + error.what() + "): give fewer"}});
+  }
 }
 
-Team::~Team() {
-  impl_->ends = true;
-  impl_->pieces = 0;
-  impl_->call_others();
-  for (std::thread& other : impl_->others) other.join();
-}
+Team::~Team() { impl_->end(); }
 
 int Team::size() const { return impl_->size(); }
 

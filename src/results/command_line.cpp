@@ -7,6 +7,7 @@
 
 #include "forming_sim/config/fault.h"
 #include "forming_sim/config/words.h"
+#include "forming_sim/parallel/team.h"
 
 namespace forming_sim {
 
@@ -44,8 +45,8 @@ namespace {
 int read_threads(const std::string& text) {
   int threads = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), threads);
-  if (error != std::errc() || end != text.data() + text.size() || threads < 1 || threads > 1024) {
-    refuse("--threads was given '" + text + "'; give a whole number from 1 to 1024.");
+  if (error != std::errc() || end != text.data() + text.size() || threads < 1 || threads > kMostThreads) {
+    refuse("--threads was given '" + text + "'; give a whole number from 1 to " + std::to_string(kMostThreads) + ".");
   }
   return threads;
 }

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <thread>
 
+#include "forming_sim/parallel/team.h"
 #include "forming_sim/results/start.h"
 #include "forming_sim/ros/convert.h"
 #include "forming_sim/ros/publisher.h"
@@ -22,6 +23,8 @@ Prepared prepare(const SceneSpec& message, const std::string& scene_text, int th
     std::vector<Fault> known;
     prepared.scene = scene_from(message, known);
     prepared.scene.text = scene_text.empty() ? write_scene(prepared.scene) : scene_text;
+    if (threads < 1 || threads > kMostThreads)
+      known.push_back({Code::invalid_scene, "threads", std::to_string(threads), "give 1 to " + std::to_string(kMostThreads) + ", or 0 for the server's"});
     StartCheck start = check_start(prepared.scene, known, threads);
     prepared.faults = std::move(start.faults);
     prepared.notes = std::move(start.notes);
@@ -60,7 +63,7 @@ bool is_readable_file(const std::string& path) {
 }
 
 int choose_threads(int asked, int standard) {
-  if (asked > 0) return asked;
+  if (asked != 0) return asked;
   if (standard > 0) return standard;
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }

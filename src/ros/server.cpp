@@ -9,6 +9,7 @@
 #include "forming_sim/ros/summary.h"
 #include "forming_sim/results/estimate.h"
 #include "forming_sim/results/run_scene.h"
+#include "forming_sim/parallel/team.h"
 
 namespace forming_sim {
 namespace {
@@ -54,9 +55,9 @@ FormingServer::FormingServer(const ros::NodeHandle& node)
       server_(
           node_, "simulate_forming", [this](Goal goal) { on_goal(goal); }, [this](Goal goal) { on_cancel(goal); }, false) {
   node_.param("threads", threads_, 0);
-  if (threads_ < 0) {
+  if (threads_ < 0 || threads_ > kMostThreads) {
     throw Error(Code::invalid_scene, "parameter " + node_.resolveName("threads") + ": given " + std::to_string(threads_) +
-                                         "; give a number of threads, or 0 for one a processor");
+                                         "; give 1 to " + std::to_string(kMostThreads) + " threads, or 0 for one a processor");
   }
   node_.param<std::string>("output_root", output_root_, "");
   if (output_root_.empty()) output_root_ = default_output_root();
@@ -167,9 +168,6 @@ SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
   std::unique_ptr<Simulation> simulation;
   {
     Prepared prepared = prepare(request->scene, request->scene_text, threads);
-    if (request->threads < 0) {
-      prepared.faults.push_back({Code::invalid_scene, "threads", std::to_string(request->threads), "give 1 or more, or 0 for the server's"});
-    }
     if (!request->resume.empty() && !is_readable_file(request->resume)) {
       prepared.faults.push_back({Code::resume_error, "resume", '"' + request->resume + '"', "give the checkpoint file of an earlier run on the server's machine"});
     }

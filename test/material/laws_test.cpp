@@ -74,6 +74,17 @@ TEST(Hyperelastic, AtRestItIsHookes) {
   EXPECT_NEAR(point.uniaxial(1 + strain), E * strain, 1e-5 * E * strain);
 }
 
+// In shear tr Bbar - 3 = g^2 and tr(Bbar.Bbar) - 3 = 4 g^2 + g^4; told also where g^2 is below the rounding of 3.
+TEST(Hyperelastic, TheEnergyOfShearIsExactHoweverSmall) {
+  const SolidConstants solid = rubber();
+  for (double g : {1e-9, 1e-6, 1e-3, 0.5, 3.0}) {
+    MaterialPoint point(solid);
+    const double exact = 0.5 * solid.h1 * g * g + 0.25 * solid.h2 * (4 + g * g) * g * g;
+    EXPECT_NEAR(point.step(simple_shear(g), false).energy, exact, 1e-6 * exact) << g;
+  }
+  EXPECT_EQ(MaterialPoint(solid).step(Mat3::Identity(), false).energy, 0);
+}
+
 // ---------------------------------------------------------------- levels (3.68)-(3.70)
 
 TEST(Levels, WhileElasticStressIsTheGradientOfTheEnergy) {

@@ -48,11 +48,14 @@ template <class T, int D, bool Ring>
   return r;
 }
 
-/// Per initial volume, J/m3.
+/// Per initial volume, J/m3. Without the difference of near numbers, so that a body at rest has no energy: with Bbar = s I + D,
+///   tr Bbar - 3 = 2 w, which deviatoric_energy() knows;  tr(Bbar.Bbar) - 3 = 3 (s - 1) (s + 1) + D:D,  3 (s - 1) = 2 w.
 template <class T, int D, bool Ring>
 [[gnu::noinline]] T hyperelastic_energy(const SolidConstants& m, Edges<T, D, Ring> e, const T& J, const double* memory) {
   const Symmetric<T, D> B = isochoric(e, J, memory);
-  return T(0.5 * m.h1) * (trace(B) - T(3)) + T(0.25 * m.h2) * (contract(B, B) - T(3));
+  const Symmetric<T, D> d = deviator(B);
+  const T s = trace(B) * T(1.0 / 3), w = deviatoric_energy(1, B, T(1));
+  return T(m.h1) * w + T(0.25 * m.h2) * (T(2) * w * (s + T(1)) + contract(d, d));
 }
 
 /// Bound on the tangent modulus over mu, for the time step: h1 L + 9/4 h2 L^2 with

@@ -12,11 +12,12 @@
 
 namespace forming_sim {
 
+constexpr int kMostThreads = 1024;
 constexpr long kNodesOfAThread = 1000;  ///< fewer are not worth another thread
 
 class Team {
  public:
-  /// threads: with the calling one, at least 1.
+  /// threads: with the calling one, 1 to kMostThreads. Throws SceneError where the system does not start as many.
   explicit Team(int threads);
   ~Team();
   Team(const Team&) = delete;
