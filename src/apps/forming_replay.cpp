@@ -4,6 +4,7 @@
 
 #include <ros/ros.h>
 
+#include "forming_sim/mesh/url.h"
 #include "forming_sim/ros/replay.h"
 #include "forming_sim/ros/signals.h"
 
@@ -18,7 +19,7 @@ int main(int argc, char** argv) {
   try {
     ros::NodeHandle node("~");
     forming_sim::ReplayOptions options;
-    options.file = argv[1];
+    options.file = forming_sim::from_home(argv[1]);
     node.param("duration", options.duration_s, options.duration_s);
     node.param("loop", options.loop, options.loop);
     ros::AsyncSpinner spinner(1);

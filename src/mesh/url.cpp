@@ -91,7 +91,7 @@ std::string decode_percent(const std::string& text) {
 fs::path path_of(const std::string& url, const std::string& base_directory) {
   const auto scheme_end = url.find("://");
   if (scheme_end == std::string::npos) {
-    const fs::path path(url);
+    const fs::path path(from_home(url));
     return path.is_absolute() ? path : fs::path(base_directory.empty() ? "." : base_directory) / path;
   }
   const std::string rest = url.substr(scheme_end + 3);
@@ -112,6 +112,11 @@ fs::path path_of(const std::string& url, const std::string& base_directory) {
 }
 
 }  // namespace
+
+std::string from_home(const std::string& path) {
+  const char* home = std::getenv("HOME");
+  return home && starts_with(path, "~/") ? home + path.substr(1) : path;
+}
 
 std::string resolve_url(const std::string& url, const std::string& base_directory) {
   if (url.empty()) throw Error(Code::mesh_error, "file \"\": the path is empty; give a path, file:// or package://");

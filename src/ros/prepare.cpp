@@ -7,6 +7,7 @@
 #include <system_error>
 #include <thread>
 
+#include "forming_sim/mesh/url.h"
 #include "forming_sim/parallel/team.h"
 #include "forming_sim/results/start.h"
 #include "forming_sim/ros/convert.h"
@@ -36,14 +37,14 @@ Prepared prepare(const SceneSpec& message, const std::string& scene_text, int th
 }
 
 std::string make_output_directory(const std::string& given, const std::string& output_root, const std::string& scene) {
-  fs::path path = given;
+  fs::path path = from_home(given);
   if (given.empty()) {
     const std::time_t now = std::time(nullptr);
     std::tm local{};
     localtime_r(&now, &local);
     char stamp[32];
     std::strftime(stamp, sizeof stamp, "%Y%m%d_%H%M%S", &local);
-    const fs::path base = fs::path(output_root) / (topic_name(scene) + "_" + stamp);
+    const fs::path base = fs::path(from_home(output_root)) / (topic_name(scene) + "_" + stamp);
     path = base;
     for (int n = 2; fs::exists(path); ++n) path = base.string() + "_" + std::to_string(n);
   }

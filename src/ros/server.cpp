@@ -9,6 +9,7 @@
 #include "forming_sim/ros/summary.h"
 #include "forming_sim/results/estimate.h"
 #include "forming_sim/results/run_scene.h"
+#include "forming_sim/mesh/url.h"
 #include "forming_sim/parallel/team.h"
 
 namespace forming_sim {
@@ -164,11 +165,12 @@ void FormingServer::serve(Goal goal) {
 SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
   const auto request = goal.getGoal();
   const int threads = choose_threads(request->threads, threads_);
+  const std::string resume = from_home(request->resume);
   Scene scene;
   std::unique_ptr<Simulation> simulation;
   {
     Prepared prepared = prepare(request->scene, request->scene_text, threads);
-    if (!request->resume.empty() && !is_readable_file(request->resume)) {
+    if (!request->resume.empty() && !is_readable_file(resume)) {
       prepared.faults.push_back({Code::resume_error, "resume", '"' + request->resume + '"', "give the checkpoint file of an earlier run on the server's machine"});
     }
     if (!prepared.faults.empty()) return rejection(prepared.faults);
@@ -193,7 +195,7 @@ SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
     feedback.status = status;
     goal.publishFeedback(feedback);
   });
-  const Outcome outcome = run_scene(scene, directory, threads, request->resume, cancel_, {&observer}, std::move(simulation));
+  const Outcome outcome = run_scene(scene, directory, threads, resume, cancel_, {&observer}, std::move(simulation));
 
   SimulateFormingResult result = result_of(outcome.code, outcome.message);
   result.directory = directory;

@@ -6,8 +6,8 @@
 #include <limits>
 #include <sstream>
 
-#include "forming_sim/loads/velocity_field.h"
 #include "forming_sim/config/words.h"
+#include "forming_sim/loads/velocity_field.h"
 #include "forming_sim/mesh/axis.h"
 #include "forming_sim/simulation/release.h"
 #include "simulation/impl.h"
@@ -181,6 +181,8 @@ void Simulation::Impl::set_up_contact() {
     setup.wave_speed = std::min(
         setup.wave_speed, std::sqrt((m.K() + 4. / 3 * m.mu()) / density));
   }
+  if (plan.contact.layer > setup.thinnest)
+    throw SceneError({{Code::invalid_scene, "contact.layer", number_text(plan.contact.layer), "give less than twice the volume of the thinnest body over its surface, " + three_digits(setup.thinnest) + " m, or leave it out"}});
   for (const ToolModel& tool : model.tools) {
     ContactSurface s;
     s.name = tool.name;

@@ -33,6 +33,15 @@ TEST(MeshUrl, PlainPathsAreRelativeToTheScene) {
   EXPECT_EQ(resolve_url(file, "/nowhere"), file);
 }
 
+TEST(MeshUrl, TildeIsTheHomeDirectory) {
+  const TempDir dir;
+  const std::string file = dir.write("meshes/die.stl", "x");
+  const Variable home("HOME", dir.str());
+  EXPECT_EQ(resolve_url("~/meshes/die.stl", "/nowhere"), file);
+  EXPECT_EQ(from_home("~/runs"), dir.str() + "/runs");
+  for (const char* path : {"~runs", "a/~/b", "~", "/a", ""}) EXPECT_EQ(from_home(path), path);
+}
+
 TEST(MeshUrl, FileUrlsAreAbsolute) {
   const TempDir dir;
   const std::string file = dir.write("two words.stl", "x");

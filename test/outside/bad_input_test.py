@@ -137,6 +137,21 @@ class BadInput(unittest.TestCase):
         self.refused(self.changed(('tools', 0, 'motion', 'velocities'), [[0.0, 0.0, 0.0], [0.0, math.nan, 0.0]]), 'velocities', 'nan')
         self.refused(self.changed(('tools', 0, 'motion', 'times'), [5e-6, 0.0]), 'tools[0].motion.times')
 
+    def test_what_goes_farther_than_numbers_reach_is_named(self):
+        for path in (('bodies', 0, 'initial_velocity'), ('gravity',)):
+            self.refused(self.changed(path, [1e80, 0.0, 0.0]), 'farther than numbers reach', 'time 0 s')
+        self.refused(self.changed(('bodies', 0, 'initial_velocity'), [1e200, 0.0, 0.0]), 'bodies[0].initial_velocity', '1e100')
+
+    def test_a_layer_that_is_thicker_than_the_body(self):
+        self.refused(self.changed(('contact',), {'layer': 0.5}), 'contact.layer', '0.5', 'thinnest body')
+
+    def test_more_threads_than_the_system_starts(self):
+        self.write('scene.yaml', yaml.safe_dump(SCENE))
+        few = lambda: resource.setrlimit(resource.RLIMIT_AS, (3 << 30, 3 << 30))  # stacks take 8 MiB each of it
+        run = self.offline('--estimate', self.path('scene.yaml'), '--threads', '1000', preexec_fn=few)
+        self.assertEqual(run.returncode, 2, self.said)
+        self.assertIn('threads: given 1000; the system starts no more than', self.said)
+
     def test_words_in_place_of_numbers(self):
         self.refused(self.changed(('bodies', 0, 'material', 'density'), 'heavy'), 'bodies[0].material.density', 'heavy')
         self.refused(self.changed(('bodies', 0, 'blank'), 'strip'), 'bodies[0].blank')

@@ -218,6 +218,7 @@ class ServiceTest(unittest.TestCase):
     def test_faults_of_the_goal_beside_its_scene(self):
         scene = scenes.pulled_strip()
         self.assert_rejected(scene, 'threads', threads=-1)
+        self.assert_rejected(scene, 'threads', threads=2**31 - 1)
         self.assert_rejected(scene, 'resume', code=ResultCode.RESUME_ERROR, resume='/nowhere/checkpoint.h5')
         self.assert_rejected(scene, 'output_directory', code=ResultCode.OUTPUT_ERROR, output_directory='/proc/nowhere')
 
@@ -371,6 +372,9 @@ class ServiceTest(unittest.TestCase):
         scene = scenes.pressed_strip()
         scene['dimension'] = 7
         self.assertFalse(estimate(scenes.message(scene), 1).valid)
+        many = estimate(scenes.message(scenes.pressed_strip()), 100000)
+        self.assertFalse(many.valid)
+        self.assertEqual([fault.field for fault in many.faults], ['threads'])
 
 
 if __name__ == '__main__':

@@ -65,13 +65,17 @@ class FaultList {
   std::vector<Fault>& faults_;
 };
 
+constexpr double kGreatest = 1e100;  ///< of a given number: its square and cube are numbers still
+
 /// A value by itself: finite, in range, one of the choices.
 template <class T> void check_value(const T& value, const std::string& path, const Field& field, FaultList& faults) {
   if constexpr (is_number<T>) {
     const double number = value;
     if (!std::isfinite(number) || !field.contains(number)) faults.add(path, given_text(value), wanted<T>(field));
+    else if (std::abs(number) > kGreatest) faults.add(path, given_text(value), "give a number of at most 1e100");
   } else if constexpr (std::is_same_v<T, Vec3>) {
     if (!value.allFinite()) faults.add(path, given_text(value), "give three finite numbers");
+    else if (value.cwiseAbs().maxCoeff() > kGreatest) faults.add(path, given_text(value), "give numbers of at most 1e100");
   } else if constexpr (std::is_same_v<T, std::string>) {
     const auto& words = field.choices();
     if (!words.empty() && std::find(words.begin(), words.end(), value) == words.end()) {

@@ -4,7 +4,10 @@
 
 namespace forming_sim {
 
-/// Path of an existing file from a path (absolute, or relative to
+/// A path that begins with ~/ begins in the home directory: shells see to that, but not behind `file:=`, in a scene or a goal.
+std::string from_home(const std::string& path);
+
+/// Path of an existing file from a path (absolute, from_home(), or relative to
 /// `base_directory`), a file:// URL or package://NAME/PATH. The package NAME is
 /// the folder with its package.xml found under ROS_PACKAGE_PATH, else
 /// share/NAME under CMAKE_PREFIX_PATH.
