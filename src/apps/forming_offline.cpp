@@ -11,9 +11,8 @@
 #include "forming_sim/results/progress_line.h"
 #include "forming_sim/results/run_scene.h"
 #include "forming_sim/results/start.h"
-#include "forming_sim/scene/build.h"
 #include "forming_sim/scene/schema.h"
-#include "forming_sim/scene/validate.h"
+#include "forming_sim/scene/yaml.h"
 
 namespace {
 
@@ -21,14 +20,14 @@ using namespace forming_sim;
 
 std::atomic<bool> cancel{false};
 
-int run(const OfflineOptions& options, const Scene& scene) {
+int run(const OfflineOptions& options, const Scene& scene, std::unique_ptr<Simulation> start) {
   std::signal(SIGINT, [](int) { cancel = true; });
   std::signal(SIGTERM, [](int) { cancel = true; });
   ProgressLine progress(isatty(STDERR_FILENO));
   EndTable table;
   std::vector<Observer*> watchers;
   if (!options.quiet) watchers = {&progress, &table};
-  const Outcome outcome = run_scene(scene, options.output, options.thread_count(), options.resume, cancel, watchers);
+  const Outcome outcome = run_scene(scene, options.output, options.thread_count(), options.resume, cancel, watchers, std::move(start));
   std::fprintf(stderr, "%s: %s\n", name_of(outcome.code), outcome.message.c_str());
   return outcome.code == Code::success ? 0 : 1;
 }
@@ -40,10 +39,15 @@ int perform(const OfflineOptions& options) {
   else if (options.task == Task::schema) text = schema_text();
   else if (options.task == Task::schema_markdown) text = schema_markdown();
   else {
-    const Scene scene = read_valid_scene(options.scene);
-    if (options.task == Task::run) return run(options, scene);
-    StartCheck start = check_start(scene, {}, options.thread_count());
-    if (!start.faults.empty()) throw SceneError(start.faults);
+    std::vector<Fault> known;
+    const Scene scene = read_scene_file(options.scene, known);
+    StartCheck start = check_start(scene, known, options.thread_count());
+    if (!start.faults.empty()) {
+      const SceneError refused(start.faults);
+      if (options.task == Task::run) note_refusal(scene, options.output, refused.faults(), refused.code(), refused.what());
+      throw refused;
+    }
+    if (options.task == Task::run) return run(options, scene, std::move(start.simulation));
     for (const std::string& note : start.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
     if (options.task == Task::validate) text = "The scene has no faults.\n";
     else {

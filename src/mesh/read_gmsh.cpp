@@ -1,13 +1,14 @@
-// A .msh file by way of libgmsh, which has one state for the whole process.
+// A .msh file by way of libgmsh, in a process of its own: gmsh has one state for the whole process, and breaks over some files.
 #include <gmsh.h>
 
 #include <algorithm>
 #include <fstream>
-#include <mutex>
 #include <unordered_map>
 
+#include "config/archive.h"
 #include "forming_sim/config/fault.h"
 #include "forming_sim/mesh/cell_order.h"
+#include "mesh/read_apart.h"
 #include "raw_mesh.h"
 
 namespace forming_sim {
@@ -15,44 +16,19 @@ namespace {
 
 using Groups = std::vector<std::pair<int, int>>;  // dimension and tag
 
-// The time of one reading; only one thread at a time.
-class Session {
- public:
-  Session() : lock_(mutex()) {
-    static const bool once = [] {
-      gmsh::initialize(0, nullptr, false);
-      gmsh::option::setNumber("General.Terminal", 0);
-      // Errors go to the log: thrown from within a reading, they would leave gmsh
-      // locked, and every later file would seem empty.
-      gmsh::option::setNumber("General.AbortOnError", 0);
-      return true;
-    }();
-    (void)once;
-    gmsh::clear();
-    gmsh::logger::start();
-  }
-  void open(const std::string& path) const {
-    gmsh::open(path);
-    std::vector<std::string> log;
-    gmsh::logger::get(log);
-    for (const std::string& line : log)
-      if (line.compare(0, 7, "Error: ") == 0) throw line.substr(7);
-  }
-  ~Session() {
-    try {
-      gmsh::logger::stop();
-      gmsh::clear();
-    } catch (...) {  // nothing is left to clear
-    }
-  }
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex one;
-    return one;
-  }
-  std::lock_guard<std::mutex> lock_;
-};
+void open_mesh(const std::string& path) {
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  // Errors go to the log: not all that are thrown say what is wrong.
+  gmsh::option::setNumber("General.AbortOnError", 0);
+  gmsh::clear();
+  gmsh::logger::start();
+  gmsh::open(path);
+  std::vector<std::string> log;
+  gmsh::logger::get(log);
+  for (const std::string& line : log)
+    if (line.compare(0, 7, "Error: ") == 0) throw line.substr(7);
+}
 
 std::string name_of(const std::pair<int, int>& group) {
   std::string name;
@@ -60,7 +36,7 @@ std::string name_of(const std::pair<int, int>& group) {
   return name.empty() ? "group_" + std::to_string(group.second) : name;
 }
 
-struct Reader {
+struct MeshReader {
   std::string source;
   std::unordered_map<std::size_t, int> index;  // of a node's tag
   RawMesh raw;
@@ -202,9 +178,8 @@ void check_beginning(const std::string& path) {
 
 RawMesh read(const std::string& path, const std::string& group, double unit_scale) {
   check_beginning(path);
-  const Session session;
-  session.open(path);
-  Reader reader;
+  open_mesh(path);
+  MeshReader reader;
   reader.source = "mesh file \"" + path + "\"";
   reader.raw.source = reader.source;
   reader.read_nodes(unit_scale);
@@ -217,9 +192,7 @@ RawMesh read(const std::string& path, const std::string& group, double unit_scal
   return std::move(reader.raw);
 }
 
-}  // namespace
-
-RawMesh read_gmsh(const std::string& path, const std::string& group, double unit_scale) {
+RawMesh read_with_reasons(const std::string& path, const std::string& group, double unit_scale) {
   const std::string source = "mesh file \"" + path + "\": ";
   const std::string remedy = "; it may be cut short: write it again with gmsh (format 2.2 or 4.1)";
   try {
@@ -233,6 +206,45 @@ RawMesh read_gmsh(const std::string& path, const std::string& group, double unit
   } catch (...) {
     throw Error(Code::mesh_error, source + "gmsh cannot read it" + remedy);
   }
+}
+
+std::vector<char> bytes_of(const RawMesh& mesh) {
+  Writer out;
+  out.text(mesh.source);
+  out.number(mesh.dimension);
+  out.list(mesh.points);
+  out.list(mesh.point_tags);
+  out.list(mesh.cells);
+  out.number(mesh.groups.size());
+  for (const auto& [name, cells] : mesh.groups) {
+    out.text(name);
+    out.list(cells);
+  }
+  return out.take();
+}
+
+RawMesh mesh_of(const std::vector<char>& bytes) {
+  Reader in(bytes);
+  RawMesh mesh;
+  in.text(mesh.source);
+  in.number(mesh.dimension);
+  in.list(mesh.points);
+  in.list(mesh.point_tags);
+  in.list(mesh.cells);
+  std::size_t groups = 0;
+  in.number(groups);
+  for (std::size_t g = 0; g < groups; ++g) {
+    std::string name;
+    in.text(name);
+    in.list(mesh.groups[name]);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+RawMesh read_gmsh(const std::string& path, const std::string& group, double unit_scale) {
+  return mesh_of(read_apart("mesh file \"" + path + "\"", path, [&] { return bytes_of(read_with_reasons(path, group, unit_scale)); }));
 }
 
 }  // namespace forming_sim

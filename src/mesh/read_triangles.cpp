@@ -1,4 +1,4 @@
-// The files of surfaces, by way of assimp.
+// The files of surfaces, by way of assimp, in a process of its own: assimp breaks over some files.
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
@@ -6,7 +6,9 @@
 #include <assimp/scene.h>
 #include <filesystem>
 
+#include "config/archive.h"
 #include "forming_sim/config/fault.h"
+#include "mesh/read_apart.h"
 #include "tool_surface.h"
 
 namespace forming_sim {
@@ -31,6 +33,10 @@ void append(const aiScene& scene, const aiNode& node, const Transform& to_root, 
     }
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const aiFace& face = part.mFaces[f];
+      for (unsigned k = 0; k < face.mNumIndices; ++k)
+        if (face.mIndices[k] >= part.mNumVertices)
+          throw Error(Code::mesh_error, all.source + ": face " + std::to_string(f) + " names vertex " + std::to_string(face.mIndices[k]) + " of " + std::to_string(part.mNumVertices) +
+                                            "; the file is damaged or cut short: write it again");
       if (face.mNumIndices == 3)
         all.corners.push_back({first + int(face.mIndices[0]), first + int(face.mIndices[1]), first + int(face.mIndices[2])});
     }
@@ -39,9 +45,7 @@ void append(const aiScene& scene, const aiNode& node, const Transform& to_root, 
     append(scene, *node.mChildren[c], times(to_root, node.mChildren[c]->mTransformation), all);
 }
 
-}  // namespace
-
-Triangles read_triangles(const std::string& path, double unit_scale) {
+Triangles read(const std::string& path, double unit_scale) {
   Triangles all;
   all.source = "mesh file \"" + path + "\"";
   if (std::filesystem::file_size(path) == 0)
@@ -60,6 +64,29 @@ Triangles read_triangles(const std::string& path, double unit_scale) {
   if (!collada) root = times(root, scene->mRootNode->mTransformation);
   append(*scene, *scene->mRootNode, unit_scale * root, all);
   return all;
+}
+
+std::vector<char> bytes_of(const Triangles& triangles) {
+  Writer out;
+  out.text(triangles.source);
+  out.list(triangles.points);
+  out.list(triangles.corners);
+  return out.take();
+}
+
+Triangles triangles_of(const std::vector<char>& bytes) {
+  Reader in(bytes);
+  Triangles triangles;
+  in.text(triangles.source);
+  in.list(triangles.points);
+  in.list(triangles.corners);
+  return triangles;
+}
+
+}  // namespace
+
+Triangles read_triangles(const std::string& path, double unit_scale) {
+  return triangles_of(read_apart("mesh file \"" + path + "\"", path, [&] { return bytes_of(read(path, unit_scale)); }));
 }
 
 }  // namespace forming_sim

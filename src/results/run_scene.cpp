@@ -14,17 +14,6 @@
 namespace forming_sim {
 namespace {
 
-/// Leaves a summary of what kept the run from starting, where that is possible.
-void note_refusal(const Scene& scene, const std::string& directory, const std::vector<Fault>& faults, Code code,
-                  const std::string& message) {
-  try {
-    make_output_directory(directory);
-    write_summary(directory, summarize_refusal(scene, faults, code, message));
-  } catch (const Error&) {
-    // The reason of the refusal is told to the caller; it matters more.
-  }
-}
-
 Outcome run_valid(const Scene& scene, const std::string& directory, int threads, const std::string& resume_file,
                   const std::atomic<bool>& cancel, const std::vector<Observer*>& extra, std::unique_ptr<Simulation> built) {
   make_output_directory(directory);
@@ -47,6 +36,17 @@ Outcome run_valid(const Scene& scene, const std::string& directory, int threads,
 }
 
 }  // namespace
+
+void note_refusal(const Scene& scene, const std::string& directory, const std::vector<Fault>& faults, Code code,
+                  const std::string& message) {
+  try {
+    make_output_directory(directory);
+    const DirectoryLock lock(directory);
+    write_summary(directory, summarize_refusal(scene, faults, code, message));
+  } catch (const Error&) {
+    // The reason of the refusal is told to the caller; it matters more.
+  }
+}
 
 Outcome run_scene(const Scene& scene, const std::string& directory, int threads, const std::string& resume_file,
                   const std::atomic<bool>& cancel, const std::vector<Observer*>& extra, std::unique_ptr<Simulation> built) {

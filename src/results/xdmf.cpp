@@ -1,13 +1,23 @@
 #include "forming_sim/results/xdmf.h"
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace forming_sim {
 namespace {
 
+/// Bytes that are not UTF-8, and control characters, which XML knows no way to write, replaced.
+std::string readable(const std::string& text) {
+  using nlohmann::json;
+  std::string result = json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
+  std::replace_if(result.begin(), result.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
+  return result;
+}
+
 std::string escaped(const std::string& text) {
   std::string result;
-  for (char c : text) {
+  for (char c : readable(text)) {
     switch (c) {
       case '&': result += "&amp;"; break;
       case '<': result += "&lt;"; break;

@@ -112,6 +112,8 @@ class YamlReader {
       }
     } else if (!convert(node, value)) {
       faults_.add(path, told(node), wanted<T>(field));
+    } else if constexpr (is_number<T>) {  // a zero that is not allowed: for all that comes later it would not be there
+      if (value == 0 && !field.contains(0)) faults_.add(path, told(node), wanted<T>(field));
     }
   }
 

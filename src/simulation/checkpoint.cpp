@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <sstream>
 
-#include "simulation/archive.h"
+#include "config/archive.h"
 #include "simulation/impl.h"
 
 namespace forming_sim {

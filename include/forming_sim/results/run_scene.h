@@ -22,4 +22,7 @@ Outcome run_scene(const Scene& scene, const std::string& directory, int threads,
                   const std::atomic<bool>& cancel, const std::vector<Observer*>& extra = {},
                   std::unique_ptr<Simulation> built = nullptr);
 
+/// Leaves a summary.json that says why a run did not start, where that is possible: not where another run holds the directory.
+void note_refusal(const Scene& scene, const std::string& directory, const std::vector<Fault>& faults, Code code, const std::string& message);
+
 }  // namespace forming_sim

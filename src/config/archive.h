@@ -1,5 +1,5 @@
 #pragma once
-// Numbers to bytes and back, for checkpoints.
+// Plain values to bytes and back.
 #include <cstring>
 #include <string>
 #include <type_traits>
