@@ -13,11 +13,14 @@ import matplotlib.pyplot as plt
 def read_series(path):
     """Name of a series -> (list of x, list of y), in the order of the file."""
     series = {}
-    with open(path, newline="") as file:
-        for row in csv.DictReader(file):
-            x, y = series.setdefault(row["series"], ([], []))
-            x.append(float(row["x"]))
-            y.append(float(row["y"]))
+    try:
+        with open(path, newline="") as file:
+            for row in csv.DictReader(file):
+                x, y = series.setdefault(row["series"], ([], []))
+                x.append(float(row["x"]))
+                y.append(float(row["y"]))
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        sys.exit(f"{path}: cannot be read as rows of series, x, y: {error}")
     if not series:
         sys.exit(f"{path}: holds no rows")
     return series

@@ -12,13 +12,21 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from result_fields import write_picture
+
 AXES = "xyz"
 
 
 def read_columns(path):
     """Column name -> values; text stays text, an empty number is NaN."""
-    with open(path, newline="") as file:
-        rows = list(csv.reader(file))
+    try:
+        with open(path, newline="") as file:
+            rows = list(csv.reader(file))
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        sys.exit(f"{path}: cannot be read as the history.csv of a run: {error}")
+    if rows and "stage" not in rows[0]:
+        sys.exit(f"{path}: has no column stage, so it is not the history.csv of a run")
     if len(rows) < 2:
         sys.exit(f"{path}: holds no rows yet")
     columns = {}
@@ -91,8 +99,7 @@ def main():
     axes.grid(alpha=0.3)
     axes.legend(frameon=False)
     output = options.output or os.path.join(os.path.dirname(options.history), "force.png")
-    figure.savefig(output, dpi=150)
-    print(output)
+    write_picture(figure, output, dpi=150)
 
 
 main()

@@ -14,12 +14,11 @@ import sys
 import matplotlib
 
 matplotlib.use("Agg")
-import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from result_fields import add_frame_options, pick_frame, title
+from result_fields import add_frame_options, opened, pick_frame, title, write_picture
 
 
 def sides_of_the_sheets(result, wanted):
@@ -53,8 +52,11 @@ def weight_of_facets(result):
 
 def read_limit(path):
     """(minor, major), by increasing minor strain."""
-    with open(path, newline="") as file:
-        rows = [row for row in csv.reader(file) if row and not row[0].lstrip().startswith("#")]
+    try:
+        with open(path, newline="") as file:
+            rows = [row for row in csv.reader(file) if row and not row[0].lstrip().startswith("#")]
+    except (OSError, UnicodeDecodeError) as error:
+        sys.exit(f"--limit: {path} cannot be read: {error}")
     try:
         points = np.array([[float(number) for number in row] for row in rows[0 if rows and is_number(rows[0][0]) else 1:]])
     except ValueError:
@@ -79,7 +81,7 @@ def main():
     parser.add_argument("--limit", help="CSV of a limit curve: rows minor,major, true strains")
     options = parser.parse_args()
 
-    with h5py.File(options.result, "r") as result:
+    with opened(options.result) as result:
         frame = pick_frame(result, options)
         major, minor = frame["surface_strain"][:], frame["surface_strain_minor"][:]
         sides = sides_of_the_sheets(result, options.set or ["top", "bottom"])
@@ -115,8 +117,7 @@ def main():
     axes.set_title(heading, fontsize=10)
     axes.legend(frameon=False, fontsize=9)
     output = options.output or os.path.join(os.path.dirname(options.result), "forming_limit.png")
-    figure.savefig(output, dpi=150)
-    print(output)
+    write_picture(figure, output, dpi=150)
 
 
 main()

@@ -11,13 +11,12 @@ import sys
 import matplotlib
 
 matplotlib.use("Agg")
-import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from result_fields import add_options, pick_frame, read_on, title
+from result_fields import add_options, opened, pick_frame, read_on, title, write_picture
 
 
 def cut(points, simplices, axis, at):
@@ -74,7 +73,7 @@ def main():
     parser.add_argument("--at", type=float, help="3D: where to cut, in metres; default: half way through the blank")
     options = parser.parse_args()
 
-    with h5py.File(options.result, "r") as result:
+    with opened(options.result) as result:
         frame = pick_frame(result, options)
         points, elements = frame["positions"][:], result["topology/elements"][:]
         values, label = read_on(frame, result["topology"], options.field, elements, np.arange(len(elements)))
@@ -125,8 +124,7 @@ def main():
     axes.set_title(heading, fontsize=10)
     figure.colorbar(blank, ax=axes, label=label, shrink=0.8)
     output = options.output or os.path.join(os.path.dirname(options.result), "section.png")
-    figure.savefig(output, dpi=150, bbox_inches="tight")
-    print(output)
+    write_picture(figure, output, dpi=150, bbox_inches="tight")
 
 
 main()

@@ -8,13 +8,12 @@ import sys
 import matplotlib
 
 matplotlib.use("Agg")
-import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from result_fields import add_options, pick_frame, read_on, title
+from result_fields import add_options, opened, pick_frame, read_on, title, write_picture
 
 LIGHT = np.array([0.3, -0.6, 0.75])
 
@@ -36,9 +35,9 @@ def main():
     parser.add_argument("--view", type=float, nargs=2, default=(20, -60), metavar=("ELEVATION", "AZIMUTH"), help="degrees")
     options = parser.parse_args()
 
-    with h5py.File(options.result, "r") as result:
+    with opened(options.result) as result:
         if result.attrs["dimension"] != 3:
-            sys.exit("the run is plane strain: scripts/plot_section.py shows it")
+            sys.exit(f"{options.result}: is of dimension 2, a section without a surface to look at: scripts/plot_section.py shows it")
         frame, topology = pick_frame(result, options), result["topology"]
         points, facets = 1e3 * frame["positions"][:], topology["surface"][:]
         values, label = read_on(frame, topology, options.field, facets, topology["surface_element"][:])
@@ -66,8 +65,7 @@ def main():
     axes.set_title(heading, fontsize=10)
     figure.colorbar(colours, ax=axes, label=label, shrink=0.6)
     output = options.output or os.path.join(os.path.dirname(options.result), "surface.png")
-    figure.savefig(output, dpi=150, bbox_inches="tight")
-    print(output)
+    write_picture(figure, output, dpi=150, bbox_inches="tight")
 
 
 main()

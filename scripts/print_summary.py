@@ -1,17 +1,23 @@
 #!/usr/bin/env python3
-"""Prints what a run's summary.json says as a short table, and where its files are.
-
-Usage: print_summary.py DIRECTORY
-"""
+"""Prints what a run's summary.json says as a short table, and where its files are."""
+import argparse
 import json
 import os
 import sys
 
 
 def main():
-    directory = sys.argv[1]
-    with open(os.path.join(directory, "summary.json")) as file:
-        s = json.load(file)
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("directory", help="where the run's files are")
+    directory = parser.parse_args().directory
+    path = os.path.join(directory, "summary.json")
+    try:
+        with open(path) as file:
+            s = json.load(file)
+        if "energy_J" not in s:  # of a scene that was refused
+            sys.exit(s["status"]["message"])
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        sys.exit(f"{path}: cannot be read as the summary of a run: {error}")
     dimension = s["dimension"]
     newton = "N/m" if s["per_metre_of_width"] else "N"
     kinematics = "axisymmetric" if s["axisymmetric"] else "plane strain" if dimension == 2 else "3D"

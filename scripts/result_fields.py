@@ -1,6 +1,8 @@
 """What the plots read of a result.h5: a frame, and a field of it per node, element or facet."""
+import contextlib
 import sys
 
+import h5py
 import numpy as np
 
 COMPONENTS = {3: ("x", "y", "z"), 6: ("xx", "yy", "zz", "xy", "yz", "zx")}
@@ -11,6 +13,27 @@ ON_SURFACE_FACETS = ("surface_strain", "surface_strain_minor")
 ON_SURFACE_NODES = ("contact_pressure", "contact_gap", "contact_slip")
 ON_NODES = ("positions", "velocities", "thickness", "thinning", *ON_SURFACE_NODES)  # the others: on elements
 SHOWN_IN = {"Pa": ("MPa", 1e-6), "m": ("mm", 1e3)}
+
+
+@contextlib.contextmanager
+def opened(path):
+    """The result.h5 at `path`; what is missing or damaged in it ends the program with a sentence."""
+    try:
+        with h5py.File(path, "r") as result:
+            for group in ("frames", "topology", "bodies", "tools"):
+                if group not in result:
+                    sys.exit(f"{path}: has no group {group}, so it is not the result.h5 of a run")
+            yield result
+    except (OSError, KeyError) as error:
+        sys.exit(f"{path}: cannot be read as the result.h5 of a run: {error}")
+
+
+def write_picture(figure, path, **options):
+    try:
+        figure.savefig(path, **options)
+    except (OSError, ValueError) as error:
+        sys.exit(f"--output: given {path}; {error}")
+    print(path)
 
 
 def add_frame_options(parser):

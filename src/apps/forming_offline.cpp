@@ -56,12 +56,13 @@ int perform(const OfflineOptions& options) {
     }
   }
   std::fputs(text.c_str(), stdout);
-  return std::fflush(stdout) == 0 ? 0 : 1;
+  return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 ? 0 : 1;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes is a full disk: the write says so
   try {
     return perform(read_options({argv + 1, argv + argc}));
   } catch (const Error& error) {

@@ -5,21 +5,28 @@
 #include <ros/ros.h>
 
 #include "forming_sim/mesh/url.h"
+#include "forming_sim/ros/prepare.h"
 #include "forming_sim/ros/replay.h"
 #include "forming_sim/ros/signals.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "forming_replay", ros::init_options::NoSigintHandler);
   forming_sim::catch_stop_signals();
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: forming_replay RESULT.h5 [_duration:=SECONDS] [_loop:=true]\n");
-    return 64;
+  const std::string file = argc == 2 ? forming_sim::from_home(argv[1]) : "";
+  const bool help = file == "--help" || file == "-h";
+  if (argc != 2 || help) {
+    std::fprintf(help ? stdout : stderr, "usage: forming_replay RESULT.h5 [_duration:=SECONDS] [_loop:=true]\n");
+    return help ? 0 : 64;
+  }
+  if (!forming_sim::is_readable_file(file)) {
+    std::fprintf(stderr, "forming_replay: given %s; give the result.h5 of a run\n", argv[1]);
+    return 1;
   }
   if (!forming_sim::wait_for_master("forming_replay")) return 1;
   try {
     ros::NodeHandle node("~");
     forming_sim::ReplayOptions options;
-    options.file = forming_sim::from_home(argv[1]);
+    options.file = file;
     node.param("duration", options.duration_s, options.duration_s);
     node.param("loop", options.loop, options.loop);
     ros::AsyncSpinner spinner(1);

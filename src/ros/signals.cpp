@@ -18,6 +18,7 @@ extern "C" void forming_sim_on_stop(int) { stop_flag = 1; }
 void catch_stop_signals() {
   std::signal(SIGINT, forming_sim_on_stop);
   std::signal(SIGTERM, forming_sim_on_stop);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool stop_requested() { return stop_flag != 0; }

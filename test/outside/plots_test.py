@@ -10,6 +10,8 @@ import sys
 import tempfile
 import unittest
 
+import h5py
+
 OFFLINE, SCRIPTS = sys.argv[1:3] if len(sys.argv) > 2 else ('', '')
 
 SCENE = '''
@@ -74,6 +76,19 @@ class Plots(unittest.TestCase):
         with open(curve, 'w') as file:
             file.write('minor,major\n0,many\n')
         self.assertIn('not two numbers', self.plot('plot_forming_limit.py', '--limit', curve).stderr)
+
+    def test_files_that_are_none_are_named(self):
+        wrong = os.path.join(self.directory, 'wrong.h5')
+        with open(wrong, 'wb') as file:
+            file.write(b'\xff\xfe no result at all')
+        empty = os.path.join(self.directory, 'empty.h5')
+        h5py.File(empty, 'w').close()
+        for script in ('plot_section.py', 'plot_surface.py', 'plot_forming_limit.py', 'plot_force.py', 'print_summary.py'):
+            for path in (os.path.join(self.directory, 'nothing.h5'), wrong, empty, self.directory if script != 'print_summary.py' else wrong):
+                run = subprocess.run(['/usr/bin/python3', os.path.join(SCRIPTS, script), path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                self.assertEqual(run.returncode, 1, script)
+                self.assertNotIn('Traceback', run.stderr, script)
+                self.assertIn(path, run.stderr, script)
 
     def test_what_is_not_there_is_named(self):
         for script, words, said in (('plot_section.py', ('--field', 'strain'), 'plastic_strain'),

@@ -3,7 +3,7 @@
 
 namespace forming_sim {
 
-/// Call it after ros::init with ros::init_options::NoSigintHandler.
+/// Call it after ros::init with ros::init_options::NoSigintHandler. A limit of file sizes is a full disk from then on: the write says so.
 void catch_stop_signals();
 /// True once either signal has come.
 bool stop_requested();
