@@ -15,6 +15,9 @@
 namespace forming_sim {
 namespace {
 
+using namespace std::chrono_literals;
+constexpr auto kSettled = 100ms, kLook = 2ms;  // messages that belong together have come, on all topics; how often one looks
+
 std::string default_output_root() {
   const char* home = std::getenv("HOME");
   return std::string(home ? home : ".") + "/forming_sim_runs";
@@ -89,26 +92,24 @@ void FormingServer::stop() {
 // as soon as it has opened its way to the results, which may be before this node knows of it; the one in Python drops what
 // comes before its send_goal has returned.
 void FormingServer::wait_for_client(Clock::time_point received) const {
-  using namespace std::chrono_literals;
   while (ros::ok()) {
     const auto age = Clock::now() - received;
     const bool all_listen = results_.getNumSubscribers() >= goals_.getNumPublishers();
-    if (age >= 100ms && (all_listen || age >= 2s)) return;
-    std::this_thread::sleep_for(2ms);
+    if (age >= kSettled && (all_listen || age >= 2s)) return;
+    std::this_thread::sleep_for(kLook);
   }
 }
 
 void FormingServer::on_goal(Goal goal) {
   const auto received = Clock::now();
-  {
+  // The cancel of the run before it, sent before it, may come a little later: by another topic.
+  for (; ros::ok() && Clock::now() - received < kSettled; std::this_thread::sleep_for(kLook)) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!current_ && !stopping_) {
-      received_ = received;
-      current_ = std::make_unique<Goal>(goal);
-      waiting_ = std::make_unique<Goal>(goal);
+    if (!waiting_ && !(current_ && !cancel_) && !stopping_) {
       // Its cancel may have come already, in another thread: then on_cancel did not know the goal yet.
       const int status = goal.getGoalStatus().status;
-      cancel_ = status == actionlib_msgs::GoalStatus::RECALLING || status == actionlib_msgs::GoalStatus::PREEMPTING;
+      const bool cancelled = status == actionlib_msgs::GoalStatus::RECALLING || status == actionlib_msgs::GoalStatus::PREEMPTING;
+      waiting_ = std::make_unique<Waiting>(Waiting{goal, received, cancelled});
       changed_.notify_all();
       return;
     }
@@ -120,24 +121,26 @@ void FormingServer::on_goal(Goal goal) {
 
 void FormingServer::on_cancel(Goal goal) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (waiting_ && waiting_->goal == goal) waiting_->cancelled = true;
   if (current_ && *current_ == goal) cancel_ = true;
 }
 
 void FormingServer::work() {
   for (;;) {
-    Goal goal;
+    std::unique_ptr<Waiting> next;
     {
       std::unique_lock<std::mutex> lock(mutex_);
       changed_.wait(lock, [this] { return stopping_ || waiting_; });
       if (!waiting_) return;
-      goal = *waiting_;
-      waiting_.reset();
+      next = std::move(waiting_);
+      current_ = std::make_unique<Goal>(next->goal);
+      cancel_ = next->cancelled || stopping_;
     }
-    serve(goal);
+    serve(next->goal, next->received);
   }
 }
 
-void FormingServer::serve(Goal goal) {
+void FormingServer::serve(Goal goal, Clock::time_point received) {
   bool accepted = false;
   SimulateFormingResult result;
   try {
@@ -153,7 +156,7 @@ void FormingServer::serve(Goal goal) {
     result.code = ResultCode::INTERNAL_ERROR;
     result.message = "the run ended without an outcome: " + result.message;
   }
-  wait_for_client(received_);
+  wait_for_client(received);
   {
     // From here a new goal is welcome: its client may have waited for this result only.
     const std::lock_guard<std::mutex> lock(mutex_);

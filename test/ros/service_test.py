@@ -276,6 +276,17 @@ class ServiceTest(unittest.TestCase):
         state, result = running.result()
         self.assertEqual((state, result.code), (GoalStatus.PREEMPTED, ResultCode.CANCELLED))
 
+    def test_a_goal_after_a_cancel_waits_for_it(self):
+        running = Followed(goal_of(scenes.long_run(), output_directory=self.path('long')))
+        running.wait_running()
+        after = Client()
+        self.assertTrue(after.wait_for_server(LIMIT))
+        running.client.cancel_goal()
+        after.send_goal(goal_of(scenes.pulled_strip(), output_directory=self.path('after')))
+        self.assertTrue(after.wait_for_result(LIMIT))
+        self.assertEqual((after.get_state(), after.get_result().code), (GoalStatus.SUCCEEDED, ResultCode.SUCCESS), after.get_result().message)
+        self.assertEqual(running.result()[0], GoalStatus.PREEMPTED)
+
     def test_cancel_at_once(self):
         # Over the action's topics: rospy's client gives a goal up as lost when it cancels it before the first
         # status message that lists it.

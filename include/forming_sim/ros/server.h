@@ -22,7 +22,8 @@ namespace forming_sim {
 
 /// One run at a time, on a thread of its own: callbacks only hand goals and
 /// cancels over. A goal is rejected with all its faults, or as busy, or accepted;
-/// a cancel counts from the moment the goal came.
+/// one that comes while the run before it is being cancelled waits for that.
+/// A cancel counts from the moment the goal came.
 class FormingServer {
  public:
   /// node: private to the node; parameters output_root, threads and those of
@@ -38,6 +39,11 @@ class FormingServer {
   using Server = actionlib::ActionServer<SimulateFormingAction>;
   using Goal = Server::GoalHandle;
   using Clock = std::chrono::steady_clock;
+  struct Waiting {
+    Goal goal;
+    Clock::time_point received;
+    bool cancelled;
+  };
 
   void on_goal(Goal goal);
   void on_cancel(Goal goal);
@@ -45,7 +51,7 @@ class FormingServer {
   bool on_estimate(EstimateRun::Request& request, EstimateRun::Response& response);
 
   void work();
-  void serve(Goal goal);
+  void serve(Goal goal, Clock::time_point received);
   SimulateFormingResult run(Goal& goal, bool& accepted);
   void finish(Goal& goal, const SimulateFormingResult& result, bool accepted);
   /// Until the client of a goal that came then can take an answer to it.
@@ -56,11 +62,10 @@ class FormingServer {
   std::string output_root_;
   RunPublisher publisher_;
 
-  std::mutex mutex_;                 ///< of the five below
+  std::mutex mutex_;                 ///< of the four below
   std::condition_variable changed_;
-  std::unique_ptr<Goal> waiting_;    ///< handed over, not yet taken by the worker
-  std::unique_ptr<Goal> current_;    ///< the goal that makes the server busy
-  Clock::time_point received_;       ///< when current_ came
+  std::unique_ptr<Waiting> waiting_; ///< handed over, not yet taken by the worker
+  std::unique_ptr<Goal> current_;    ///< taken by the worker, not yet done; cancel_ is its own
   bool stopping_ = false;
 
   std::atomic<bool> cancel_{false};
