@@ -365,7 +365,7 @@ double Elements::volume_ratio(const NodeField& x, int element) const {
   });
 }
 
-void Elements::report_inversion(const NodeField& x) const {
+void Elements::check_upright(const NodeField& x) const {
   for (std::size_t e = 0; e < simplices_.size(); ++e) {
     const double ratio = volume_ratio(x, static_cast<int>(e));
     if (ratio > 0) continue;
@@ -382,6 +382,10 @@ void Elements::report_inversion(const NodeField& x) const {
   }
   report_corner_inversion(x);
   report_edge_inversion(x);
+}
+
+void Elements::report_inversion(const NodeField& x) const {
+  check_upright(x);
   throw Error(Code::mesh_error, "a nodal position is not a number");
 }
 

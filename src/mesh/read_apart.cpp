@@ -1,11 +1,13 @@
 #include "mesh/read_apart.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -20,6 +22,7 @@ namespace {
 
 // Far more than any sound file has needed.
 constexpr double kSeconds = 5, kSecondsPerByte = 2e-6;
+constexpr double kPatience = 10;  // of those seconds, on a machine that does other things as well
 constexpr double kBytes = 1 << 30, kBytesPerByte = 400;
 
 struct Limits {
@@ -53,9 +56,16 @@ void write_all(int to, const std::vector<char>& data) {
   }
 }
 
-std::vector<char> read_all(int from) {
+/// Until the end, or until nothing comes for so long, s: then `late` is set. The child may hold a lock for ever that another
+/// thread of its parent had taken, and no limit of its time counts while it waits.
+std::vector<char> read_all(int from, double seconds, bool& late) {
   std::vector<char> data, part(1 << 16);
   for (;;) {
+    pollfd ready{from, POLLIN, 0};
+    const int any = poll(&ready, 1, static_cast<int>(std::min(1e3 * seconds, 1e9)));
+    if (any < 0 && errno == EINTR) continue;
+    late = any == 0;
+    if (late) return {};
     const ssize_t got = read(from, part.data(), part.size());
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return data;
@@ -111,15 +121,17 @@ std::vector<char> read_apart(const std::string& source, const std::string& path,
   if (child == 0) serve(ends[1], limits, read);
   const int why = errno;
   close(ends[1]);
-  const std::vector<char> answer = child > 0 ? read_all(ends[0]) : std::vector<char>();
+  bool late = false;
+  const std::vector<char> answer = child > 0 ? read_all(ends[0], kPatience * static_cast<double>(limits.seconds), late) : std::vector<char>();
+  if (late) kill(child, SIGKILL);
   close(ends[0]);
   if (child < 0) refuse(std::string("no process to read it in: ") + std::strerror(why));
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
 
   const std::string remedy = "; the file is damaged or cut short: write it again";
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-    refuse("reading it has taken " + std::to_string(limits.seconds) + " s and did not end" + remedy);
+  if (late || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
+    refuse("reading it has taken more than " + std::to_string(limits.seconds) + " s and did not end" + remedy);
   if (WIFSIGNALED(status)) refuse(std::string("the library that reads it breaks (") + strsignal(WTERMSIG(status)) + ")" + remedy);
   if (answer.empty()) refuse("the library that reads it ends the process" + remedy);
   Reader in(answer);

@@ -92,8 +92,8 @@ Mesh clean_surface(const Triangles& triangles, std::vector<std::string>& notes) 
   }
   if (mesh.surface.empty())
     refuse("none of its " + std::to_string(flat) + " triangles has an area; check how it was written, and its precision");
-  if (flat > static_cast<int>(mesh.surface.size()) + repeated)
-    refuse(std::to_string(flat) + " of its " + std::to_string(triangles.corners.size()) + " triangles have no area, more than the rest: it was cut short, or its numbers were written too coarsely; write it again");
+  if (flat + repeated > static_cast<int>(mesh.surface.size()))
+    refuse(std::to_string(flat) + " of its " + std::to_string(triangles.corners.size()) + " triangles have no area and " + std::to_string(repeated) + " are there already, more than the rest: it was cut short, or its numbers were written too coarsely; write it again");
   if (flat) notes.push_back(triangles.source + ": " + std::to_string(flat) + " triangles without area removed");
   if (repeated) notes.push_back(triangles.source + ": " + std::to_string(repeated) + " repeated triangles removed");
   std::vector<std::pair<int, int>> open = open_edges(mesh.surface);

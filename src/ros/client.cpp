@@ -65,10 +65,11 @@ void print_summary(const SimulateFormingResult& result) {
   for (const std::string& file : result.files) std::printf("  %s\n", file.c_str());
 }
 
+// Waits go by the wall clock here: that of ROS stands still where use_sim_time is set and nothing plays.
+constexpr double kLook = 0.1;  // s
+
 bool wait_for_server(Client& client, double wait_s) {
-  for (double waited = 0; waited < wait_s && ros::ok() && !stop_requested(); waited += 0.1) {
-    if (client.waitForServer(ros::Duration(0.1))) return true;
-  }
+  for (double waited = 0; waited < wait_s && ros::ok() && !stop_requested() && !client.isServerConnected(); waited += kLook) ros::WallDuration(kLook).sleep();
   return client.isServerConnected();
 }
 
@@ -76,7 +77,7 @@ bool wait_for_server(Client& client, double wait_s) {
 bool follow(Client& client, ClientProgress& line) {
   bool cancelled = false;
   int missed = 0;
-  while (!client.waitForResult(ros::Duration(0.1))) {
+  for (; !client.getState().isDone(); ros::WallDuration(kLook).sleep()) {
     if (!ros::ok()) return false;
     // Not while pending: actionlib gives a goal up as lost when it is cancelled before a status lists it.
     if (stop_requested() && !cancelled && client.getState() != actionlib::SimpleClientGoalState::PENDING) {
@@ -105,8 +106,10 @@ int run_client(const ClientRequest& request) {
   ClientProgress line(stdout);  // outlives the client, whose thread writes to it
   Client client(name, true);
   if (!wait_for_server(client, request.wait_s)) {
-    std::fprintf(stderr, "forming_client: no server on %s after %g s; start one with `roslaunch forming_sim forming.launch`\n",
-                 name.c_str(), request.wait_s);
+    const bool stands = ros::Time::isSimTime() && ros::Time::now().isZero();
+    std::fprintf(stderr, "forming_client: no server on %s after %g s; %s\n", name.c_str(), request.wait_s,
+                 stands ? "use_sim_time is set and nobody publishes /clock, without which actions do not answer: `rosparam set use_sim_time false`"
+                        : "start one with `roslaunch forming_sim forming.launch`");
     return 1;
   }
   client.sendGoal(goal, Client::SimpleDoneCallback(), Client::SimpleActiveCallback(),

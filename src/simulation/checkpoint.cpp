@@ -1,6 +1,8 @@
 // Every number that the next steps depend on, to bytes and back.
 #include <cstdint>
+#include <functional>
 #include <sstream>
+#include <string_view>
 
 #include "config/archive.h"
 #include "simulation/impl.h"
@@ -9,7 +11,30 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f660000000au;
+constexpr std::uint64_t kLayout = 0x6d726f660000000bu;
+
+template <class T> std::size_t mark_of(const T* values, std::size_t count) {
+  return std::hash<std::string_view>()({reinterpret_cast<const char*>(values), count * sizeof(T)});
+}
+
+/// A number of each body's nodes and each tool's surface, which come from files that may have changed.
+std::vector<std::size_t> marks_of(const Model& model, const NodeField& X) {
+  std::vector<std::size_t> marks;
+  for (const BodyModel& body : model.bodies) marks.push_back(mark_of(X.data() + body.first_node, static_cast<std::size_t>(body.node_count)));
+  for (const ToolModel& tool : model.tools) {
+    std::vector<int> corners;
+    for (const Facet& facet : tool.mesh.surface) corners.insert(corners.end(), facet.nodes.begin(), facet.nodes.end());
+    marks.push_back(mark_of(tool.mesh.nodes.data(), tool.mesh.nodes.size()) ^ mark_of(corners.data(), corners.size()));
+  }
+  return marks;
+}
+
+/// Of the first body or tool that is not the checkpoint's.
+std::string changed_part(const Model& model, const std::vector<std::size_t>& now, const std::vector<std::size_t>& then) {
+  for (std::size_t k = 0; k < now.size(); ++k)
+    if (now[k] != then.at(k)) return k < model.bodies.size() ? "the mesh of body " + model.bodies[k].name : "the surface of tool " + model.tools[k - model.bodies.size()].name;
+  return "";
+}
 }  // namespace
 
 template <class Archive> void Simulation::Impl::exchange(Archive& a) {
@@ -57,6 +82,7 @@ std::vector<char> Simulation::save() const {
   out.number(s.elements.simplices().size());
   out.number(s.x.size());
   out.number(s.tools.size());
+  out.list(marks_of(s.model, s.X));
   out.list(s.stages.starts());
   s.stages.exchange_drives(out);
   s.exchange(out);
@@ -84,6 +110,10 @@ void Simulation::restore(const std::vector<char>& data) {
          << "; resume with the scene that wrote it";
     throw Error(Code::resume_error, what.str());
   }
+  std::vector<std::size_t> marks;
+  in.list(marks);
+  if (const std::string part = changed_part(s.model, marks_of(s.model, s.X), marks); !part.empty())
+    throw Error(Code::resume_error, part + " has changed since the checkpoint was written: its file is another; resume with the file of then, or run the scene from its start");
   std::vector<double> starts, memory;
   in.list(starts);
   s.stages = StageRunner(s.plan.stages, s.model);

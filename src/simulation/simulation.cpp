@@ -73,7 +73,10 @@ bool Simulation::step() {
   const Clock::time_point stepped = Clock::now();
   s.wall += std::chrono::duration<double>(stepped - start).count();
   if (over || s.stages.progress(s.time) >= s.next_crossing_check) s.check_crossings();
-  if (over) s.check_ledger(energies().residual(), balance_error());
+  if (over) {
+    s.elements.check_upright(s.x);
+    s.check_ledger(energies().residual(), balance_error());
+  }
   for (Observer* o : s.observers) o->on_step(*this);
   if (over) {
     const int ended = s.stages.index();

@@ -289,6 +289,25 @@ class BadInput(unittest.TestCase):
 
     # ---- a run that fails
 
+    def test_a_mesh_that_has_changed_since_the_checkpoint(self):
+        self.write('die.stl', stl(DIE))
+        self.write('scene.yaml', yaml.safe_dump(self.changed(('output', 'checkpoint_interval'), 1e-6, PLATE)))
+        words = (self.path('scene.yaml'), '--output', self.path('out'), '--quiet', '--threads', '1')
+        self.assertEqual(self.offline(*words).returncode, 0, self.said)
+        shutil.copy(self.path('out/checkpoint.h5'), self.path('checkpoint.h5'))
+        resume = words + ('--resume', self.path('checkpoint.h5'))
+        self.assertEqual(self.offline(*resume).returncode, 0, self.said)
+        self.write('die.stl', stl(box((-1, -1, 1.0), (10.5, 11, 3.0))))
+        self.assertEqual(self.offline(*resume).returncode, 1)
+        self.assertIn('the surface of tool die has changed since the checkpoint was written', self.said)
+
+    def test_what_the_last_step_turns_inside_out_is_no_success(self):
+        driven = self.changed(('tools',), None)
+        driven['bodies'][0]['boundaries'].append({'set': 'top', 'kind': 'velocity', 'axes': ['y'], 'times': [0.0], 'velocities': [[0.0, -1e3, 0.0]]})
+        driven['time_step'] = {'mass_scaling': 1e6}  # one step is the run
+        driven['stages'] = [{'kind': 'form', 'duration': 2e-6}]
+        self.refused(driven, 'mesh_error', 'turned inside out', 'step 1')
+
     def test_a_run_that_breaks_keeps_its_files(self):
         scene = self.changed(('bodies', 0, 'boundaries'), [
             {'set': 'left', 'kind': 'fixed'},

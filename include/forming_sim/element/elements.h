@@ -72,6 +72,8 @@ class Elements {
   void find_forces(const NodeField& x, const NodeField& v, double last_dt, double last_kick);
   /// What the cells found last, as the nodes have it; until forces are found again.
   NodalForces nodal_forces() const { return {dimension_, slot_start_.data(), slot_index_.data(), slots_, nullptr}; }
+  /// Throws Error(mesh_error) as find_forces() does, for positions that it does not come to: those of the end of a run.
+  void check_upright(const NodeField& x) const;
   /// Both: f = internal forces at x.
   void forces(const NodeField& x, const NodeField& v, double last_dt, double last_kick, NodeField& f);
   /// Stable time step at x, without a safety factor: dt and the simplex' cell.
