@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """What the plots read of a result.h5: a frame, and a field of it per node, element or facet."""
 import contextlib
 import sys

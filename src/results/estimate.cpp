@@ -24,20 +24,29 @@ Estimate estimate_run(Simulation& simulation) {
   estimate.memory_bytes = 2.0 * static_cast<double>(simulation.save().size()) + 400.0 * static_cast<double>(estimate.elements);
 
   bool more = true;
-  for (long i = 0; i < kWarmSteps && more; ++i) more = simulation.step();
+  const auto step = [&] {
+    try {
+      more = simulation.step();
+    } catch (const Error& error) {
+      more = false;
+      estimate.broken = error.what();
+    }
+  };
+  for (long i = 0; i < kWarmSteps && more; ++i) step();
   const double time = simulation.time(), wall = simulation.wall_time();
   const long first = simulation.steps();
   const auto enough = [&] {
     const long steps = simulation.steps() - first;
     return steps >= kMostSteps || (steps >= kLeastSteps && simulation.wall_time() - wall >= kMeasuredTime);
   };
-  while (more && !enough()) more = simulation.step();
+  while (more && !enough()) step();
 
   const long measured = simulation.steps() - first;
-  if (measured == 0) {  // the whole run is shorter than the warm-up
-    estimate.steps = first;
-    estimate.time_step_s = first > 0 ? time / static_cast<double>(first) : 0;
-    estimate.wall_time_s = wall;
+  if (measured == 0) {  // the whole run is shorter than the warm-up, or broke in it
+    const double taken = static_cast<double>(first);
+    estimate.time_step_s = first > 0 ? time / taken : simulation.dt();
+    estimate.steps = estimate.broken.empty() ? first : static_cast<long>(std::ceil(longest_time(simulation.plan().stages) / estimate.time_step_s));
+    estimate.wall_time_s = first > 0 ? wall / taken * static_cast<double>(estimate.steps) : 0;
     return estimate;
   }
   estimate.time_step_s = (simulation.time() - time) / static_cast<double>(measured);
@@ -50,10 +59,10 @@ std::string estimate_text(const Estimate& estimate) {
   char text[512];
   std::snprintf(text, sizeof text,
                 "nodes        %ld\nelements     %ld\ntime step    %.3g s at the start; it falls where cells are squeezed\nsteps        about %ld%s\n"
-                "wall time    about %.3g s on this machine (without contact that comes later)\nmemory       about %.3g MB for the solver's data\n",
+                "wall time    about %.3g s on this machine (of the solver, without contact that comes later)\nmemory       about %.3g MB for the solver's data\n",
                 estimate.nodes, estimate.elements, estimate.time_step_s, estimate.steps, estimate.settles ? " (settling by its limit)" : "",
                 estimate.wall_time_s, estimate.memory_bytes / 1e6);
-  return text;
+  return estimate.broken.empty() ? text : text + ("note: the run breaks in its first steps: " + estimate.broken + "\n");
 }
 
 }  // namespace forming_sim

@@ -237,7 +237,9 @@ bool FormingServer::on_estimate(EstimateRun::Request& request, EstimateRun::Resp
   Prepared prepared = prepare(request.scene, "", threads);
   if (prepared.faults.empty()) {
     try {
-      response.estimate = estimate_message(estimate_run(*prepared.simulation));
+      const Estimate estimate = estimate_run(*prepared.simulation);
+      response.estimate = estimate_message(estimate);
+      if (!estimate.broken.empty()) prepared.notes.push_back("the run breaks in its first steps: " + estimate.broken);
     } catch (const Error& error) {
       prepared.faults.push_back({error.code(), "scene", error.what(), "change the scene so that it can start"});
     } catch (const std::exception& error) {

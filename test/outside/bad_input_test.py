@@ -308,6 +308,16 @@ class BadInput(unittest.TestCase):
         driven['stages'] = [{'kind': 'form', 'duration': 2e-6}]
         self.refused(driven, 'mesh_error', 'turned inside out', 'step 1')
 
+    def test_an_estimate_of_what_breaks_at_once(self):
+        driven = self.changed(('tools',), None)
+        driven['bodies'][0]['boundaries'].append({'set': 'top', 'kind': 'velocity', 'axes': ['y'], 'times': [0.0], 'velocities': [[0.0, -1e6, 0.0]]})
+        self.write('scene.yaml', yaml.safe_dump(driven))
+        for word in ('--estimate', '--plan'):
+            run = self.offline(word, self.path('scene.yaml'))
+            self.assertEqual(run.returncode, 0, self.said)
+            self.assertIn('elements     80', run.stdout)
+            self.assertIn('note: the run breaks in its first steps: ', run.stdout)
+
     def test_a_run_that_breaks_keeps_its_files(self):
         scene = self.changed(('bodies', 0, 'boundaries'), [
             {'set': 'left', 'kind': 'fixed'},
