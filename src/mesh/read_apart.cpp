@@ -13,6 +13,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 
 #include "config/archive.h"
 #include "forming_sim/config/fault.h"
@@ -115,12 +116,15 @@ std::vector<char> answer_of(const std::function<std::vector<char>()>& read) {
 std::vector<char> read_apart(const std::string& source, const std::string& path, const std::function<std::vector<char>()>& read) {
   const auto refuse = [&](const std::string& what) { throw Error(Code::mesh_error, source + ": " + what); };
   const Limits limits = limits_of(path);
+  static std::mutex one_at_a_time;  // a child that another thread forks meanwhile would keep this one's pipe open
   int ends[2];
+  std::unique_lock<std::mutex> forking(one_at_a_time);
   if (pipe2(ends, O_CLOEXEC) != 0) refuse(std::string("no pipe to a process that reads it: ") + std::strerror(errno));
   const pid_t child = fork();
   if (child == 0) serve(ends[1], limits, read);
   const int why = errno;
   close(ends[1]);
+  forking.unlock();
   bool late = false;
   const std::vector<char> answer = child > 0 ? read_all(ends[0], kPatience * static_cast<double>(limits.seconds), late) : std::vector<char>();
   if (late) kill(child, SIGKILL);

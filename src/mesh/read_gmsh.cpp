@@ -208,13 +208,18 @@ RawMesh read_with_reasons(const std::string& path, const std::string& group, dou
   }
 }
 
+/// All but the groups, to bytes or back.
+template <class Archive, class Raw> void exchange(Archive& a, Raw& mesh) {
+  a.text(mesh.source);
+  a.number(mesh.dimension);
+  a.list(mesh.points);
+  a.list(mesh.point_tags);
+  a.list(mesh.cells);
+}
+
 std::vector<char> bytes_of(const RawMesh& mesh) {
   Writer out;
-  out.text(mesh.source);
-  out.number(mesh.dimension);
-  out.list(mesh.points);
-  out.list(mesh.point_tags);
-  out.list(mesh.cells);
+  exchange(out, mesh);
   out.number(mesh.groups.size());
   for (const auto& [name, cells] : mesh.groups) {
     out.text(name);
@@ -226,11 +231,7 @@ std::vector<char> bytes_of(const RawMesh& mesh) {
 RawMesh mesh_of(const std::vector<char>& bytes) {
   Reader in(bytes);
   RawMesh mesh;
-  in.text(mesh.source);
-  in.number(mesh.dimension);
-  in.list(mesh.points);
-  in.list(mesh.point_tags);
-  in.list(mesh.cells);
+  exchange(in, mesh);
   std::size_t groups = 0;
   in.number(groups);
   for (std::size_t g = 0; g < groups; ++g) {

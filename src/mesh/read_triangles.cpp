@@ -66,20 +66,23 @@ Triangles read(const std::string& path, double unit_scale) {
   return all;
 }
 
+/// To bytes or back.
+template <class Archive, class Surface> void exchange(Archive& a, Surface& triangles) {
+  a.text(triangles.source);
+  a.list(triangles.points);
+  a.list(triangles.corners);
+}
+
 std::vector<char> bytes_of(const Triangles& triangles) {
   Writer out;
-  out.text(triangles.source);
-  out.list(triangles.points);
-  out.list(triangles.corners);
+  exchange(out, triangles);
   return out.take();
 }
 
 Triangles triangles_of(const std::vector<char>& bytes) {
   Reader in(bytes);
   Triangles triangles;
-  in.text(triangles.source);
-  in.list(triangles.points);
-  in.list(triangles.corners);
+  exchange(in, triangles);
   return triangles;
 }
 
