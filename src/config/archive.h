@@ -1,6 +1,7 @@
 #pragma once
 // Plain values to bytes and back.
 #include <cstring>
+#include <map>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -20,6 +21,13 @@ class Writer {
   template <class T> void list(const std::vector<T>& values) {
     number(values.size());
     append(values.data(), values.size() * sizeof(T));
+  }
+  template <class T> void lists(const std::map<std::string, std::vector<T>>& named) {
+    number(named.size());
+    for (const auto& [name, values] : named) {
+      text(name);
+      list(values);
+    }
   }
   void text(const std::string& value) { list(std::vector<char>(value.begin(), value.end())); }
   std::vector<char> take() { return std::move(data_); }
@@ -48,6 +56,15 @@ class Reader {
     if (count > (data_.size() - at_) / sizeof(T)) fail();
     values.resize(count);
     take(values.data(), count * sizeof(T));
+  }
+  template <class T> void lists(std::map<std::string, std::vector<T>>& named) {
+    std::size_t count = 0;
+    number(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::string name;
+      text(name);
+      list(named[name]);
+    }
   }
   void text(std::string& value) {
     std::vector<char> letters;

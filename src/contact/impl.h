@@ -79,6 +79,7 @@ struct Contact::Impl {
   double fastest(const NodeField& v) const;
   /// Largest way in the step of any point of the present tools that go as they are told, m.
   double step_way(const std::vector<ToolMotion>& motion, const NodeField& x) const;
+  /// Throws Error(contact_error) where a body vertex, or this reach, is farther than numbers go.
   void check_reach(const NodeField& x, double radius) const;
   /// A list that holds every pair of features nearer than `reach`.
   void ensure_list(const NodeField& x, const std::vector<ToolMotion>& motion, double reach, double step_bound);

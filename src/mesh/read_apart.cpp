@@ -15,7 +15,6 @@
 #include <fstream>
 #include <mutex>
 
-#include "config/archive.h"
 #include "forming_sim/config/fault.h"
 
 namespace forming_sim {
@@ -113,7 +112,7 @@ std::vector<char> answer_of(const std::function<std::vector<char>()>& read) {
 
 }  // namespace
 
-std::vector<char> read_apart(const std::string& source, const std::string& path, const std::function<std::vector<char>()>& read) {
+std::vector<char> bytes_read_apart(const std::string& source, const std::string& path, const std::function<std::vector<char>()>& read) {
   const auto refuse = [&](const std::string& what) { throw Error(Code::mesh_error, source + ": " + what); };
   const Limits limits = limits_of(path);
   static std::mutex one_at_a_time;  // a child that another thread forks meanwhile would keep this one's pipe open

@@ -5,7 +5,6 @@
 #include <fstream>
 #include <unordered_map>
 
-#include "config/archive.h"
 #include "forming_sim/config/fault.h"
 #include "forming_sim/mesh/cell_order.h"
 #include "mesh/read_apart.h"
@@ -208,44 +207,17 @@ RawMesh read_with_reasons(const std::string& path, const std::string& group, dou
   }
 }
 
-/// All but the groups, to bytes or back.
-template <class Archive, class Raw> void exchange(Archive& a, Raw& mesh) {
-  a.text(mesh.source);
-  a.number(mesh.dimension);
-  a.list(mesh.points);
-  a.list(mesh.point_tags);
-  a.list(mesh.cells);
-}
-
-std::vector<char> bytes_of(const RawMesh& mesh) {
-  Writer out;
-  exchange(out, mesh);
-  out.number(mesh.groups.size());
-  for (const auto& [name, cells] : mesh.groups) {
-    out.text(name);
-    out.list(cells);
-  }
-  return out.take();
-}
-
-RawMesh mesh_of(const std::vector<char>& bytes) {
-  Reader in(bytes);
-  RawMesh mesh;
-  exchange(in, mesh);
-  std::size_t groups = 0;
-  in.number(groups);
-  for (std::size_t g = 0; g < groups; ++g) {
-    std::string name;
-    in.text(name);
-    in.list(mesh.groups[name]);
-  }
-  return mesh;
-}
-
 }  // namespace
 
 RawMesh read_gmsh(const std::string& path, const std::string& group, double unit_scale) {
-  return mesh_of(read_apart("mesh file \"" + path + "\"", path, [&] { return bytes_of(read_with_reasons(path, group, unit_scale)); }));
+  return read_apart<RawMesh>("mesh file \"" + path + "\"", path, [&] { return read_with_reasons(path, group, unit_scale); }, [](auto& archive, auto& mesh) {
+    archive.text(mesh.source);
+    archive.number(mesh.dimension);
+    archive.list(mesh.points);
+    archive.list(mesh.point_tags);
+    archive.list(mesh.cells);
+    archive.lists(mesh.groups);
+  });
 }
 
 }  // namespace forming_sim

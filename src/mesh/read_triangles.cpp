@@ -6,7 +6,6 @@
 #include <assimp/scene.h>
 #include <filesystem>
 
-#include "config/archive.h"
 #include "forming_sim/config/fault.h"
 #include "mesh/read_apart.h"
 #include "tool_surface.h"
@@ -66,30 +65,14 @@ Triangles read(const std::string& path, double unit_scale) {
   return all;
 }
 
-/// To bytes or back.
-template <class Archive, class Surface> void exchange(Archive& a, Surface& triangles) {
-  a.text(triangles.source);
-  a.list(triangles.points);
-  a.list(triangles.corners);
-}
-
-std::vector<char> bytes_of(const Triangles& triangles) {
-  Writer out;
-  exchange(out, triangles);
-  return out.take();
-}
-
-Triangles triangles_of(const std::vector<char>& bytes) {
-  Reader in(bytes);
-  Triangles triangles;
-  exchange(in, triangles);
-  return triangles;
-}
-
 }  // namespace
 
 Triangles read_triangles(const std::string& path, double unit_scale) {
-  return triangles_of(read_apart("mesh file \"" + path + "\"", path, [&] { return bytes_of(read(path, unit_scale)); }));
+  return read_apart<Triangles>("mesh file \"" + path + "\"", path, [&] { return read(path, unit_scale); }, [](auto& archive, auto& triangles) {
+    archive.text(triangles.source);
+    archive.list(triangles.points);
+    archive.list(triangles.corners);
+  });
 }
 
 }  // namespace forming_sim

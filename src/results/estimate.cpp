@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "forming_sim/results/schedule.h"
+#include "forming_sim/scene/stage_times.h"
 
 namespace forming_sim {
 namespace {

@@ -1,7 +1,7 @@
 #include "forming_sim/results/start.h"
 
 #include "forming_sim/config/words.h"
-#include "forming_sim/results/schedule.h"
+#include "forming_sim/scene/stage_times.h"
 #include "forming_sim/scene/build.h"
 #include "forming_sim/scene/validate.h"
 

@@ -68,16 +68,9 @@ void print_summary(const SimulateFormingResult& result) {
 // Waits go by the wall clock here: that of ROS stands still where use_sim_time is set and nothing plays.
 constexpr double kLook = 0.1;  // s
 
-/// False where the time of ROS does not begin: actionlib's client would wait for that for ever.
-bool wait_for_time(double wait_s) {
-  const ros::NodeHandle starts_the_time;
-  for (double waited = 0; waited < wait_s && ros::ok() && !stop_requested() && !ros::Time::isValid(); waited += kLook) ros::WallDuration(kLook).sleep();
-  return ros::Time::isValid();
-}
-
-bool wait_for_server(Client& client, double wait_s) {
-  for (double waited = 0; waited < wait_s && ros::ok() && !stop_requested() && !client.isServerConnected(); waited += kLook) ros::WallDuration(kLook).sleep();
-  return client.isServerConnected();
+template <class Come> bool wait_for(Come&& come, double wait_s) {
+  for (double waited = 0; waited < wait_s && ros::ok() && !stop_requested() && !come(); waited += kLook) ros::WallDuration(kLook).sleep();
+  return come();
 }
 
 /// Follows the goal to its end. False where the server has gone.
@@ -110,13 +103,14 @@ int run_client(const ClientRequest& request) {
     return 2;
   }
   const std::string name = request.server + "/simulate_forming";
-  if (!wait_for_time(request.wait_s)) {
+  const ros::NodeHandle starts_the_time;  // of ROS: until that begins actionlib's client would wait for ever
+  if (!wait_for(ros::Time::isValid, request.wait_s)) {
     std::fprintf(stderr, "forming_client: use_sim_time is set and in %g s nobody has published /clock, without which actions do not answer: `rosparam set use_sim_time false`\n", request.wait_s);
     return 1;
   }
   ClientProgress line(stdout);  // outlives the client, whose thread writes to it
   Client client(name, true);
-  if (!wait_for_server(client, request.wait_s)) {
+  if (!wait_for([&] { return client.isServerConnected(); }, request.wait_s)) {
     std::fprintf(stderr, "forming_client: no server on %s after %g s; start one with `roslaunch forming_sim forming.launch`\n",
                  name.c_str(), request.wait_s);
     return 1;

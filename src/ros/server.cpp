@@ -3,14 +3,14 @@
 #include <cstdlib>
 
 #include "forming_sim/ResultCode.h"
+#include "forming_sim/mesh/url.h"
+#include "forming_sim/parallel/team.h"
 #include "forming_sim/ros/convert.h"
 #include "forming_sim/ros/observer.h"
 #include "forming_sim/ros/prepare.h"
 #include "forming_sim/ros/summary.h"
 #include "forming_sim/results/estimate.h"
 #include "forming_sim/results/run_scene.h"
-#include "forming_sim/mesh/url.h"
-#include "forming_sim/parallel/team.h"
 
 namespace forming_sim {
 namespace {
@@ -240,8 +240,6 @@ bool FormingServer::on_estimate(EstimateRun::Request& request, EstimateRun::Resp
       const Estimate estimate = estimate_run(*prepared.simulation);
       response.estimate = estimate_message(estimate);
       if (!estimate.broken.empty()) prepared.notes.push_back("the run breaks in its first steps: " + estimate.broken);
-    } catch (const Error& error) {
-      prepared.faults.push_back({error.code(), "scene", error.what(), "change the scene so that it can start"});
     } catch (const std::exception& error) {
       prepared.faults.push_back({Code::internal_error, "scene", error.what(), "please report this as a defect"});
     }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "forming_sim/config/words.h"
+#include "forming_sim/scene/stage_times.h"
 #include "geometry.h"
 
 namespace forming_sim {
@@ -93,8 +94,7 @@ void tell_odd_values(const Scene& scene, std::vector<std::string>& notes) {
   if (scene.time_step.mass_scaling > kMuchScaling)
     notes.push_back("time_step.mass_scaling " + number_text(scene.time_step.mass_scaling) + " makes waves " + three_digits(std::sqrt(scene.time_step.mass_scaling)) +
                     " times as slow: look at kinetic_over_internal_forming, and expect bodies to be squeezed flat where tools are faster than these waves");
-  double end = 0;
-  for (const StageConfig& stage : scene.stages) end += stage.kind == "settle" ? stage.limit : stage.duration;
+  const double end = longest_time(scene.stages);
   tell_late(scene, end, notes);
   const auto interval = [&](double given, const std::string& field) {
     if (given > end) notes.push_back("output." + field + " is " + three_digits(given) + " s and the stages end at " + three_digits(end) + " s: nothing is written between the first state and the last");

@@ -1,5 +1,6 @@
 #include <set>
 
+#include "forming_sim/scene/stage_times.h"
 #include "rules.h"
 
 namespace forming_sim {
@@ -51,8 +52,7 @@ void check_stages(const Scene& scene, FaultList& faults) {
 
 void check_output(const Scene& scene, FaultList& faults) {
   const OutputConfig& output = scene.output;
-  double duration = 0;
-  for (const StageConfig& stage : scene.stages) duration += stage.kind == "settle" ? stage.limit : stage.duration;
+  const double duration = longest_time(scene.stages);
   const auto check_rows = [&](double interval, double most, const std::string& field) {
     if (interval > 0 && duration / interval > most) {
       faults.add("output." + field, given_text(interval), "give at least " + number_text(duration / most) + " s: at most " + number_text(most) + " outputs in the " + number_text(duration) + " s of all stages");

@@ -11,11 +11,12 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import numpy
 import yaml
+
+from own_directory import OwnDirectory
 
 OFFLINE = sys.argv.pop(1) if len(sys.argv) > 1 else ''
 
@@ -65,14 +66,7 @@ def stl(facets):
 DIE = box((-1, -1, 1.0), (11, 11, 3.0))  # millimetres, on the plate's top
 
 
-class BadInput(unittest.TestCase):
-    def setUp(self):
-        self.directory = tempfile.mkdtemp(prefix='forming_sim_')
-        self.addCleanup(shutil.rmtree, self.directory)
-
-    def path(self, name):
-        return os.path.join(self.directory, name)
-
+class BadInput(OwnDirectory):
     def write(self, name, text):
         with open(self.path(name), 'wb' if isinstance(text, bytes) else 'w') as file:
             file.write(text)

@@ -2,14 +2,12 @@
 import copy
 import csv
 import json
-import os
-import shutil
 import subprocess
 import sys
-import tempfile
-import unittest
 
 import yaml
+
+from own_directory import OwnDirectory
 
 OFFLINE = sys.argv[1] if len(sys.argv) > 1 else ''
 
@@ -28,15 +26,7 @@ def scene(*bodies, dimension=2, duration=2e-5, **fields):
                  'stages': [{'kind': 'form', 'duration': duration}], 'output': {'frames': 2}}, **fields)
 
 
-class SceneRun(unittest.TestCase):
-    """Each test has a directory of its own."""
-    def setUp(self):
-        self.directory = tempfile.mkdtemp(prefix='forming_sim_')
-        self.addCleanup(shutil.rmtree, self.directory)
-
-    def path(self, name):
-        return os.path.join(self.directory, name)
-
+class SceneRun(OwnDirectory):
     def run_scene(self, data, name='out'):
         with open(self.path('scene.yaml'), 'w') as file:
             yaml.safe_dump(data, file)

@@ -6,14 +6,13 @@ usage: time_step_test.py FORMING_OFFLINE
 import copy
 import csv
 import json
-import os
-import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import yaml
+
+from own_directory import OwnDirectory
 
 OFFLINE = sys.argv[1] if len(sys.argv) > 1 else ''
 
@@ -36,14 +35,7 @@ SCENE = {
     'output': {'frames': 2}}
 
 
-class TimeStep(unittest.TestCase):
-    def setUp(self):
-        self.directory = tempfile.mkdtemp(prefix='forming_sim_')
-        self.addCleanup(shutil.rmtree, self.directory)
-
-    def path(self, name):
-        return os.path.join(self.directory, name)
-
+class TimeStep(OwnDirectory):
     def call(self, time_step, name='out', *more, **changes):
         data = dict(copy.deepcopy(SCENE), time_step=time_step, **changes)
         with open(self.path('scene.yaml'), 'w') as file:

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forming_sim/scene/scene.h"
+#include "forming_sim/scene/stage_times.h"
 
 namespace forming_sim {
 
@@ -28,13 +28,6 @@ class Schedule {
   double interval_;
   double done_ = 0;
 };
-
-/// Simulated time to the end of the last stage, settle stages by their limits, s.
-inline double longest_time(const std::vector<StageConfig>& stages) {
-  double time = 0;
-  for (const StageConfig& stage : stages) time += stage.kind == "settle" ? stage.limit : stage.duration;
-  return time;
-}
 
 /// Simulated time that `frames` are spread over, s. Settle stages mostly end long before their limits: together they count for
 /// no more than the other stages, so that these get their share of frames, but a run to all limits has at most 20 times `frames`.
