@@ -377,7 +377,7 @@ void Elements::check_upright(const NodeField& x) const {
            << "; a finer mesh there, larger tool radii or slower tools avoid it";
     else
       what << ") has no volume that is a number at (" << vec3(x[simplices_[e][0]]).transpose()
-           << ") m: it was pushed or driven farther in a step than numbers reach; look for a boundary, a pressure, gravity or an initial velocity in other units than m, s, Pa";
+           << ") m: it was pushed or driven farther in a step than numbers reach; look for a boundary, a pressure, a load, gravity or an initial velocity in other units than m, s, Pa";
     throw Error(Code::mesh_error, what.str());
   }
   report_corner_inversion(x);

@@ -1,7 +1,5 @@
 #include "forming_sim/loads/pressure.h"
 
-#include <algorithm>
-
 #include "forming_sim/config/fault.h"
 
 namespace forming_sim {
@@ -18,11 +16,7 @@ ResolvedPressure resolve(const PressureConfig& config, const std::string& body, 
   } catch (const Error& error) {
     throw Error(error.code(), where + ": " + error.what());
   }
-  const auto holds = [&](int node) {
-    return std::binary_search(set->second.begin(), set->second.end(), node);
-  };
-  for (Face face : faces_of(mesh)) {
-    if (!std::all_of(face.begin(), face.end(), holds)) continue;
+  for (Face face : faces_within(mesh, set->second)) {
     for (int k = 0; k < face.corners; ++k) face.nodes[k] += first_node;
     resolved.faces.push_back(face);
   }
@@ -52,19 +46,6 @@ double PressureSet::add(double t, const NodeField& x, NodeField& f) const {
     }
   }
   return total;
-}
-
-double PressureSet::work(double t, const NodeField& x, const NodeField& v_before, const NodeField& v_after,
-                         double dt) const {
-  double work = 0;
-  for (const ResolvedPressure& pressure : pressures_) {
-    const double p = pressure.profile.at(t);
-    if (p == 0) continue;
-    for (const Face& face : pressure.faces)
-      for (int k = 0; k < face.corners; ++k)
-        work -= p * area_share(face, k, x, axisymmetric_).dot(vec3(v_before[face.nodes[k]]) + vec3(v_after[face.nodes[k]]));
-  }
-  return 0.5 * dt * work;
 }
 
 }  // namespace forming_sim

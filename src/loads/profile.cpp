@@ -13,11 +13,13 @@ Curve curve_of(const std::vector<double>& times, const std::vector<Vec3>& values
 
 }  // namespace
 
+Curve load_curve(const std::vector<double>& times, const std::vector<Vec3>& values, const std::string& shape) { return curve_of(times, values, shape, "load"); }
+
 ScalarProfile::ScalarProfile(const std::vector<double>& times, const std::vector<double>& values,
                              const std::string& shape) {
   std::vector<Vec3> points;
   for (double value : values) points.push_back(Vec3(value, 0, 0));
-  curve_ = curve_of(times, points, shape, "load");
+  curve_ = load_curve(times, points, shape);
 }
 
 VelocityProfile::VelocityProfile(const std::vector<double>& times, const std::vector<Vec3>& velocities,

@@ -46,6 +46,13 @@ std::vector<Face> faces_of(const Mesh& mesh) {
   return faces;
 }
 
+std::vector<Face> faces_within(const Mesh& mesh, const std::vector<int>& set) {
+  std::vector<Face> faces = faces_of(mesh);
+  const auto leaves = [&](const Face& face) { return !std::all_of(face.begin(), face.end(), [&](int n) { return std::binary_search(set.begin(), set.end(), n); }); };
+  faces.erase(std::remove_if(faces.begin(), faces.end(), leaves), faces.end());
+  return faces;
+}
+
 Vec3 area_share(const Face& face, int k, const NodeField& x, bool axisymmetric) {
   const auto at = [&](int corner) { return vec3(x[face.nodes[corner % face.corners]]); };
   if (face.corners == 2) {

@@ -73,15 +73,17 @@ std::string plan_text(const Simulation& simulation) {
   lines.add(number_text(nodes) + ": positions, velocities, forces, masses");
 
   lines.start("loads");
-  std::size_t held = 0, pressed = 0;
+  std::size_t held = 0, pressed = 0, dead = 0;
   bool moving = false;
   for (const BodyLoads& loads : plan.bodies) {
     held += loads.boundaries.size();
     pressed += loads.pressures.size();
+    dead += loads.loads.size();
     moving = moving || loads.moves_at_first();
   }
   if_any(held > 0, std::to_string(held) + " boundaries", "held or driven nodes");
   if_any(pressed > 0, std::to_string(pressed) + " pressures on surfaces", "pressure on surfaces");
+  if_any(dead > 0, std::to_string(dead) + " tractions and forces", "tractions and forces");
   if_any(!plan.gravity.isZero(), "gravity", "gravity");
   if_any(moving, "initial motion", "initial motion");
   if_any(step.damping > 0, "damping " + number_text(step.damping) + " 1/s", "damping");

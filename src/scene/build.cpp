@@ -44,7 +44,7 @@ void list_withdrawn_tools(const std::vector<ToolConfig>& tools, std::vector<Stag
 RunPlan build_plan(const Scene& scene) {
   RunPlan plan;
   for (const BodyConfig& body : scene.bodies) {
-    plan.bodies.push_back({body.initial_velocity, body.initial_spin_deg_s, body.spin_centre, body.initial_velocity_field, body.boundaries, body.pressures});
+    plan.bodies.push_back({body.initial_velocity, body.initial_spin_deg_s, body.spin_centre, body.initial_velocity_field, body.boundaries, body.pressures, body.loads});
   }
   plan.gravity = scene.gravity;
   plan.contact = scene.contact;

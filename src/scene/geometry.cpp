@@ -88,11 +88,15 @@ void check_used_sets(const BodyConfig& body, const std::string& path, const Mesh
     return false;
   };
   for (std::size_t k = 0; k < body.boundaries.size(); ++k) exists(body.boundaries[k].set, join_path(path + ".boundaries", k));
-  for (std::size_t k = 0; k < body.pressures.size(); ++k) {
-    const std::string here = join_path(path + ".pressures", k);
-    const std::string& set = body.pressures[k].set;
-    if (!exists(set, here) || mesh.sets.at(set).empty() || covers_a_face(mesh, mesh.sets.at(set))) continue;
-    list.add(here + ".set", given_text(set), "give a set that holds all nodes of at least one surface face: on none of this one can a pressure act");
+  const auto covers = [&](const std::string& set, const std::string& here, const std::string& what) {
+    if (!exists(set, here) || mesh.sets.at(set).empty() || covers_a_face(mesh, mesh.sets.at(set))) return;
+    list.add(here + ".set", given_text(set), "give a set that holds all nodes of at least one surface face: on none of this one can a " + what + " act");
+  };
+  for (std::size_t k = 0; k < body.pressures.size(); ++k) covers(body.pressures[k].set, join_path(path + ".pressures", k), "pressure");
+  for (std::size_t k = 0; k < body.loads.size(); ++k) {
+    const std::string here = join_path(path + ".loads", k);
+    if (body.loads[k].kind == "traction") covers(body.loads[k].set, here, "traction");
+    else exists(body.loads[k].set, here);
   }
 }
 

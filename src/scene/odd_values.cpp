@@ -81,6 +81,8 @@ void tell_late(const Scene& scene, double end, std::vector<std::string>& notes) 
       if (!rests(b.velocities) || !rests(b.spins_deg_s)) tell("the motion of set " + b.set + " of body " + body.name, b.times);
     for (const PressureConfig& p : body.pressures)
       if (!rests(p.values)) tell("the pressure on set " + p.set + " of body " + body.name, p.times);
+    for (const LoadConfig& l : body.loads)
+      if (!rests(l.tractions) || !rests(l.forces)) tell("the load on set " + l.set + " of body " + body.name, l.times);
   }
   for (const ToolConfig& tool : scene.tools)
     if (tool.motion) tell("the motion of tool " + tool.name, tool.motion->times);

@@ -162,6 +162,14 @@ void check_bodies(const Scene& scene, FaultList& faults) {
       check_times(pressure.times, here + ".times", faults);
       check_as_many(pressure.values, pressure.times, here + ".values", faults);
     }
+    for (std::size_t k = 0; k < body.loads.size(); ++k) {
+      const LoadConfig& load = body.loads[k];
+      const std::string here = join_path(path + ".loads", k);
+      check_set(load.set, here);
+      check_times(load.times, here + ".times", faults);
+      check_as_many(load.tractions, load.times, here + ".tractions", faults);
+      check_as_many(load.forces, load.times, here + ".forces", faults);
+    }
   }
 }
 

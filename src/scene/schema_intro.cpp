@@ -31,15 +31,15 @@ leave a field out: there 0, "" and [] mean "not given", and the default holds.
   energies are then per metre of width (N/m, kg/m, J/m). Vectors have z = 0, and things turn about z only.
 - `dimension: 2` with `axisymmetric: true` turns that section about the axis y: x is the radius, so that bodies and
   profiles lie at x >= 0. Forces, masses and energies are those of the whole circle (N, kg, J). What lies on the axis
-  stays on it without being told; a set of nodes on the axis carries no pressure. Tools, gravity and initial velocities
-  go along y. Of the force on a tool only what goes along the axis is told: the rest holds itself in balance.
+  stays on it without being told; a set of nodes on the axis carries no pressure and no traction. Tools, gravity and initial velocities
+  go along y. Of the force on a tool what goes along the axis is its force; what presses outward holds itself in balance, and is told as its `radial_force`, summed around the circle.
 - `dimension: 3` is a solid of tetrahedra or one-point hexahedra.
 - Relative file names refer to the directory of the scene file; `package://NAME/PATH` and `file://` URLs are understood.
 
 ## Bodies and their sets
 
 A body is a blank that is meshed here, or a volume mesh (`.msh` of gmsh, or points and cells inline). Boundaries,
-pressures and probes name sets of its nodes:
+pressures, loads and probes name sets of its nodes:
 
 | body | sets |
 |---|---|
@@ -56,6 +56,10 @@ both, and only along its `axes`. A bar is twisted by an end with `spins_deg_s: [
 that it may get longer or shorter; a sheet is bent by turning an end section. `until` names the stage with which a boundary
 lets go: what was clamped in forming springs back when it is cut free. What boundaries push with is in
 `history.csv`, where a probe is on their set.
+
+A pressure follows the surface and stays normal to it. A load (`loads`) keeps its direction: a `traction` acts on the faces of a set, per area that they
+had at the start, as the nominal stress of a tensile test does; a `force` is given for the whole set, and may act on an edge or a single node. With
+either, what no longer bears its load flies away: a body past its greatest load is better pulled by a `velocity`.
 
 ## Tools
 
@@ -75,7 +79,7 @@ Its place is in `history.csv`. A `withdraw` stage takes it away like any other t
 
 ## Stages
 
-A run is a list of stages. Times of motions, boundaries and pressures count from the start of the run, not of a stage.
+A run is a list of stages. Times of motions, boundaries, pressures and loads count from the start of the run, not of a stage.
 
 - `form` runs for `duration`.
 - `withdraw` moves tools away from where they stand by `displacement`, smoothly, in `duration`; then they are gone.

@@ -6,6 +6,7 @@
 #include "forming_sim/contact/contact.h"
 #include "forming_sim/element/nodes.h"
 #include "forming_sim/loads/boundary.h"
+#include "forming_sim/loads/dead_load.h"
 #include "forming_sim/loads/pressure.h"
 #include "forming_sim/simulation/ledger_watch.h"
 #include "forming_sim/simulation/simulation.h"
@@ -25,7 +26,7 @@ struct Simulation::Impl {
   Model model;
   NodeField X;                      ///< initial positions
   NodeField x, v, v_before;         ///< v at the half step
-  NodeField external;               ///< pressure and gravity at x, N; empty where there is none
+  NodeField external;               ///< pressure, dead loads and gravity at x, N; empty where there is none
   Elements elements;
   std::vector<Facet> surface;       ///< joined
   std::vector<Face> faces;          ///< likewise
@@ -37,6 +38,7 @@ struct Simulation::Impl {
   std::vector<Reaction> reactions;  ///< of once_held, since the start
   std::vector<Vec3> held_impulse;   ///< of contact on them along what holds them, in a step, N s
   PressureSet pressures;
+  DeadLoadSet dead_loads;
   StageRunner stages;
   std::optional<Contact> contact;
   std::vector<double> contact_force, node_impulse;     ///< per node, normal: running mean, N; of a step, N s
@@ -121,7 +123,7 @@ struct Simulation::Impl {
   void book(const ContactStep& done);
   /// kick: time in which its impulses act as forces do, s.
   void mean_contact_force(double kick);
-  /// Work of prescribed motion, pressure, gravity and damping over the kick.
+  /// Work of prescribed motion, pressure, dead loads, gravity and damping over the kick.
   void book_loads();
   void book_reactions(double kick);
   double kinetic() const;

@@ -102,6 +102,7 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
 void Simulation::Impl::set_up_loads() {
   std::vector<ResolvedBoundary>& held = all_boundaries;
   std::vector<ResolvedPressure> pressed;
+  std::vector<ResolvedLoad> loaded;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     const BodyLoads& loads = plan.bodies[b];
@@ -112,6 +113,7 @@ void Simulation::Impl::set_up_loads() {
     for (const BoundaryConfig& c : loads.boundaries) held.push_back(resolve(c, body.name, body.mesh, body.first_node));
     if (model.axisymmetric) hold_at_axis(body, held);
     for (const PressureConfig& c : loads.pressures) pressed.push_back(resolve(c, body.name, body.mesh, body.first_node));
+    for (const LoadConfig& c : loads.loads) loaded.push_back(resolve(c, body.name, body.mesh, body.first_node, model.axisymmetric));
     for (Face face : faces_of(body.mesh)) {
       for (int k = 0; k < face.corners; ++k) face.nodes[k] += body.first_node;
       faces.push_back(face);
@@ -124,6 +126,7 @@ void Simulation::Impl::set_up_loads() {
   }
   boundaries = BoundarySet(held, model.dimension);
   pressures = PressureSet(std::move(pressed), model.axisymmetric);
+  dead_loads = DeadLoadSet(std::move(loaded));
   boundaries.apply_velocity(0, 0, x, v);
   holding = held.size();
   once_held = boundaries.nodes();

@@ -26,9 +26,10 @@ void Simulation::Impl::predict(double step_dt, NodeField& v_star) const {
 }
 
 void Simulation::Impl::find_loads() {
-  if (pressures.empty() && plan.gravity.isZero()) return;
+  if (pressures.empty() && dead_loads.empty() && plan.gravity.isZero()) return;
   external.assign(x.size(), Node::Zero());
   pressures.add(time, x, external);
+  dead_loads.add(time, external);
   if (!plan.gravity.isZero()) add_gravity(plan.gravity, physical_mass, external);
 }
 

@@ -140,10 +140,10 @@ void Simulation::Impl::collapse(double stable, int element) const {
   text << "at time " << time << " s the stable step of element " << element << " has fallen to " << stable << " s, from " << first_element_dt;
   if (stable > 0) {
     const char* what = model.tools.empty() ? "" : "Look whether a tool presses or withdraws through the body there, lower its speed or stroke or time_step.mass_scaling (docs/scene.md). ";
-    const char* load = pressures.empty() ? "" : "A pressure beyond what the body can bear thins it without end, as a bulge bursts: the last frames tell at which pressure that began. ";
+    const char* load = pressures.empty() && dead_loads.empty() ? "" : "A load beyond what the body can bear thins it without end, as a bulge bursts: the last frames tell at which load that began. ";
     text << " s at the start: the element is squeezed flat. " << what << load << "Refine the mesh, or check the material";
   } else {
-    text << " s at the start: what drives it is beyond what a step can follow. Look for a boundary, a pressure, gravity or an initial velocity in other units than m, s, Pa";
+    text << " s at the start: what drives it is beyond what a step can follow. Look for a boundary, a pressure, a load, gravity or an initial velocity in other units than m, s, Pa";
   }
   throw Error(Code::mesh_error, text.str());
 }

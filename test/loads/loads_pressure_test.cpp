@@ -1,4 +1,4 @@
-// Pressure and gravity: gradient of p V, no net force on a closed surface, work.
+// Pressure and gravity: gradient of p V, no net force on a closed surface.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -132,18 +132,6 @@ TEST_P(ClosedSurface, has_no_net_force_and_no_net_moment) {
   }
   EXPECT_LT(force.norm(), 1e-14);
   EXPECT_LT(moment.norm(), 1e-14);
-}
-
-TEST_P(ClosedSurface, work_is_p_times_the_volume_swept) {
-  const Closed& shape = GetParam();
-  const double dt = 1e-6, p = 3;
-  NodeField v(shape.x.size()), x = shape.x;
-  for (size_t i = 0; i < v.size(); ++i) {
-    v[i] = Node(std::sin(1. + i), std::cos(3. * i), shape.dimension == 3 ? std::sin(7. * i) : 0, 0);
-    x[i] += dt * v[i];
-  }
-  const double work = constant(shape, p).work(0, shape.x, v, v, dt);
-  EXPECT_NEAR(work, -p * (shape.volume(x) - shape.volume(shape.x)), 1e-4 * std::abs(work));
 }
 
 std::string name_of(const ::testing::TestParamInfo<Closed>& info) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a user says of motion and load: boundary sets, pressures, gravity, tools.
+// What a user says of motion and load: boundary sets, pressures, dead loads, gravity, tools.
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +47,25 @@ struct PressureConfig {
     visit(FORMING_SIM_FIELD(set), Field().required().doc("name of a set: the pressure acts on the surface faces all of whose nodes are in it"));
     visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().doc("times of the knots, increasing; level before the first and after the last"));
     visit(FORMING_SIM_FIELD(values), Field().unit("Pa").required().doc("pressure at each knot, positive pushes into the body"));
+    visit(FORMING_SIM_FIELD(profile), Field().choices({"linear", "smooth"}).doc("between knots: linear, or smooth (cubic, level at the knots: a load that starts and stops so sets off no swing)"));
+  }
+};
+
+/// A load over time that keeps its direction and does not follow the surface.
+struct LoadConfig {
+  std::string set;
+  std::string kind;              ///< traction | force
+  std::vector<double> times;
+  std::vector<Vec3> tractions;   ///< traction
+  std::vector<Vec3> forces;      ///< force
+  std::string profile = "linear";  ///< between knots: linear | smooth
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(set), Field().required().doc("name of a set of this body"));
+    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"traction", "force"}).doc("traction: on the surface faces all of whose nodes are in the set, so much per area that they had at the start; force: so much on the whole set, shared by those faces as their areas were at the start, and evenly by the nodes of a set without a face"));
+    visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().doc("times of the knots, increasing; level before the first and after the last"));
+    visit(FORMING_SIM_FIELD(tractions), Field().unit("Pa").required().when("kind", {"traction"}).doc("force per initial area at each knot; it keeps its direction as the surface turns"));
+    visit(FORMING_SIM_FIELD(forces), Field().unit("N").required().when("kind", {"force"}).doc("force at each knot; plane strain: N/m; axisymmetric: summed around the whole circle, also what goes outward along x"));
     visit(FORMING_SIM_FIELD(profile), Field().choices({"linear", "smooth"}).doc("between knots: linear, or smooth (cubic, level at the knots: a load that starts and stops so sets off no swing)"));
   }
 };

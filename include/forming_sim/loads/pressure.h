@@ -35,9 +35,6 @@ class PressureSet {
   bool empty() const { return pressures_.empty(); }
   /// f += forces at time t on positions x. Returns the sum of p A, N (N/m in 2D).
   double add(double t, const NodeField& x, NodeField& f) const;
-  /// Work of those forces over a step, J: dt sum f . (v_before + v_after) / 2.
-  double work(double t, const NodeField& x, const NodeField& v_before, const NodeField& v_after,
-              double dt) const;
 
  private:
   std::vector<ResolvedPressure> pressures_;

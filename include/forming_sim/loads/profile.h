@@ -7,6 +7,9 @@
 
 namespace forming_sim {
 
+/// A load over time, of the shapes of ScalarProfile; throws as that does.
+Curve load_curve(const std::vector<double>& times, const std::vector<Vec3>& values, const std::string& shape);
+
 /// A number over time, level before the first knot and after the last. shape
 /// "linear": straight lines; "smooth": cubics that are level at the knots.
 /// Throws Error(invalid_scene) for another shape and as Curve does. No knots: zero.

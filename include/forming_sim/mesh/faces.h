@@ -22,6 +22,9 @@ struct Face {
 /// Those of the surface, in its order.
 std::vector<Face> faces_of(const Mesh& mesh);
 
+/// Of these, the ones all of whose nodes are in the set, which increases.
+std::vector<Face> faces_within(const Mesh& mesh, const std::vector<int>& set);
+
 /// What corner k has of the area vector A n of a face at x, m2; of a segment a b, (y_b - y_a, x_a - x_b)/2, m, and where it is turned
 /// about the y axis the integral of its shape function over the cone, 2 pi (2 r_a + r_b)/6 (y_b - y_a, x_a - x_b).
 Vec3 area_share(const Face& face, int k, const NodeField& x, bool axisymmetric);

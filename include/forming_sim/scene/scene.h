@@ -31,6 +31,7 @@ struct BodyConfig {
   std::vector<std::string> initial_velocity_field;
   std::vector<BoundaryConfig> boundaries;
   std::vector<PressureConfig> pressures;
+  std::vector<LoadConfig> loads;
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(name), Field().required().doc("name of the body"));
@@ -46,6 +47,7 @@ struct BodyConfig {
     visit(FORMING_SIM_FIELD(initial_velocity_field), Field().unit("m/s").doc("initial velocity that differs from place to place, added to the uniform velocity and the spin: a formula for each coordinate (two in a scene of dimension 2), of the initial position x, y, z in m and pi, in the language of muParser"));
     visit(FORMING_SIM_FIELD(boundaries), Field().doc("what holds or drives sets of nodes"));
     visit(FORMING_SIM_FIELD(pressures), Field().doc("pressures on its surface"));
+    visit(FORMING_SIM_FIELD(loads), Field().doc("tractions and forces that keep their direction"));
   }
 };
 

@@ -21,7 +21,7 @@ struct Energies {
   double damping = 0;   ///< dissipated by viscosity, damping and settling
   double viscosity = 0; ///< the part of damping that bulk viscosity took
   double settling = 0;  ///< the part of damping that the settle stage took
-  double work = 0;      ///< of tools, prescribed motion, pressure, gravity and soft start
+  double work = 0;      ///< of tools, prescribed motion, pressure, dead loads, gravity and soft start
   double initial = 0;   ///< kinetic + elastic at the start
   double residual() const { return kinetic + elastic + contact + plastic + friction + damping - work - initial; }
 };
