@@ -10,6 +10,7 @@
 #include "scratch.h"
 #include "support/bodies.h"
 #include "support/free_mesh.h"
+#include "timed_body.h"
 
 namespace forming_sim::bench {
 namespace {
@@ -104,6 +105,22 @@ void rest_costs(std::vector<Row>& rows) {
   rows.push_back(just("a body at rest, hex24", "forces, of those of one that moves", waits / moves, clock.seconds()));
 }
 
+/// Forces of a body with r values, over those of the same without, all of which yields.
+void anisotropy_costs(std::vector<Row>& rows) {
+  for (CellKind kind : {CellKind::crossed, CellKind::hex24, CellKind::hex1}) {
+    const Clock clock;
+    MaterialConfig rolled = aluminium(true);
+    rolled.anisotropy.emplace();
+    rolled.anisotropy->r0 = 0.7, rolled.anisotropy->r45 = 0.6, rolled.anisotropy->r90 = 0.8;
+    std::vector<TimedBody> bodies;
+    for (const MaterialConfig& material : {rolled, aluminium(true)}) bodies.emplace_back(kind, kind == CellKind::crossed ? 32 : kind == CellKind::hex24 ? 5 : 10, material, 0.02);
+    const std::vector<std::vector<double>> ns = alternate(bodies, 30);
+    const std::string name = std::string("r values, ") + shape_of(kind).name;
+    rows.push_back(just(name, "forces, ns an element", *std::min_element(ns[0].begin(), ns[0].end()), clock.seconds()));
+    rows.push_back(just(name, "forces, of those without", median_ratio(ns[0], ns[1]), clock.seconds()));
+  }
+}
+
 /// Bytes a second of a sum over an array that no cache holds.
 double bandwidth() {
   std::vector<double> a(32 << 20, 1.0);
@@ -133,6 +150,7 @@ std::vector<Row> costs(const Request&) {
   }
   file_costs(rows);
   rest_costs(rows);
+  anisotropy_costs(rows);
   layer_costs(rows);
   contact_costs(rows);
   return rows;

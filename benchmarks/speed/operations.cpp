@@ -37,7 +37,7 @@ template <int D, bool Ring, bool OnePointCell> class CountedElement {
     const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
     for (int i = 0; i < Symmetric<double, D>::size; ++i) start[i] = G(row[i], column[i]);
     memory_.resize(memory_items<D>(solid_));
-    start_memory<D>(solid_, start, [&](int item, double value) { memory_[item] = value; });
+    start_memory<D>(solid_, start, axes_at_start(solid_.orthotropy, D, edges).data(), [&](int item, double value) { memory_[item] = value; });
   }
 
   /// Operations of the step to the strain e.

@@ -2,6 +2,7 @@
 #include "element/block.h"
 #include "forming_sim/element/edge_points.h"
 #include "forming_sim/element/time_step.h"
+#include "forming_sim/material/law.h"
 #include "forming_sim/material/von_mises_points.h"
 
 namespace forming_sim {
@@ -78,14 +79,19 @@ template <int D, bool Ring> [[gnu::flatten]] void forces_of_blocks(const CellGro
   von_mises_points<1, kTogether, Pack, D, Ring>(g.solid, blocks, count);
 }
 
-template <int D, bool Ring> [[gnu::flatten]] void hyperelastic_forces_of_block(const CellGroup& g, const NodalView& view, long block) {
+/// Of any other law, but for the classical one.
+template <int D, bool Ring> [[gnu::flatten]] void forces_of_any_law(const CellGroup& g, const NodalView& view, long block) {
   BlockOfPoints<D, Ring> at;
   set_blocks(g, view, block, 1, &at);
   at.open();
   Edges<Pack, D, Ring> e;
   at.edges(0, e);
-  find_normals(e);
-  at.respond(0, e, pull_of<D, Ring>(hyperelastic_step(g.solid, e, at.ratio(0, e), at.memory(0)).S), g);
+  find_reciprocal(e);
+  const Vector<Pack, D>* no_ways = nullptr;
+  const PointResponse<Pack, D> point = point_step(g.solid, e, no_ways, at.ratio(0, e), at.memory(0), Keep::yes);
+  at.dissipate(0, point.dissipation);
+  at.respond(0, e, pull_of<D, Ring>(point.S), g);
+  at.close(g);
 }
 
 template <int D, bool Ring> void observe_block(const CellGroup& g, const NodalView& view, long block, double* stress, double* ratio, double* energy) {
@@ -144,7 +150,7 @@ void forces(const CellGroup& g, const NodalView& view, int first, int last) {
     if (of_von_mises(g.solid.law))
       several_at_a_time(first, last, kTogether, [&](int block, int count) { forces_of_blocks<D, ring>(g, view, block, count); });
     else
-      for (int b = first; b < last; ++b) hyperelastic_forces_of_block<D, ring>(g, view, b);
+      for (int b = first; b < last; ++b) forces_of_any_law<D, ring>(g, view, b);
   });
 }
 void observe(const CellGroup& g, const NodalView& view, int first, int last, double* stress, double* ratio, double* energy) {

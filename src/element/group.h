@@ -53,8 +53,9 @@ struct Elements::Group : CellGroup {
     const Eigen::Matrix3d up = edges.inverse();  // rows: X^m
     const Eigen::Matrix3d G = up * up.transpose();
     const auto put = [&](int item, double value) { memory[item][lane] = value; };
-    if (dimension == 2) start_memory<2>(solid, {{G(0, 0), G(1, 1), G(2, 2), G(0, 1)}}, put);
-    else start_memory<3>(solid, {{G(0, 0), G(1, 1), G(2, 2), G(0, 1), G(1, 2), G(2, 0)}}, put);
+    const std::vector<double> axes = solid.law == Law::hill ? axes_at_start(solid.orthotropy, dimension, edges) : std::vector<double>();
+    if (dimension == 2) start_memory<2>(solid, {{G(0, 0), G(1, 1), G(2, 2), G(0, 1)}}, axes.data(), put);
+    else start_memory<3>(solid, {{G(0, 0), G(1, 1), G(2, 2), G(0, 1), G(1, 2), G(2, 0)}}, axes.data(), put);
   }
   /// A constant of a one-point cell.
   double constant(int block, int item, int lane) const { return constants_storage[static_cast<std::size_t>(constant_sets[block]) * one_point_items(dimension, ring) + item][lane]; }

@@ -164,6 +164,8 @@ template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_block
     finish_one_layer(block);
   } else if constexpr (made == Made::layers) {
     step_of_layers(g.solid, moduli, block);
+  } else if (g.solid.law == Law::hill) {
+    step_of_hill(g.solid, moduli, block);
   } else if (g.solid.law == Law::hyperelastic) {
     block.find_strains();
     block.hourglass.set_elastic();

@@ -66,6 +66,10 @@ SolidConstants solid_constants(const MaterialConfig& config, CurveTables& tables
   solid.mu = config.mu();
   solid.h1 = config.h1;
   solid.h2 = config.h2;
+  if (config.anisotropy) {
+    solid.law = Law::hill;
+    solid.orthotropy = orthotropy_of(*config.anisotropy);
+  }
   if (config.hardening) solid.layer[0].hardening = curve_of(*config.hardening, tables);
   if (config.layers.empty()) return solid;
   if (config.layers.size() > kMaxLayers)

@@ -20,7 +20,8 @@ MaterialPoint::MaterialPoint(const MaterialConfig& config) : solid_(solid_consta
 
 void MaterialPoint::start() {
   memory_.resize(memory_items<3>(solid_));
-  start_memory<3>(solid_, {{1, 1, 1, 0, 0, 0}}, [&](int item, double value) { memory_[item] = value; });
+  const std::vector<double> axes = axes_at_start(solid_.orthotropy, 3, Mat3::Identity());
+  start_memory<3>(solid_, {{1, 1, 1, 0, 0, 0}}, axes.data(), [&](int item, double value) { memory_[item] = value; });
   memory_.back() = 1.0 / 6;
 }
 

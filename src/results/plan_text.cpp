@@ -19,6 +19,7 @@ std::string law_of(const MaterialConfig& m, int layers) {
   if (!m.layers.empty()) text += ", " + std::to_string(layers) + (layers == 1 ? " layer" : " layers");
   else if (m.hardening) text += ", plastic (" + m.hardening->curve + ")";
   else text += ", elastic";
+  if (m.anisotropy) text += ", Hill's yield with r0 " + number_text(m.anisotropy->r0);
   return text;
 }
 

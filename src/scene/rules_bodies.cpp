@@ -88,13 +88,22 @@ void check_one_point(const BodyConfig& body, const std::string& path, FaultList&
     faults.add(path + ".pressure_average", given_text(body.pressure_average), "give cell: a one-point cell has a pressure of its own, none in nodes");
 }
 
-void check_material(const BodyConfig& body, const std::string& path, FaultList& faults) {
+void check_anisotropy(const MaterialConfig& material, const std::string& path, int dimension, FaultList& faults) {
+  const std::string here = path + ".anisotropy";
+  if (!material.hardening && material.layers.empty()) faults.add(here, "anisotropy without hardening and layers", "give one of them: it is the yield stress that depends on the direction");
+  const AnisotropyConfig& config = *material.anisotropy;
+  if (!config.rolling_direction.allFinite() || !config.sheet_normal.allFinite()) return;
+  for (const DirectionFault& fault : find_direction_faults(config, dimension)) faults.add(here + "." + fault.field, fault.given, fault.right);
+}
+
+void check_material(const BodyConfig& body, const std::string& path, int dimension, FaultList& faults) {
   const MaterialConfig& material = body.material;
   const std::string here = path + ".material";
   if (material.hardening) check_hardening(*material.hardening, here + ".hardening", faults);
   if (material.law == "classical" && body.pressure_average == "node") {
     faults.add(path + ".pressure_average", given_text(body.pressure_average), "give cell or element: the classical law keeps a pressure in every element, none in nodes");
   }
+  if (material.anisotropy) check_anisotropy(material, here, dimension, faults);
   if (material.layers.empty()) return;
   if (material.hardening) faults.add(here, "both hardening and layers", "give one of them: each layer has a hardening of its own");
   if (material.layers.size() > kMaxLayers) {
@@ -130,7 +139,7 @@ void check_bodies(const Scene& scene, FaultList& faults) {
     const BodyConfig& body = scene.bodies[i];
     const std::string path = body_path(i);
     check_source(body, path, scene.dimension, faults);
-    check_material(body, path, faults);
+    check_material(body, path, scene.dimension, faults);
     check_one_point(body, path, faults);
     check_velocity_field(body, path, scene.dimension, faults);
     const auto sets = known_sets(body);

@@ -48,6 +48,10 @@ pressures, loads and probes name sets of its nodes:
 | `bar` | `bottom`, `top` (least and greatest z), `side`; `symmetry_x` (x = 0; half and quarter), `symmetry_y` (y = 0; quarter) |
 | `.msh` file | its physical groups by their names |
 
+A rolled sheet yields by the direction: `anisotropy` takes its r values (Hill's yield stress of 1948), the rolling direction and the normal of the sheet,
+which turn with the sheet as it is formed. The hardening curve is that of tension along the rolling direction. In a section both directions
+lie in the plane or along z.
+
 More sets are chosen by a plane, a box, a cylinder or a sphere under `sets`. In a mesh file, name two sets `bottom` and `top` to have the
 thickness of the sheet and its thinning in the results.
 

@@ -282,7 +282,7 @@ TEST(Laws, EightPointsAtOnceAreEightPoints) {
           moved[m][i].v[l] = d;
         }
       find_reciprocal(one);
-      start_memory<3>(solid, {{1, 1, 1, 0, 0, 0}}, [&](int i, double value) { alone[l][i] = value; });
+      start_memory<3>(solid, {{1, 1, 1, 0, 0, 0}}, axes_at_start(solid.orthotropy, 3, Mat3::Identity()).data(), [&](int i, double value) { alone[l][i] = value; });
       alone[l].back() = 1.0 / 6;
       for (int i = 0; i < items; ++i) memory[i].lane[l] = alone[l][i];
       J.v[l] = one.volume * 6;

@@ -11,6 +11,7 @@ import unittest
 
 import h5py
 import numpy
+import yaml
 
 from scene_run import ALUMINIUM, OFFLINE, SceneRun, body, scene
 
@@ -93,6 +94,38 @@ class Features(SceneRun):
             along = numpy.isin(result['topology/surface'][:], nodes).all(axis=1) & (owner == 0)
             self.assertTrue(numpy.allclose(last['surface_strain'][:][along], strain, rtol=0.05))
             self.assertTrue((last['surface_strain_minor'][:][along] == 0).all())
+
+    def test_a_rolled_sheet_shrinks_by_its_r_values(self):
+        """Pulled along the rolling direction and across it: strain of the width over that of the thickness, and the force."""
+        r0, r45, r90 = 0.7, 1.5, 1.6
+        F, G, H = r0 / (r90 * (1 + r0)), 1 / (1 + r0), r0 / (1 + r0)
+        for pattern in ('coarse', 'one_point'):
+            for rolling, r, square in (([1, 0, 0], r0, G + H), ([0, 1, 0], r90, F + H)):
+                plate = body('plate', {'hardening': {'curve': 'perfect', 'yield_stress': 150e6},
+                                       'anisotropy': {'r0': r0, 'r45': r45, 'r90': r90, 'rolling_direction': rolling}})
+                plate['blank'].update(pattern=pattern, cells_along=2, cells_across=2)
+                plate['boundaries'] = [{'set': name, 'kind': 'symmetric', 'normal': normal} for name, normal in (('left', [1, 0, 0]), ('front', [0, 1, 0]), ('bottom', [0, 0, 1]))]
+                plate['boundaries'].append({'set': 'right', 'kind': 'velocity', 'axes': ['x'], 'profile': 'smooth', 'times': [0, 1e-4, 3e-4, 4e-4], 'velocities': [[0, 0, 0], [3, 0, 0], [3, 0, 0], [0, 0, 0]]})
+                data = scene(plate, dimension=3, duration=5e-4, time_step={'damping': 2e4})
+                data['output']['probes'] = [{'name': name, 'set': name} for name in ('right', 'back', 'top')]
+                self.run_scene(data)
+                first, last = self.history()[0], self.history()[-1]
+                strain = {axis: math.log(float(last[f'probe_{name}_position_{axis}_m']) / float(first[f'probe_{name}_position_{axis}_m'])) for name, axis in (('right', 'x'), ('back', 'y'), ('top', 'z'))}
+                stress = 150e6 / math.sqrt(square)
+                elastic = 0.34 * stress / 70.5e9
+                self.assertAlmostEqual((strain['y'] + elastic) / (strain['z'] + elastic), r, delta=0.02 * r)
+                area = 0.010 * 0.002 * math.exp(strain['y'] + strain['z'])
+                self.assertAlmostEqual(abs(float(last['probe_right_reaction_force_x_N'])) / (stress * area), 1, delta=0.01)
+
+    def test_directions_that_no_section_can_follow_are_told(self):
+        strip = body('strip', {'hardening': {'curve': 'perfect', 'yield_stress': 150e6}, 'anisotropy': {'r0': 0.7, 'rolling_direction': [1, 0, 1]}})
+        with open(self.path('scene.yaml'), 'w') as file:
+            yaml.safe_dump(scene(strip), file)
+        said = subprocess.run([OFFLINE, '--validate', self.path('scene.yaml')], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout
+        self.assertIn('anisotropy.rolling_direction', said)
+        self.assertIn('in the plane x-y or along z', said)
+        strip['material']['anisotropy']['rolling_direction'] = [0, 0, 1]
+        self.run_scene(scene(strip))
 
     def test_a_pressure_pulse(self):
         data = scene(body('plate', pressures=[{'set': 'top', 'times': [0.0, 1e-5, 2e-5], 'values': [0.0, 1e6, 0.0]}]), dimension=3)

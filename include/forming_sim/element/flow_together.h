@@ -63,10 +63,14 @@ template <class T, int D> struct TurnedAxes {
   }
 };
 
-template <class T, int D, bool Ring> class FlowTogether {
+/// A: how the yield surface measures.
+template <class T, int D, bool Ring, class Metric = Isotropic> class FlowTogether {
   static constexpr int size = Symmetric<T, D>::size;
 
  public:
+  FlowTogether() = default;
+  explicit FlowTogether(const Metric& A) : A_(A) {}
+
   /// A cell, or one of two: its edges with their reciprocal vectors, the strains that vary across it, stress per deviator, V/V0.
   template <class Part>
   void put_cell(int half, const Edges<Part, D, Ring>& e, const HourglassStrain<Part, D>& strain, const Part& factor, const Part& J) {
@@ -97,6 +101,12 @@ template <class T, int D, bool Ring> class FlowTogether {
     half_of(mean_.slope, half) = point.yield.slope;
   }
 
+  /// Of a layer whose law does not return along S: the stress before it did, and the plastic strain that it took.
+  void put_trial(const Symmetric<T, D>& S, const T& dp) {
+    repeat<size>([&](auto i) { trial_[i] = S[i]; });
+    dp_ = dp;
+  }
+
   /// Once all cells are put, for all layers. constants: of the cell, or TwinItems.
   template <class Items> void find_planes(const Items& constants) {
     const TurnedAxes<T, D> axes(edges_.x);
@@ -108,26 +118,33 @@ template <class T, int D, bool Ring> class FlowTogether {
     repeat<size>([&](auto i) { mean_.S[i] = S_[i]; });
     mean_.modulus = T(2) * factor_;
     mean_.p = T(0);
-    const T over = T(1) / mean_.sigma, SS = contract(S_, S_), sigma2 = mean_.sigma * mean_.sigma;
+    const T over = T(1) / mean_.sigma, SS = contract(S_, A_(S_)), sigma2 = mean_.sigma * mean_.sigma;
     T share[D], varied(0);  // 1 where the coordinate's variation takes part, else 0; what the variation dissipates
     flowed_ = T(0);
     repeat<D>([&](auto d) {
       share[d] = T(0);
       const Plane<T> s = moduli.stress(strain_[d] - ep_[d]);
-      if (!any(may_be_outside(T(1.5) * SS, face_square(s), mean_.slope * rise_[d], sigma2))) return;
-      const Products<T> q{SS, work(s, at_[d].part(S_)), work(s, deviatoric(s))};
+      if (!any(may_be_outside(T(1.5) * SS, T(A_.most) * face_square(s), mean_.slope * rise_[d], sigma2))) return;
+      Products<T> q{SS, work(s, at_[d].part(A_(S_))), T(0)};
+      if constexpr (Metric::is_one) q.ss = work(s, deviatoric(s));
+      else q.ss = work(s, at_[d].part(A_(at_[d].deviator(s))));
       share[d] = select(is_outside(Quadratic<T>(q, over, mean_.slope * rise_[d] * over), 1 + 1e-12), T(1), T(0));
       flowed_ = larger(flowed_, share[d]);
     });
     if (!any(flowed_ > T(0))) return;
     // From the trial on: what the law has returned is taken back.
-    const T returned = flowed_ * (T(1) / kept_ - T(1)), softer = T(1) / mean_.modulus;
-    repeat<size>([&](auto i) { mean_.S[i] *= T(1) + returned; });
-    mean_.harden(-(T(2.0 / 3) * softer * returned * sqrt(T(1.5) * SS)));
+    if constexpr (Metric::is_one) {
+      const T returned = flowed_ * (T(1) / kept_ - T(1)), softer = T(1) / mean_.modulus;
+      repeat<size>([&](auto i) { mean_.S[i] *= T(1) + returned; });
+      mean_.harden(-(T(2.0 / 3) * softer * returned * sqrt(T(1.5) * SS)));
+    } else {
+      repeat<size>([&](auto i) { mean_.S[i] += flowed_ * (trial_[i] - S_[i]); });
+      mean_.harden(-(flowed_ * dp_));
+    }
     repeat<D>([&](auto d) {
-      if (any(share[d] > T(0))) varied += flow_to_surface<T, D>(mean_, moduli, strain_[d], share[d], ep_[d], rise_[d], at_[d]);
+      if (any(share[d] > T(0))) varied += flow_to_surface<T, D>(mean_, moduli, strain_[d], share[d], ep_[d], rise_[d], at_[d], A_);
     });
-    flow_of_mean(mean_);
+    flow_of_mean(mean_, A_);
     take_mean_flow(m);
     dissipation_ += varied;
     if constexpr (D == 3) kept_ = smaller(kept_ * mean_.sigma / larger(mean_.sigma + T(3) * T(moduli.mu) * mean_.p, T(0.5) * mean_.sigma), T(1));
@@ -205,6 +222,9 @@ template <class T, int D, bool Ring> class FlowTogether {
   MeanFlow<T, D> mean_;
   T dissipation_, kept_, factor_, J_;
   T flowed_;  ///< 1 where a coordinate flows, else 0
+  Symmetric<T, D> trial_;  ///< as put_trial() was told
+  T dp_;
+  [[no_unique_address]] Metric A_;
 };
 
 }  // namespace forming_sim

@@ -77,7 +77,8 @@ template <class T, int D, bool Ring = false> class Hourglass {
     if constexpr (D == 3) repeat<3>([&](auto d) { stress_.warp[d] = T(moduli_.E * (1.0 / 3)) * strain_.warp[d]; });
   }
   /// The trial of the stresses of a layer whose law has answered `point` and stored its memory; whether mean and variation may have to flow together.
-  bool try_layer(const LayerConstants& layer, PointResponse<T, D>& point, const double* memory, const double* hourglass_memory) {
+  /// most: of the metric of the yield surface.
+  bool try_layer(const LayerConstants& layer, PointResponse<T, D>& point, const double* memory, const double* hourglass_memory, double most = 1) {
     find_plane_stresses(hourglass_memory);
     limit_ = T(1e300), left_ = T(1);
     if (layer.hardening.kind == HardeningCurve::elastic) return false;
@@ -88,7 +89,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
     }
     limit_ = point.yield.value;
     left_ = point.kept;
-    return may_yield(point, hourglass_memory);
+    return may_yield(point, hourglass_memory, most);
   }
   /// After that, of half `half` of those that flow together; `point` and both memories follow.
   template <class Flow> void take_flow(Flow& flow, int half, PointResponse<T, D>& point, double* memory, double* hourglass_memory) {
@@ -175,14 +176,15 @@ template <class T, int D, bool Ring = false> class Hourglass {
   }
 
   /// Whether a coordinate can be outside its surface, asked of the largest face stress and the largest |p'| at once.
-  bool may_yield(const PointResponse<T, D>& point, const double* hourglass_memory) const {
+  bool may_yield(const PointResponse<T, D>& point, const double* hourglass_memory, double most) const {
     T q2, rise;
     repeat<D>([&](auto d) {
       const T p = absolute(load_rise<T, D>(hourglass_memory, d)), of_d = face_square(layer_.plane[d]);
       q2 = d == 0 ? of_d : larger(q2, of_d);
       rise = d == 0 ? p : larger(rise, p);
     });
-    const T n2 = T(1.5) * contract(point.S, point.S), back = point.yield.slope * rise;
+    q2 = T(most) * q2;
+    const T n2 = T(1.5 * most) * contract(point.S, point.S), back = point.yield.slope * rise;
     if (!any(may_be_outside(n2, q2, back, point.yield.value * point.yield.value))) return false;
     const T one = T(1) / point.yield.value, n = sqrt(n2) * one, m = T(kFaceStress) * (sqrt(q2) + absolute(back) * n) * one;
     return any(n * n + n * m + m * m > T(1 + 1e-12));

@@ -71,8 +71,9 @@ template <class T, int D, bool Ring> void finish_one_layer(OnePointCell<T, D, Ri
   cell.hourglass.finish_only_layer(cell.point.dissipation, cell.hourglass_memory);
 }
 
-/// One step of a body of several.
-template <class T, int D, bool Ring> void step_of_layers(const SolidConstants& m, const PlaneModuli& moduli, OnePointCell<T, D, Ring>& cell) {
+/// One step of a body of several, or of anisotropic ones. flow: of its metric, most that of it; answer(k, memory): asks the law of layer k.
+template <class T, int D, bool Ring, class Flow, class Answer>
+void step_of_layers(const SolidConstants& m, const PlaneModuli& moduli, OnePointCell<T, D, Ring>& cell, Flow& flow, double most, const Answer& answer) {
   constexpr int size = Symmetric<T, D>::size;
   Symmetric<T, D> S;
   T dissipation(0);
@@ -80,12 +81,11 @@ template <class T, int D, bool Ring> void step_of_layers(const SolidConstants& m
   cell.hourglass.clear();
   cell.factor = stress_factor(m, cell.J);
   cell.find_strains();
-  FlowTogether<T, D, Ring> flow;
   bool is_put = false;
   double *memory = cell.memory, *hourglass_memory = cell.hourglass_memory;
   for (int k = 0; k < m.layers; ++k) {
-    cell.answer(layer_step(m, k, cell.factor, cell.e, cell.J, memory, Keep::yes));
-    if (cell.hourglass.try_layer(m.layer[k], cell.point, memory, hourglass_memory)) {
+    answer(k, memory);
+    if (cell.hourglass.try_layer(m.layer[k], cell.point, memory, hourglass_memory, most)) {
       if (!is_put) {
         flow.put_cell(0, cell.e, cell.hourglass.strain(), cell.factor, cell.J);
         flow.find_planes(cell.constants);
@@ -104,6 +104,21 @@ template <class T, int D, bool Ring> void step_of_layers(const SolidConstants& m
   }
   repeat<size>([&](auto i) { cell.point.S[i] = S[i]; });
   cell.point.dissipation = dissipation;
+}
+template <class T, int D, bool Ring> void step_of_layers(const SolidConstants& m, const PlaneModuli& moduli, OnePointCell<T, D, Ring>& cell) {
+  FlowTogether<T, D, Ring> flow;
+  step_of_layers(m, moduli, cell, flow, Isotropic::most, [&](int k, double* memory) { cell.answer(layer_step(m, k, cell.factor, cell.e, cell.J, memory, Keep::yes)); });
+}
+/// Of Law::hill.
+template <class T, int D, bool Ring> void step_of_hill(const SolidConstants& m, const PlaneModuli& moduli, OnePointCell<T, D, Ring>& cell) {
+  const double* axes = axes_of<T, D>(m, cell.memory);
+  const HillMetric<T, D> metric(m, cell.e, axes);
+  FlowTogether<T, D, Ring, HillMetric<T, D>> flow(metric);
+  step_of_layers(m, moduli, cell, flow, metric.most, [&](int k, double* memory) {
+    const HillResponse<T, D> r = hill_layer_step(m, k, cell.factor, cell.e, cell.J, memory, axes, Keep::yes);
+    cell.answer(r);
+    flow.put_trial(r.trial, r.dp);
+  });
 }
 
 }  // namespace forming_sim

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "forming_sim/config/field.h"
+#include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
 
@@ -47,7 +48,21 @@ struct LayerConfig {
   }
 };
 
-/// An isotropic elastic, elastic-plastic or hyperelastic solid.
+/// How yield depends on the direction in a rolled sheet (material/orthotropy.h).
+struct AnisotropyConfig {
+  double r0 = 0, r45 = 0, r90 = 0;  ///< r45, r90 = 0: r0
+  Vec3 rolling_direction = Vec3::Zero(), sheet_normal = Vec3::Zero();  ///< at the start
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(r0), Field().above(0).at_most(100).required().doc("r value in tension along the rolling direction: plastic strain across the width over that through the thickness; 1 in all directions: none. The hardening curve is that of this tension"));
+    visit(FORMING_SIM_FIELD(r45), Field().above(0).at_most(100).computed("r0").doc("r value at 45 degrees to it"));
+    visit(FORMING_SIM_FIELD(r90), Field().above(0).at_most(100).computed("r0").doc("r value across it"));
+    visit(FORMING_SIM_FIELD(rolling_direction), Field().computed("x").doc("rolling direction at the start, of any length; it turns with the sheet. Dimension 2: in the plane, or along z"));
+    visit(FORMING_SIM_FIELD(sheet_normal), Field().computed("z; y in dimension 2").doc("direction through the thickness at the start, at right angles to it; it turns with the sheet. Dimension 2: in the plane, or along z"));
+  }
+};
+
+/// An elastic, elastic-plastic or hyperelastic solid.
 struct MaterialConfig {
   double density = 0;
   double youngs_modulus = 0;
@@ -55,6 +70,7 @@ struct MaterialConfig {
   std::string law = "green_elastic";
   std::optional<HardeningConfig> hardening;  ///< absent, and no layers: elastic
   std::vector<LayerConfig> layers;
+  std::optional<AnisotropyConfig> anisotropy;  ///< absent: none
   double h1 = 0, h2 = 0, bulk_modulus = 0;   ///< hyperelastic
 
   double mu() const { return law == "hyperelastic" ? h1 + 2 * h2 : youngs_modulus / (2 * (1 + poissons_ratio)); }
@@ -69,6 +85,7 @@ struct MaterialConfig {
           .doc("stress beside the pressure: green_elastic: mu J^(-5/3) dev B, which has a stored energy; paper: mu dev B as printed in (3.5); hyperelastic: dev(h1 Bbar + h2 Bbar.Bbar)/J (3.74); classical: Wilkins' rate law (2.10) with Jaumann's rotation and radial return, which drifts: the baseline for comparisons"));
     visit(FORMING_SIM_FIELD(hardening), Field().when("law", {"green_elastic", "paper", "classical"}).doc("von Mises plasticity with this isotropic hardening; absent: elastic"));
     visit(FORMING_SIM_FIELD(layers), Field().when("law", {"green_elastic", "paper"}).doc("several levels of plasticity instead of hardening: together they follow a measured curve and its reversal (Bauschinger effect)"));
+    visit(FORMING_SIM_FIELD(anisotropy), Field().when("law", {"green_elastic"}).doc("Hill's quadratic yield stress of 1948 in place of von Mises', with this hardening or these layers; absent: all directions yield alike"));
     visit(FORMING_SIM_FIELD(h1), Field().unit("Pa").above(0).required().when("law", {"hyperelastic"}).doc("h1 of (3.74); the shear modulus at rest is h1 + 2 h2"));
     visit(FORMING_SIM_FIELD(h2), Field().unit("Pa").at_least(0).when("law", {"hyperelastic"}).doc("h2 of (3.74)"));
     visit(FORMING_SIM_FIELD(bulk_modulus), Field().unit("Pa").above(0).required().when("law", {"hyperelastic"}).doc("bulk modulus K"));

@@ -5,12 +5,14 @@
 
 #include "forming_sim/material/config.h"
 #include "forming_sim/material/hardening.h"
+#include "forming_sim/material/orthotropy.h"
 
 namespace forming_sim {
 
 enum class Law {
   green_elastic,  ///< material/von_mises.h: S = mu J^(-5/3) B_D, with layers
-  paper,          ///< the same with S = mu B_D (3.5) as printed
+  hill,           ///< material/hill.h: the same with an anisotropic yield stress
+  paper,          ///< the first with S = mu B_D (3.5) as printed
   hyperelastic,   ///< material/hyperelastic.h
   classical       ///< material/classical.h
 };
@@ -29,6 +31,7 @@ struct SolidConstants {
   double h1 = 0, h2 = 0;    ///< hyperelastic, Pa
   int layers = 1;
   LayerConstants layer[kMaxLayers];
+  Orthotropy orthotropy;    ///< Law::hill
 };
 
 /// Points of tabulated curves; they must outlive the constants made with them.

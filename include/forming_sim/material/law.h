@@ -2,6 +2,7 @@
 // The laws behind one interface: what an element asks of whichever law its
 // material has. A new law is one file and one line in each function here.
 #include "forming_sim/material/classical.h"
+#include "forming_sim/material/hill.h"
 #include "forming_sim/material/hyperelastic.h"
 #include "forming_sim/material/von_mises.h"
 
@@ -11,15 +12,20 @@ namespace forming_sim {
 template <int D> int memory_items(const SolidConstants& m) {
   constexpr int size = Symmetric<double, D>::size;
   if (m.law == Law::classical) return size + 3;  // S, plastic strain, pressure, V0
-  return m.layers * kLayerItems<D> + 1;
+  return m.layers * kLayerItems<D> + (m.law == Law::hill ? axis_items(D) : 0) + 1;
 }
 /// Place of the pressure in the memory of the classical method.
 template <int D> constexpr int kClassicalPressure = Symmetric<double, D>::size + 1;
 
-/// Calls start(item, value) with the memory of a simplex free of stress, V0 excluded. G: G^X of the start.
-template <int D, class Start> void start_memory(const SolidConstants& m, const Symmetric<double, D>& G, Start&& start) {
+/// Calls start(item, value) with the memory of a simplex free of stress, V0 excluded. G: G^X of the start; axes: axes_at_start(), of Law::hill.
+template <int D, class Start> void start_memory(const SolidConstants& m, const Symmetric<double, D>& G, const double* axes, Start&& start) {
   constexpr int size = Symmetric<double, D>::size;
+  const int of_axes = m.law == Law::hill ? m.layers * kLayerItems<D> : memory_items<D>(m);  // where they begin
   for (int i = 0; i < memory_items<D>(m) - 1; ++i) {
+    if (i >= of_axes) {
+      start(i, axes[i - of_axes]);
+      continue;
+    }
     const int within = i % kLayerItems<D>;
     start(i, m.law == Law::classical || within == size ? 0 : G[within]);
   }
@@ -31,6 +37,7 @@ template <class T, int D, bool Ring>
 PointResponse<T, D> point_step(const SolidConstants& m, const Edges<T, D, Ring>& e, const Vector<T, D>* moved, const T& J, double* memory, Keep keep) {
   if (m.law == Law::hyperelastic) return hyperelastic_step(m, e, J, memory);
   if (m.law == Law::classical) return classical_step(m, e, moved, J, memory, keep);
+  if (m.law == Law::hill) return hill_step(m, e, J, memory, keep);
   return von_mises_step(m, e, J, memory, keep);
 }
 
