@@ -106,16 +106,16 @@ class Features(SceneRun):
                 plate['blank'].update(pattern=pattern, cells_along=2, cells_across=2)
                 plate['boundaries'] = [{'set': name, 'kind': 'symmetric', 'normal': normal} for name, normal in (('left', [1, 0, 0]), ('front', [0, 1, 0]), ('bottom', [0, 0, 1]))]
                 plate['boundaries'].append({'set': 'right', 'kind': 'velocity', 'axes': ['x'], 'profile': 'smooth', 'times': [0, 1e-4, 3e-4, 4e-4], 'velocities': [[0, 0, 0], [3, 0, 0], [3, 0, 0], [0, 0, 0]]})
-                data = scene(plate, dimension=3, duration=5e-4, time_step={'damping': 2e4})
+                data = scene(plate, dimension=3, duration=5e-4, time_step={'damping': 5e3})
                 data['output']['probes'] = [{'name': name, 'set': name} for name in ('right', 'back', 'top')]
                 self.run_scene(data)
                 first, last = self.history()[0], self.history()[-1]
                 strain = {axis: math.log(float(last[f'probe_{name}_position_{axis}_m']) / float(first[f'probe_{name}_position_{axis}_m'])) for name, axis in (('right', 'x'), ('back', 'y'), ('top', 'z'))}
                 stress = 150e6 / math.sqrt(square)
                 elastic = 0.34 * stress / 70.5e9
-                self.assertAlmostEqual((strain['y'] + elastic) / (strain['z'] + elastic), r, delta=0.02 * r)
+                self.assertAlmostEqual((strain['y'] + elastic) / (strain['z'] + elastic), r, delta=0.01 * r)
                 area = 0.010 * 0.002 * math.exp(strain['y'] + strain['z'])
-                self.assertAlmostEqual(abs(float(last['probe_right_reaction_force_x_N'])) / (stress * area), 1, delta=0.01)
+                self.assertAlmostEqual(abs(float(last['probe_right_reaction_force_x_N'])) / (stress * area), 1, delta=0.003)
 
     def test_directions_that_no_section_can_follow_are_told(self):
         strip = body('strip', {'hardening': {'curve': 'perfect', 'yield_stress': 150e6}, 'anisotropy': {'r0': 0.7, 'rolling_direction': [1, 0, 1]}})

@@ -5,7 +5,7 @@
 //
 // One root and one division waits for the other all the way. T may be a Twin of the numbers of two cells (tensor/twin.h), which
 // have nothing to do with each other but that they are looked at side by side: halves do not change what the other finds.
-#include "forming_sim/element/hourglass_flow.h"
+#include "forming_sim/element/anisotropic_flow.h"
 #include "forming_sim/material/von_mises.h"
 #include "forming_sim/tensor/twin.h"
 
@@ -118,16 +118,14 @@ template <class T, int D, bool Ring, class Metric = Isotropic> class FlowTogethe
     repeat<size>([&](auto i) { mean_.S[i] = S_[i]; });
     mean_.modulus = T(2) * factor_;
     mean_.p = T(0);
-    const T over = T(1) / mean_.sigma, SS = contract(S_, A_(S_)), sigma2 = mean_.sigma * mean_.sigma;
+    const T over = T(1) / mean_.sigma, SS = products(S_, Plane<T>{T(0), T(0), T(0)}, at_[0], A_).SS, sigma2 = mean_.sigma * mean_.sigma;
     T share[D], varied(0);  // 1 where the coordinate's variation takes part, else 0; what the variation dissipates
     flowed_ = T(0);
     repeat<D>([&](auto d) {
       share[d] = T(0);
       const Plane<T> s = moduli.stress(strain_[d] - ep_[d]);
       if (!any(may_be_outside(T(1.5) * SS, T(A_.most) * face_square(s), mean_.slope * rise_[d], sigma2))) return;
-      Products<T> q{SS, work(s, at_[d].part(A_(S_))), T(0)};
-      if constexpr (Metric::is_one) q.ss = work(s, deviatoric(s));
-      else q.ss = work(s, at_[d].part(A_(at_[d].deviator(s))));
+      const Products<T> q = products(S_, s, at_[d], A_);
       share[d] = select(is_outside(Quadratic<T>(q, over, mean_.slope * rise_[d] * over), 1 + 1e-12), T(1), T(0));
       flowed_ = larger(flowed_, share[d]);
     });
@@ -142,9 +140,9 @@ template <class T, int D, bool Ring, class Metric = Isotropic> class FlowTogethe
       mean_.harden(-(flowed_ * dp_));
     }
     repeat<D>([&](auto d) {
-      if (any(share[d] > T(0))) varied += flow_to_surface<T, D>(mean_, moduli, strain_[d], share[d], ep_[d], rise_[d], at_[d], A_);
+      if (any(share[d] > T(0))) varied += flow_to_surface<T, D>(mean_, moduli, strain_[d], share[d], ep_[d], rise_[d], at_[d], A_, S_);
     });
-    flow_of_mean(mean_, A_);
+    flow_of_mean(mean_, A_, S_);
     take_mean_flow(m);
     dissipation_ += varied;
     if constexpr (D == 3) kept_ = smaller(kept_ * mean_.sigma / larger(mean_.sigma + T(3) * T(moduli.mu) * mean_.p, T(0.5) * mean_.sigma), T(1));

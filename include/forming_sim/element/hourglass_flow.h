@@ -8,7 +8,7 @@
 //   Q_n + mu <= 1,   mu = Q_m/2 + sqrt(Q_m^2/4 + Q_nm^2),
 //   (Q_n, Q_m, Q_nm) = 3/2 (S:S, m:m, S:m) / sigma_s^2,   m = h (dev s - H p'/sigma_s S).
 //
-// or of an anisotropic material A in place of 1 between them, S : A S the square of its norm over 3/2 (Isotropic, material/hill.h).
+// or of an anisotropic material A in place of 1 between them (element/anisotropic_flow.h), S : A S the square of its norm over 3/2.
 // This is the surface of Ivanov (1967) for plates and shells. In one direction it is
 // |m| <= 1 - n^2, what a rectangle of yield stress bears about any neutral axis, and
 // h = 2/3 makes it so; where the whole cell flows one way, s is that of the hardening
@@ -26,7 +26,6 @@ namespace forming_sim {
 struct Isotropic {
   static constexpr bool is_one = true;
   static constexpr double most = 1;  ///< largest S : A S over S : S
-  template <class T, int D> const Symmetric<T, D>& operator()(const Symmetric<T, D>& S) const { return S; }
 };
 
 /// s at the faces over the m of the yield surface.
@@ -45,7 +44,7 @@ template <class T, int D> struct MeanFlow {
   }
 };
 
-/// What the surface knows of S and s: S:S, S : dev s and dev s : dev s, A between them.
+/// What the surface knows of S and s: S:S, S : dev s and dev s : dev s.
 template <class T> struct Products {
   T SS, Ss, ss;
 };
@@ -104,6 +103,10 @@ template <class T, int D> struct PlaneOf {
     }
   }
 };
+
+template <class T, int D> Products<T> products(const Symmetric<T, D>& S, const Plane<T>& s, const PlaneOf<T, D>& at, const Isotropic&) {
+  return {contract(S, S), work(s, at.part(S)), work(s, deviatoric(s))};
+}
 
 /// Q_n, Q_m and Q_nm; over: 1/sigma_s; back: H p'/sigma_s. m/h = dev s - back S.
 template <class T> struct Quadratic {
@@ -170,24 +173,16 @@ template <class T, int D>
 /// One coordinate flows where share is 1: mean, ep and p' (rise) follow; what the variation dissipates per initial volume.
 /// At the edge where the whole cell flows one way and m comes to lie across S, it goes no further; where m is more than that,
 /// the surface is smooth there, and S, however small, is no reason to stop.
-template <class T, int D, class Metric>
+template <class T, int D>
 [[gnu::always_inline]] inline T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli& moduli, const Plane<T>& strain, const T& share, Plane<T>& ep, T& rise,
-                                                const PlaneOf<T, D>& at, const Metric& A) {
-  constexpr int size = Symmetric<T, D>::size;
-  Plane<T> s, dev_s, part;       // the last two are the parts of A dev s and A S in the plane
-  Symmetric<T, D> A_S, A_s;      // of an anisotropic material
+                                                const PlaneOf<T, D>& at, const Isotropic&, const Symmetric<T, D>&) {
+  Plane<T> s, dev_s, part;
   Products<T> q;
   T over, back;
   const Plane<T> before = ep;
   const auto find_stresses = [&] {
-    s = moduli.stress(strain - ep);
-    if constexpr (Metric::is_one) {
-      dev_s = deviatoric(s), part = at.part(mean.S);
-    } else {
-      A_S = A(mean.S), A_s = A(at.deviator(s));
-      dev_s = at.part(A_s), part = at.part(A_S);
-    }
-    q = {contract(mean.S, A(mean.S)), work(s, part), work(s, dev_s)};
+    s = moduli.stress(strain - ep), dev_s = deviatoric(s), part = at.part(mean.S);
+    q = {contract(mean.S, mean.S), work(s, part), work(s, dev_s)};
     over = T(1) / mean.sigma, back = mean.slope * rise * over;
   };
   find_stresses();
@@ -201,60 +196,31 @@ template <class T, int D, class Metric>
   const Plane<T> softer = moduli.stress(direction);
   // Newton's step on root = sqrt(Q_n + mu), which is of first degree in the stresses: far outside it is the radial return.
   const T& root = n.root;
-  T squared;
-  Symmetric<T, D> gradient;  // of an anisotropic material, by S
-  if constexpr (Metric::is_one) {
-    squared = n.along_S * (n.along_S * q.SS + T(2) * n.across * q.Ss) + n.across * n.across * q.ss;
-  } else {
-    repeat<size>([&](auto i) { gradient[i] = n.along_S * A_S[i] + n.across * A_s[i]; });
-    squared = contract(gradient, gradient);
-  }
+  const T squared = n.along_S * (n.along_S * q.SS + T(2) * n.across * q.Ss) + n.across * n.across * q.ss;
   const T resistance = mean.modulus * squared + T(3) * work(softer, direction) + mean.slope * over * over * (T(4) * root * root * root + T(3) * n.varied * n.varied);
   T L = share * T(2) * root * (root - T(1)) / resistance;
   const T of_S = mean.modulus * n.along_S, of_s = mean.modulus * n.across;  // S becomes (1 - L of_S) S - L of_s dev s
-  T after;  // S : m/h then
-  if constexpr (Metric::is_one) {
-    const T kept = T(1) - L * of_S, lost = L * of_s, three = T(3) * L;
-    after = kept * (q.Ss - three * work(softer, part)) - lost * (q.ss - three * work(softer, dev_s)) -
-            back * (kept * (kept * q.SS - T(2) * lost * q.Ss) + lost * lost * q.ss);
-  } else {
-    Symmetric<T, D> S;
-    const T less = L * mean.modulus, three = T(3) * L;
-    repeat<size>([&](auto i) { S[i] = mean.S[i] - less * gradient[i]; });
-    const Symmetric<T, D> then = A(S);
-    after = work({s.a - three * softer.a, s.b - three * softer.b, s.shear - three * softer.shear}, at.part(then)) - back * contract(S, then);
-  }
+  const T kept = T(1) - L * of_S, lost = L * of_s, three = T(3) * L;
+  const T after = kept * (q.Ss - three * work(softer, part)) - lost * (q.ss - three * work(softer, dev_s)) -
+                  back * (kept * (kept * q.SS - T(2) * lost * q.Ss) + lost * lost * q.ss);
   const auto turned = (n.Sm * after < T(0)) & (n.edge > T(0));
   if (any(turned)) L *= select(turned, n.Sm / select(turned, n.Sm - after, T(1)), T(1));
   const Plane<T> rate{T(3) * L * direction.a, T(3) * L * direction.b, T(3) * L * direction.shear};
-  if constexpr (Metric::is_one) {
-    const Symmetric<T, D> deviator = at.deviator(s);
-    repeat<size>([&](auto i) { mean.S[i] = (T(1) - L * of_S) * mean.S[i] - L * of_s * deviator[i]; });
-  } else {
-    repeat<size>([&](auto i) { mean.S[i] -= L * mean.modulus * gradient[i]; });
-  }
+  const Symmetric<T, D> deviator = at.deviator(s);
+  repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] = (T(1) - L * of_S) * mean.S[i] - L * of_s * deviator[i]; });
   ep = {ep.a + rate.a, ep.b + rate.b, ep.shear + rate.shear};
   rise += T(3) * L * n.varied * over * n.over_root;
   mean.harden(T(2) * L * over * root);
   return T(1.0 / 3) * work(moduli.stress(strain - ep), ep - before);
 }
 
-/// The mean alone: back to Q_n = 1, along A S.
-template <class T, int D, class Metric> [[gnu::always_inline]] inline void flow_of_mean(MeanFlow<T, D>& mean, const Metric& A) {
-  const Symmetric<T, D> A_S = A(mean.S);
-  const T q2 = T(1.5) * contract(mean.S, A_S);
+/// The mean alone: back to Q_n = 1, along S.
+template <class T, int D> [[gnu::always_inline]] inline void flow_of_mean(MeanFlow<T, D>& mean, const Isotropic&, const Symmetric<T, D>&) {
+  const T q2 = T(1.5) * contract(mean.S, mean.S);
   if (!any(q2 > mean.sigma * mean.sigma)) return;
-  const T q = sqrt(q2);
-  T stiff = T(1.5) * mean.modulus;
-  if constexpr (!Metric::is_one) stiff *= T(1.5) * contract(A_S, A_S) / q2;
-  const T dp = larger(q - mean.sigma, T(0)) / (stiff + mean.slope);
-  if constexpr (Metric::is_one) {
-    const T kept = T(1) - stiff * dp / larger(q, mean.sigma);
-    repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] *= kept; });
-  } else {
-    const T less = T(1.5) * mean.modulus * dp / larger(q, mean.sigma);
-    repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] -= less * A_S[i]; });
-  }
+  const T q = sqrt(q2), stiff = T(1.5) * mean.modulus;
+  const T dp = larger(q - mean.sigma, T(0)) / (stiff + mean.slope), kept = T(1) - stiff * dp / larger(q, mean.sigma);
+  repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] *= kept; });
   mean.harden(dp);
 }
 
