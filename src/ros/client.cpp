@@ -73,7 +73,7 @@ template <class Come> bool wait_for(Come&& come, double wait_s) {
   return come();
 }
 
-/// Follows the goal to its end. False where the server has gone.
+/// Follows the goal to its end. False where the server has gone, or does not know the goal any more.
 bool follow(Client& client, ClientProgress& line) {
   bool cancelled = false;
   int missed = 0;
@@ -88,7 +88,7 @@ bool follow(Client& client, ClientProgress& line) {
     missed = client.isServerConnected() ? 0 : missed + 1;
     if (missed > 30) return false;
   }
-  return true;
+  return client.getState() != actionlib::SimpleClientGoalState::LOST;
 }
 
 }  // namespace
@@ -120,7 +120,7 @@ int run_client(const ClientRequest& request) {
   const bool ended = follow(client, line);
   line.end();
   if (!ended) {
-    std::fprintf(stderr, "forming_client: the server on %s has gone\n", name.c_str());
+    std::fprintf(stderr, "forming_client: the server on %s has gone, or another has taken its name; what it had written until then can be read\n", name.c_str());
     return 1;
   }
   const SimulateFormingResult result = client.getResult() ? *client.getResult() : SimulateFormingResult();
