@@ -147,6 +147,10 @@ void check_bodies(const Scene& scene, FaultList& faults) {
       if (!sets || set.empty() || std::find(sets->begin(), sets->end(), set) != sets->end()) return;
       add_missing_set(set, body.name, *sets, here + ".set", faults);
     };
+    const auto check_acting = [&](const auto& load, const std::string& here) {  // what acts on a set over time
+      check_set(load.set, here);
+      check_times(load.times, here + ".times", faults);
+    };
     for (std::size_t k = 0; k < body.boundaries.size(); ++k) {
       const BoundaryConfig& boundary = body.boundaries[k];
       const std::string here = join_path(path + ".boundaries", k);
@@ -165,19 +169,15 @@ void check_bodies(const Scene& scene, FaultList& faults) {
         faults.add(here, "a velocity without velocities and spins_deg_s", "give at least one of them, an entry for each time");
     }
     for (std::size_t k = 0; k < body.pressures.size(); ++k) {
-      const PressureConfig& pressure = body.pressures[k];
       const std::string here = join_path(path + ".pressures", k);
-      check_set(pressure.set, here);
-      check_times(pressure.times, here + ".times", faults);
-      check_as_many(pressure.values, pressure.times, here + ".values", faults);
+      check_acting(body.pressures[k], here);
+      check_as_many(body.pressures[k].values, body.pressures[k].times, here + ".values", faults);
     }
     for (std::size_t k = 0; k < body.loads.size(); ++k) {
-      const LoadConfig& load = body.loads[k];
       const std::string here = join_path(path + ".loads", k);
-      check_set(load.set, here);
-      check_times(load.times, here + ".times", faults);
-      check_as_many(load.tractions, load.times, here + ".tractions", faults);
-      check_as_many(load.forces, load.times, here + ".forces", faults);
+      check_acting(body.loads[k], here);
+      check_as_many(body.loads[k].tractions, body.loads[k].times, here + ".tractions", faults);
+      check_as_many(body.loads[k].forces, body.loads[k].times, here + ".forces", faults);
     }
   }
 }
