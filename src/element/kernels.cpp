@@ -180,7 +180,7 @@ template <class Cell, Made made> [[gnu::flatten]] void forces_of_several(const C
   for (int first = 0; first < Cell::simplices; first += n) {
     blocks[0].first = first;
     if constexpr (made == Made::one_layer) one_layer_of_points<n, most, Pack, D, Cell::ring>(g.solid, blocks, count);
-    else layers_of_points<n, most, Pack, D, Cell::ring>(g.solid, blocks, count);
+    else several_layers_of_points<n, most, Pack, D, Cell::ring>(g.solid, blocks, count);
   }
 }
 

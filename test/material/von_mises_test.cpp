@@ -312,14 +312,14 @@ TEST(UprightEdges, InvariantsAreThoseOfB) {
     expect_invariants_without_b<2, true>(flat);
   }
 }
-TEST(UprightEdges, MetricIsThatOfTheReciprocalVectors) {
+TEST(Normals, MetricIsThatOfTheReciprocalVectors) {
   Edges<double, 3> e;
   e.x[0] = {{1, 0.2, -0.3}};
   e.x[1] = {{0.1, 0.9, 0.4}};
   e.x[2] = {{-0.2, 0.5, 1.1}};
   find_reciprocal(e);
-  const Symmetric<double, 3> direct = metric_of<3, false>(e.up, 1.0), found = find_upright(e).metric;
-  for (int c = 0; c < 6; ++c) EXPECT_NEAR(found[c], direct[c], 1e-14);
+  const Symmetric<double, 3> direct = metric_of<3, false>(e.up, 1.0), found = metric_of_normals(e);
+  for (int c = 0; c < 6; ++c) EXPECT_NEAR(found[c] / (e.det * e.det), direct[c], 1e-14);
 }
 
 // By its series on both sides of 1, and beyond where that is right.

@@ -16,14 +16,13 @@ namespace forming_sim {
 template <class T, int D> struct UprightEdges {
   T l[D == 3 ? 3 : 1];     ///< l_10, l_20, l_21
   T d[3];
-  Symmetric<T, D> metric;  ///< G^x
 };
 
 /// e: with its normals.
 template <class T, int D, bool Ring> [[gnu::always_inline]] inline UprightEdges<T, D> find_upright(const Edges<T, D, Ring>& e) {
   UprightEdges<T, D> at;
   const Symmetric<T, D> A = metric_of_normals(e);
-  const T det2 = e.det * e.det, over = T(1) / det2;
+  const T det2 = e.det * e.det;
   at.d[0] = dot(e.x[0], e.x[0]);
   const T over_d0 = T(1) / at.d[0];
   at.l[0] = dot(e.x[0], e.x[1]) * over_d0;
@@ -37,7 +36,6 @@ template <class T, int D, bool Ring> [[gnu::always_inline]] inline UprightEdges<
     at.d[1] = A[2] * over_d0;
     at.d[2] = det2 * over_A;
   }
-  repeat<Symmetric<T, D>::size>([&](auto i) { at.metric[i] = over * A[i]; });
   return at;
 }
 

@@ -107,18 +107,23 @@ template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_i
   }
 }
 
-/// Likewise with several. Of a layer its memory is all that is read and written, and what it pulls is summed as
+/// f(k) of each layer; L: how many, 0 where only `layers` tells.
+template <int L, class F> [[gnu::always_inline]] inline void each_layer(int layers, F&& f) {
+  if constexpr (L > 0) repeat<L>(f);
+  else
+#pragma GCC unroll 1
+    for (int k = 0; k < layers; ++k) f(k);
+}
+
+/// Likewise with several. What they pull is summed as
 ///   S x^m = sum_i w_i f_i (B_i - s_i I) x^m = x_k (sum_i w_i f_i G_i^mk) - (sum_i w_i f_i s_i) x^m.
-/// The first layer's trials are found with the edges, those of each further one beside the flow of the layer before.
-template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_inline]] inline void layers_of_points(const SolidConstants& m, Bundle* bundles, int count) {
+/// The trials of two are found from their B; for more it pays to make the edges upright first.
+template <int L, int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_inline]] inline void layers_of_points(const SolidConstants& m, Bundle* bundles, int count) {
   constexpr int size = Symmetric<T, D>::size;
-  if constexpr (M == 1) count = 1;  // told to the compiler, here and by `memory`
-  LayerOfPoints<T, D, N * M> layer;
+  constexpr long behind = kLayerItems<D> * lanes_of<T>;
+  if constexpr (M == 1) count = 1;  // told to the compiler
+  LayerOfPoints<T, D, N * M> layer[L > 0 ? L : kMaxLayers];
   T J[N * M], factor[N * M];
-  UprightEdges<T, D> upright[N * M];
-  Symmetric<T, D> ways[N * M];  // sum_i w_i f_i G_i
-  T mean[N * M];                // sum_i w_i f_i s_i
-  double* start[N * M];         // where the memory starts
   for (int b = 0; b < count; ++b) {
     Bundle& at = bundles[b];
     at.open();
@@ -128,59 +133,67 @@ template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_i
       at.edges(s, e);
       J[i] = at.ratio(s, e);
       factor[i] = stress_factor(m, J[i]);
-      find_normals(e);
-      upright[i] = find_upright(e);
-      start[i] = at.memory(s);
-      find_trial(load_memory<T, D>(start[i]), upright[i], layer.trial[i]);
+      UprightEdges<T, D> upright;
+      if constexpr (L != 2) {
+        find_normals(e);
+        upright = find_upright(e);
+      }
+      each_layer<L>(m.layers, [&](auto k) __attribute__((always_inline)) {
+        const Symmetric<T, D> G = load_memory<T, D>(at.memory(s) + k * behind);
+        if constexpr (L == 2) find_trial(push(G, e), layer[k].trial[i]);
+        else find_trial(G, upright, layer[k].trial[i]);
+      });
     });
   }
-  const int n = count * N;
-  int k = 0;
-  do {
-    const long behind = k * kLayerItems<D> * lanes_of<T>;
-    const auto memory = [&](int i) { return (M == 1 ? bundles[0].memory(i) : start[i]) + behind; };
+  each_layer<L>(m.layers, [&](auto k) __attribute__((always_inline)) {
     const T w(m.layer[k].weight);
-    layer.correct_all(n, m.layer[k].hardening, factor, J, memory, [&](int i, const T& what) { bundles[i / N].dissipate(i % N, w * what); });
-#pragma GCC unroll 1
-    for (int i = 0; i < n; ++i) {
-      const T share = w * layer.kept(i, factor[i]);
-      const Symmetric<T, D> G = load_memory<T, D>(memory(i));
-      if (k == 0) {
-        repeat<size>([&](auto c) { ways[i][c] = share * G[c]; });
-        mean[i] = share * layer.trial[i].s;
-      } else {
-        repeat<size>([&](auto c) { ways[i][c] += share * G[c]; });
-        mean[i] += share * layer.trial[i].s;
-      }
-      if (layer.flows[i]) keep_flow(memory(i), layer.u[i], layer.u[i], upright[i].metric);
-      if (k + 1 < m.layers) find_trial(load_memory<T, D>(memory(i) + kLayerItems<D> * lanes_of<T>), upright[i], layer.trial[i]);
-    }
-  } while (++k < m.layers);
+    layer[k].correct_all(count * N, m.layer[k].hardening, factor, J, [&](int i) { return bundles[i / N].memory(i % N) + k * behind; },
+                         [&](int i, const T& what) { bundles[i / N].dissipate(i % N, w * what); });
+  });
   for (int b = 0; b < count; ++b) {
-    auto&& sum = bundles[b].start_forces();
+    Bundle& at = bundles[b];
+    auto&& sum = at.start_forces();
     each_point<D, N>([&](auto s) __attribute__((always_inline)) {
       const int i = b * N + s;
       Edges<T, D, Ring> e;
-      bundles[b].edges(s, e);
+      at.edges(s, e);
       find_normals(e);
+      const Symmetric<T, D> A = metric_of_normals(e);
+      const T over = T(1) / (e.det * e.det);
+      Symmetric<T, D> ways;  // sum_i w_i f_i G_i
+      T mean(0);             // sum_i w_i f_i s_i
+      repeat<size>([&](auto c) { ways[c] = T(0); });
+      each_layer<L>(m.layers, [&](auto k) __attribute__((always_inline)) {
+        double* memory = at.memory(s) + k * behind;
+        const T share = T(m.layer[k].weight) * layer[k].kept(i, factor[i]);
+        const Symmetric<T, D> G = load_memory<T, D>(memory);
+        repeat<size>([&](auto c) { ways[c] += share * G[c]; });
+        mean += share * layer[k].trial[i].s;
+        if (layer[k].flows[i]) keep_flow(memory, layer[k].u[i], layer[k].u[i] * over, A);
+      });
       Vector<T, D> y[D];
-      raise(ways[i], e, y);
+      raise(ways, e, y);
       if constexpr (D == 3) {
-        bundles[b].respond(s, e, pull_of_ways(e, y, T(1), mean[i]), sum);
+        at.respond(s, e, pull_of_ways(e, y, T(1), mean), sum);
       } else {
-        Symmetric<T, D> S = push(ways[i], e, y);
-        repeat<3>([&](auto c) { S[c] -= mean[i]; });
-        bundles[b].respond(s, e, pull_of<D, Ring>(S), sum);
+        Symmetric<T, D> S = push(ways, e, y);
+        repeat<3>([&](auto c) { S[c] -= mean; });
+        at.respond(s, e, pull_of<D, Ring>(S), sum);
       }
     });
-    bundles[b].close(sum);
+    at.close(sum);
   }
+}
+
+template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_inline]] inline void several_layers_of_points(const SolidConstants& m, Bundle* bundles, int count) {
+  if (m.layers == 2) layers_of_points<2, N, M, T, D, Ring>(m, bundles, count);
+  else layers_of_points<0, N, M, T, D, Ring>(m, bundles, count);
 }
 
 /// A step of the points of a body of either.
 template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_inline]] inline void von_mises_points(const SolidConstants& m, Bundle* bundles, int count) {
   if (m.layers == 1) one_layer_of_points<N, M, T, D, Ring>(m, bundles, count);
-  else layers_of_points<N, M, T, D, Ring>(m, bundles, count);
+  else several_layers_of_points<N, M, T, D, Ring>(m, bundles, count);
 }
 
 }  // namespace forming_sim
