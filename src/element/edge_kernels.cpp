@@ -79,6 +79,13 @@ template <int D, bool Ring> [[gnu::flatten]] void forces_of_blocks(const CellGro
   von_mises_points<1, kTogether, Pack, D, Ring>(g.solid, blocks, count);
 }
 
+/// Of Law::hill.
+template <int D, bool Ring> [[gnu::flatten]] void forces_of_rolled(const CellGroup& g, const NodalView& view, long block, int count) {
+  BlockOfPoints<D, Ring> blocks[kTogether];
+  set_blocks(g, view, block, count, blocks);
+  hill_points<1, kTogether, Pack, D, Ring>(g.solid, blocks, count);
+}
+
 /// Of any other law, but for the classical one.
 template <int D, bool Ring> [[gnu::flatten]] void forces_of_any_law(const CellGroup& g, const NodalView& view, long block) {
   BlockOfPoints<D, Ring> at;
@@ -149,6 +156,8 @@ void forces(const CellGroup& g, const NodalView& view, int first, int last) {
   with_dimension(g, [&](auto D, auto ring) {
     if (of_von_mises(g.solid.law))
       several_at_a_time(first, last, kTogether, [&](int block, int count) { forces_of_blocks<D, ring>(g, view, block, count); });
+    else if (g.solid.law == Law::hill)
+      several_at_a_time(first, last, kTogether, [&](int block, int count) { forces_of_rolled<D, ring>(g, view, block, count); });
     else
       for (int b = first; b < last; ++b) forces_of_any_law<D, ring>(g, view, b);
   });

@@ -184,6 +184,17 @@ template <class Cell, Made made> [[gnu::flatten]] void forces_of_several(const C
   }
 }
 
+/// Of Law::hill.
+template <class Cell> [[gnu::flatten]] void forces_of_rolled(const CellGroup& g, const NodalView& view, long block, int count) {
+  constexpr int n = kPoints<Cell>, most = kBlocks<Cell, Made::any>;
+  BlockInStep<Cell, n> blocks[most];
+  set_blocks(g, view, block, count, blocks);
+  for (int first = 0; first < Cell::simplices; first += n) {
+    blocks[0].first = first;
+    hill_points<n, most, Pack, kD<Cell>, Cell::ring>(g.solid, blocks, count);
+  }
+}
+
 /// Of any other, one simplex after the other.
 template <class Cell> [[gnu::flatten]] void forces_of_any_law(const CellGroup& g, const NodalView& view, long block) {
   constexpr int D = kD<Cell>;
@@ -346,6 +357,8 @@ template <class Cell, Made made> void forces_of_blocks(const CellGroup& g, const
     for (int b = first; b < last; ++b) forces_of_one_point_block<Cell, made>(g, moduli, view, b, waiting);
     waiting.end();
   } else if constexpr (made == Made::any) {
+    if (g.solid.law == Law::hill)
+      return several_at_a_time(first, last, kBlocks<Cell, made>, [&](int block, int count) { forces_of_rolled<Cell>(g, view, block, count); });
     for (int b = first; b < last; ++b) forces_of_any_law<Cell>(g, view, b);
   } else {
     several_at_a_time(first, last, kBlocks<Cell, made>, [&](int block, int count) { forces_of_several<Cell, made>(g, view, block, count); });

@@ -207,7 +207,7 @@ TEST(Hill, AxesTurnAsTheSheetDoes) {
   find_reciprocal(e);
   const std::vector<double> axes = axes_at_start(solid.orthotropy, 3, Mat3::Identity());
   Vector<double, 3> a[3];
-  find_axes(solid.orthotropy, e, axes.data(), a);
+  find_axes(solid.orthotropy, e.x, axes.data(), a);
   Mat3 Q;
   for (int k = 0; k < 3; ++k)
     for (int i = 0; i < 3; ++i) Q(i, k) = a[k][i];

@@ -114,8 +114,10 @@ template <class T, int D, bool Ring> void step_of_hill(const SolidConstants& m, 
   const double* axes = axes_of<T, D>(m, cell.memory);
   const HillMetric<T, D> metric(m, cell.e, axes);
   FlowTogether<T, D, Ring, HillMetric<T, D>> flow(metric);
-  step_of_layers(m, moduli, cell, flow, metric.most, [&](int k, double* memory) {
-    const HillResponse<T, D> r = hill_layer_step(m, k, cell.factor, cell.e, cell.J, memory, axes, Keep::yes);
+  const HillPoint<T, D, Ring> point = hill_point(m, cell.e, cell.J, cell.memory);
+  step_of_layers(m, moduli, cell, flow, metric.most, [&](int k, double*) {
+    HillResponse<T, D> r;
+    hill_layer_step<1>(m, k, 1, &point, Keep::yes, &r);
     cell.answer(r);
     flow.put_trial(r.trial, r.dp);
   });
