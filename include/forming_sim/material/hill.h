@@ -286,9 +286,9 @@ void hill_steps(const SolidConstants& m, int n, const HillPoint<T, D, Ring>* poi
     hill_layer_step<N>(m, k, n, points, keep, layer);
     const T w(m.layer[k].weight);
     for (int i = 0; i < n; ++i) {
-      const auto sum = [&](T& sum, const T& part) { sum = k == 0 ? w * part : sum + w * part; };
-      repeat<Symmetric<T, D>::size>([&](auto c) { sum(sums[i].S[c], layer[i].S[c]); });
-      sum(sums[i].dissipation, layer[i].dissipation);
+      const auto add = [&](T& sum, const T& part) { sum = k == 0 ? w * part : sum + w * part; };
+      repeat<Symmetric<T, D>::size>([&](auto c) { add(sums[i].S[c], layer[i].S[c]); });
+      add(sums[i].dissipation, layer[i].dissipation);
     }
   }
 }
