@@ -119,7 +119,7 @@ template <class T, int D, bool Ring> void step_of_hill(const SolidConstants& m, 
     HillResponse<T, D> r;
     hill_layer_step<1>(m, k, 1, &point, Keep::yes, &r);
     cell.answer(r);
-    flow.put_trial(r.trial, r.dp);
+    flow.put_trial(r.flowed ? r.trial : r.S, r.dp);
   });
 }
 

@@ -192,8 +192,9 @@ template <class T, int D, bool Ring> HillPoint<T, D, Ring> hill_point(const Soli
 
 /// What a layer answers, and what its return was.
 template <class T, int D> struct HillResponse : PointResponse<T, D> {
+  bool flowed;            ///< any of its lanes has; else there is no
   Symmetric<T, D> trial;  ///< S before it, Pa
-  T dp = T(0);            ///< plastic strain of the step
+  T dp;                   ///< plastic strain of the step
 };
 
 /// One step of layer k of n points, at most N, in passes as in material/von_mises_points.h.
@@ -206,15 +207,14 @@ template <int N, class T, int D, bool Ring>
   Symmetric<T, D> deviator[N];
   Trial<T> trial[N];
   HillFlow<T, D> flow[N];
-  bool flows[N];
+  bool flows[N] = {};
   for (int i = 0; i < n; ++i) {
     const HillPoint<T, D, Ring>& at = points[i];
     HillResponse<T, D>& r = responses[i];
     r.dissipation = r.dp = T(0);
     r.kept = T(1);
-    flows[i] = r.knows_yield = false;
+    r.knows_yield = false;
     deviator[i] = find_trial(push(load_memory<T, D>(memory_of(i)), at.edges()), trial[i]);
-    repeat<size>([&](auto c) { r.trial[c] = at.factor * deviator[i][c]; });
     if (hardening.kind == HardeningCurve::elastic || !any(T(h.most) * trial[i].m * at.factor * at.factor > T(hardening.lowest * hardening.lowest))) continue;
     HillFlow<T, D>& its = flow[i];
     load(memory_of(i), size, its.p);
@@ -244,6 +244,7 @@ template <int N, class T, int D, bool Ring>
     HillResponse<T, D>& r = responses[i];
     HillFlow<T, D>& its = flow[i];
     const T s = trial[i].s;
+    repeat<size>([&](auto c) { r.trial[c] = at.factor * deviator[i][c]; });
     r.dp = its.k * its.dg;
     r.kept = smaller(r.yield.value / (at.factor * sqrt(larger(its.q2, T(1e-300)))), T(1));
     T kept[InModes<T, D>::count];
@@ -275,14 +276,18 @@ template <int N, class T, int D, bool Ring>
     repeat<size>([&](auto c) { store(memory_of(i), c, G[c] + dG[c]); });
     store(memory_of(i), size, its.p + r.dp);
   }
-  for (int i = 0; i < n; ++i) repeat<size>([&](auto c) { responses[i].S[c] = points[i].factor * deviator[i][c]; });
+  for (int i = 0; i < n; ++i) {
+    responses[i].flowed = flows[i];
+    repeat<size>([&](auto c) { responses[i].S[c] = points[i].factor * deviator[i][c]; });
+  }
 }
 
 /// One step of all layers of n points, at most N.
 template <int N, class T, int D, bool Ring>
 void hill_steps(const SolidConstants& m, int n, const HillPoint<T, D, Ring>* points, Keep keep, PointResponse<T, D>* sums) {
   HillResponse<T, D> layer[N];
-  for (int k = 0; k < m.layers; ++k) {
+  int k = 0;
+  do {
     hill_layer_step<N>(m, k, n, points, keep, layer);
     const T w(m.layer[k].weight);
     for (int i = 0; i < n; ++i) {
@@ -290,7 +295,7 @@ void hill_steps(const SolidConstants& m, int n, const HillPoint<T, D, Ring>* poi
       repeat<Symmetric<T, D>::size>([&](auto c) { add(sums[i].S[c], layer[i].S[c]); });
       add(sums[i].dissipation, layer[i].dissipation);
     }
-  }
+  } while (++k < m.layers);
 }
 /// Of one point.
 template <class T, int D, bool Ring> PointResponse<T, D> hill_step(const SolidConstants& m, const Edges<T, D, Ring>& e, const T& J, double* memory, Keep keep) {
