@@ -23,47 +23,49 @@ template <class NodeOf> [[gnu::always_inline]] inline void add_share(const doubl
   gather_records([&](int l) { return shares + 4 * static_cast<long>(node_of(l)); }, inverse_mass, area, of_body, held);
   sum.add(k, b, inverse_mass, area, of_body, held);
 }
-inline void store(const PairShares<Pack>& sum, SharesPack& to) {
-  sum.w.store(to.w);
-  sum.mean_area().store(to.area);
-  sum.movers.store(to.movers);
-  sum.held.store(to.held);
+inline void store(const PairShares<Pack>& sum, SharesPack& to, int at) {
+  sum.w.store(to.w + at);
+  sum.mean_area().store(to.area + at);
+  sum.movers.store(to.movers + at);
+  sum.held.store(to.held + at);
 }
 
-inline void face(const double* places, const double* shares, FacePack& p) {
-  const auto corner = [&](int k) { return places_of(places, [&](int l) { return p.corner[l][k]; }); };
-  const Place a = corner(0), point = places_of(places, [&](int l) { return p.point[l]; });
+// at: the first of the lanes that are dealt with, as many as a Pack has.
+
+inline void face(const double* places, const double* shares, FacePack& p, int at) {
+  const auto corner = [&](int k) { return places_of(places, [&](int l) { return p.corner[at + l][k]; }); };
+  const Place a = corner(0), point = places_of(places, [&](int l) { return p.point[at + l]; });
   const Place r = point - a, u = corner(1) - a, v = corner(2) - a;
   const OverFace<Pack> f = over_face<Pack>(r, u, v);
   const OnBorder<Pack> border = on_border<Pack>(r, u, v);
-  f.beta.store(p.beta);
-  f.gamma.store(p.gamma);
-  border.side.store(p.side);
-  border.s.store(p.s);
-  for (int k = 0; k < 3; ++k) select(f.inside, f.apart[k], border.apart[k]).store(p.apart[k]);
-  select(f.inside, dot(f.apart, f.apart), border.squared).store(p.squared);
-  select(f.inside, Pack(1.0), Pack(0.0)).store(p.inside);
+  f.beta.store(p.beta + at);
+  f.gamma.store(p.gamma + at);
+  border.side.store(p.side + at);
+  border.s.store(p.s + at);
+  for (int k = 0; k < 3; ++k) select(f.inside, f.apart[k], border.apart[k]).store(p.apart[k] + at);
+  select(f.inside, dot(f.apart, f.apart), border.squared).store(p.squared + at);
+  select(f.inside, Pack(1.0), Pack(0.0)).store(p.inside + at);
   const Pack weight[4] = {1.0, f.beta + f.gamma - Pack(1.0), -f.beta, -f.gamma};
   PairShares<Pack> sum;
-  add_share(shares, 0, weight[0], [&](int l) { return p.point[l]; }, sum);
-  for (int k = 1; k < 4; ++k) add_share(shares, k, weight[k], [&](int l) { return p.corner[l][k - 1]; }, sum);
-  store(sum, p.shares);
+  add_share(shares, 0, weight[0], [&](int l) { return p.point[at + l]; }, sum);
+  for (int k = 1; k < 4; ++k) add_share(shares, k, weight[k], [&](int l) { return p.corner[at + l][k - 1]; }, sum);
+  store(sum, p.shares, at);
 }
 
-inline void segment(const double* places, const double* shares, FacePack& p) {
-  const auto corner = [&](int k) { return places_of(places, [&](int l) { return p.corner[l][k]; }); };
-  const Place a = corner(0), r = places_of(places, [&](int l) { return p.point[l]; }) - a, u = corner(1) - a;
+inline void segment(const double* places, const double* shares, FacePack& p, int at) {
+  const auto corner = [&](int k) { return places_of(places, [&](int l) { return p.corner[at + l][k]; }); };
+  const Place a = corner(0), r = places_of(places, [&](int l) { return p.point[at + l]; }) - a, u = corner(1) - a;
   const OverSegment<Pack> f = over_segment<Pack>({{r[0], r[1]}}, {{u[0], u[1]}});
-  f.s.store(p.beta);
-  for (int k = 0; k < 2; ++k) f.apart[k].store(p.apart[k]);
-  Pack(0.0).store(p.apart[2]);
-  dot(f.apart, f.apart).store(p.squared);
-  select(f.inside, Pack(1.0), Pack(0.0)).store(p.inside);
+  f.s.store(p.beta + at);
+  for (int k = 0; k < 2; ++k) f.apart[k].store(p.apart[k] + at);
+  Pack(0.0).store(p.apart[2] + at);
+  dot(f.apart, f.apart).store(p.squared + at);
+  select(f.inside, Pack(1.0), Pack(0.0)).store(p.inside + at);
   PairShares<Pack> sum;
-  add_share(shares, 0, Pack(1.0), [&](int l) { return p.point[l]; }, sum);
-  add_share(shares, 1, f.s - Pack(1.0), [&](int l) { return p.corner[l][0]; }, sum);
-  add_share(shares, 2, -f.s, [&](int l) { return p.corner[l][1]; }, sum);
-  store(sum, p.shares);
+  add_share(shares, 0, Pack(1.0), [&](int l) { return p.point[at + l]; }, sum);
+  add_share(shares, 1, f.s - Pack(1.0), [&](int l) { return p.corner[at + l][0]; }, sum);
+  add_share(shares, 2, -f.s, [&](int l) { return p.corner[at + l][1]; }, sum);
+  store(sum, p.shares, at);
 }
 
 /// 0 where `away` from an edge (a point on it: a; its direction: u), across it, points into the slab of the facet with
@@ -75,34 +77,39 @@ inline Pack outside(const Place& a, const Place& u, const Place& c, const Place&
   return select(within > Pack(0.0), select(within * within * dot(u, u) > limit, Pack(0.0), Pack(1.0)), Pack(1.0));
 }
 
-inline void edge(const double* places, const double* shares, double wedge, EdgePack& p) {
-  const auto place = [&](int k) { return places_of(places, [&](int l) { return p.node[l][k]; }); };
+inline void edge(const double* places, const double* shares, double wedge, EdgePack& p, int at) {
+  const auto place = [&](int k) { return places_of(places, [&](int l) { return p.node[at + l][k]; }); };
   const Place a = place(0), b = place(2), u = place(1) - a, v = place(3) - b;
   const CrossingEdges<Pack> e = crossing_edges<Pack>(a - b, u, v);
-  e.s.store(p.s);
-  e.t.store(p.t);
+  e.s.store(p.s + at);
+  e.t.store(p.t + at);
   const Pack distance = sqrt(dot(e.apart, e.apart));
-  distance.store(p.distance);
+  distance.store(p.distance + at);
   const Place normal = (Pack(1.0) / distance) * e.apart, back = Pack(-1.0) * e.apart;
-  for (int k = 0; k < 3; ++k) normal[k].store(p.normal[k]);
-  select(e.inside, Pack(1.0), Pack(0.0)).store(p.inside);
+  for (int k = 0; k < 3; ++k) normal[k].store(p.normal[k] + at);
+  select(e.inside, Pack(1.0), Pack(0.0)).store(p.inside + at);
   const Pack of_first = smaller(outside(a, u, place(4), back, wedge), outside(a, u, place(5), back, wedge));
   const Pack of_second = smaller(outside(b, v, place(6), e.apart, wedge), outside(b, v, place(7), e.apart, wedge));
-  smaller(of_first, of_second).store(p.outside);
+  smaller(of_first, of_second).store(p.outside + at);
   const Pack weight[4] = {Pack(1.0) - e.s, e.s, e.t - Pack(1.0), -e.t};
   PairShares<Pack> sum;
-  for (int k = 0; k < 4; ++k) add_share(shares, k, weight[k], [&](int l) { return p.node[l][k]; }, sum);
-  store(sum, p.shares);
+  for (int k = 0; k < 4; ++k) add_share(shares, k, weight[k], [&](int l) { return p.node[at + l][k]; }, sum);
+  store(sum, p.shares, at);
 }
 
+/// Calls work(pack, at) for all lanes of all packs.
+template <class Of, class Work> void each(Of* packs, long count, Work&& work) {
+  for (long i = 0; i < count; ++i)
+    for (int at = 0; at < kLanes; at += kWidth) work(packs[i], at);
+}
 void faces(const double* places, const double* shares, FacePack* packs, long count) {
-  for (long i = 0; i < count; ++i) face(places, shares, packs[i]);
+  each(packs, count, [&](FacePack& p, int at) { face(places, shares, p, at); });
 }
 void segments(const double* places, const double* shares, FacePack* packs, long count) {
-  for (long i = 0; i < count; ++i) segment(places, shares, packs[i]);
+  each(packs, count, [&](FacePack& p, int at) { segment(places, shares, p, at); });
 }
 void edges(const double* places, const double* shares, double wedge, EdgePack* packs, long count) {
-  for (long i = 0; i < count; ++i) edge(places, shares, wedge, packs[i]);
+  each(packs, count, [&](EdgePack& p, int at) { edge(places, shares, wedge, p, at); });
 }
 
 }  // namespace

@@ -11,11 +11,13 @@ namespace {
 struct Triple {
   Pack x, y, z;
 };
-inline Triple load3(const double (*from)[kLanes]) { return {Pack::load(from[0]), Pack::load(from[1]), Pack::load(from[2])}; }
-inline void store3(const Triple& a, double (*to)[kLanes]) {
-  a.x.store(to[0]);
-  a.y.store(to[1]);
-  a.z.store(to[2]);
+// at: the first of the lanes that are dealt with, as many as a Pack has.
+
+inline Triple load3(const double (*from)[kLanes], int at) { return {Pack::load(from[0] + at), Pack::load(from[1] + at), Pack::load(from[2] + at)}; }
+inline void store3(const Triple& a, double (*to)[kLanes], int at) {
+  a.x.store(to[0] + at);
+  a.y.store(to[1] + at);
+  a.z.store(to[2] + at);
 }
 inline Triple operator*(Pack s, const Triple& a) { return {s * a.x, s * a.y, s * a.z}; }
 inline Triple operator+(const Triple& a, const Triple& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -24,13 +26,13 @@ inline Triple only(Mask where, const Triple& a) { return {select(where, a.x, Pac
 inline Pack dot(const Triple& a, const Triple& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 /// u = sum_k b_k v_k; factor: b_k / m_k.
-inline Triple relative(const Movers& movers, const PairPack& p, Pack (&factor)[4]) {
+inline Triple relative(const Movers& movers, const PairPack& p, int at, Pack (&factor)[4]) {
   Triple u{Pack(0.0), Pack(0.0), Pack(0.0)};
   for (int k = 0; k < p.nodes; ++k) {
     Triple v;
     Pack inverse_mass;
-    gather_records([&](int l) { return movers.v + 4 * static_cast<long>(p.node[k][l]); }, v.x, v.y, v.z, inverse_mass);
-    const Pack b = Pack::load(p.weight[k]);
+    gather_records([&](int l) { return movers.v + 4 * static_cast<long>(p.node[k][at + l]); }, v.x, v.y, v.z, inverse_mass);
+    const Pack b = Pack::load(p.weight[k] + at);
     u = u + b * v;
     factor[k] = b * inverse_mass;
   }
@@ -38,17 +40,16 @@ inline Triple relative(const Movers& movers, const PairPack& p, Pack (&factor)[4
 }
 
 /// v_k += b_k / m_k P_k j.
-inline void push(const Movers& movers, const PairPack& p, const Pack (&factor)[4], const Triple& j) {
-  Lanes quads[4];
-  to_quads(j.x, j.y, j.z, quads);
-  const double* impulse = reinterpret_cast<const double*>(quads);
-  alignas(64) double share[kLanes];
+inline void push(const Movers& movers, const PairPack& p, int at, const Pack (&factor)[4], const Triple& j) {
+  Quad impulse[kWidth];
+  to_records(j.x, j.y, j.z, impulse);
+  alignas(Lanes) double share[kWidth];
   for (int k = 0; k < p.nodes; ++k) {
     factor[k].store(share);
-    for (int l = 0; l < kLanes; ++l) {
+    for (int l = 0; l < kWidth; ++l) {
       if (share[l] == 0) continue;
-      const int n = p.node[k][l];
-      Quad along = *reinterpret_cast<const Quad*>(impulse + 4 * l);
+      const int n = p.node[k][at + l];
+      Quad along = impulse[l];
       if (p.held)
         if (const double* P = movers.projector[n])
           along = Quad{P[0] * along[0] + P[1] * along[1] + P[2] * along[2], P[3] * along[0] + P[4] * along[1] + P[5] * along[2],
@@ -60,62 +61,66 @@ inline void push(const Movers& movers, const PairPack& p, const Pack (&factor)[4
 
 /// The impulse j of the pair moves by `omega` times the way to the one that goes with its end-of-step
 /// gap, all others held; its friction likewise, then to the nearest within the Coulomb cone.
-inline Pack visit(double dt, double omega, const Movers& movers, PairPack& p, RubPack* rub) {
+inline Pack visit(double dt, double omega, const Movers& movers, PairPack& p, RubPack* rub, int at) {
   Pack factor[4];
-  const Triple u = relative(movers, p, factor), normal = load3(p.normal);
-  const Pack before = Pack::load(p.impulse), layer = Pack::load(p.layer), w = Pack::load(p.w), zero(0.0);
+  const Triple u = relative(movers, p, at, factor), normal = load3(p.normal, at);
+  const Pack before = Pack::load(p.impulse + at), layer = Pack::load(p.layer + at), w = Pack::load(p.w + at), zero(0.0);
   const Pack vn = dot(normal, u);
-  const Pack now = Pack::load(p.gap) + Pack(dt) * vn;  // the end gap as things stand
+  const Pack now = Pack::load(p.gap + at) + Pack(dt) * vn;  // the end gap as things stand
   const Pack g = now - Pack(dt) * w * before;          // without this pair
   const Mask movable = w > zero;
   if (!any(movable & (select(g < layer, layer, before) > zero))) return zero;
   Pack h;
-  const Pack aim = end_impulse(g, layer, Pack::load(p.stiffness), w, dt, h);
+  const Pack aim = end_impulse(g, layer, Pack::load(p.stiffness + at), w, dt, h);
   const Pack j = select(movable, larger(before + Pack(omega) * (aim - before), zero), zero);
   Pack change = select(movable, absolute(h - now), zero);
-  j.store(p.impulse);
+  j.store(p.impulse + at);
   Triple impulse = (j - before) * normal;
   if (rub) {
     // Along the surface friction q and what takes waves away, e: u = u0 + w (q + e), e = -beta (u - u_s).
-    const Triple had_q = load3(rub->slip), had_e = load3(rub->radiated), slip = u - vn * normal, steady = load3(rub->steady);
-    const Pack rub_w = Pack::load(rub->w), most = Pack::load(rub->friction) * select(j > zero, Pack::load(rub->own) * j + Pack::load(rub->before), zero);
-    const Pack beta = select(j > zero, Pack::load(rub->beta), zero);
+    const Triple had_q = load3(rub->slip, at), had_e = load3(rub->radiated, at), slip = u - vn * normal, steady = load3(rub->steady, at);
+    const Pack rub_w = Pack::load(rub->w + at), most = Pack::load(rub->friction + at) * select(j > zero, Pack::load(rub->own + at) * j + Pack::load(rub->before + at), zero);
+    const Pack beta = select(j > zero, Pack::load(rub->beta + at), zero);
     const Triple free = slip - rub_w * (had_q + had_e) + (beta * rub_w) * steady;  // (1 + beta w) u without friction
     Triple q = had_q - Pack(omega) * (had_q + Pack(1.0) / rub_w * free);
     const Pack size = sqrt(dot(q, q));
     q = only(movable, select(size > most, most / size, Pack(1.0)) * q);
     const Triple end = Pack(1.0) / (Pack(1.0) + beta * rub_w) * (free + rub_w * q);
     const Triple e = only(movable, beta * (steady - end));
-    store3(q, rub->slip);
-    store3(e, rub->radiated);
+    store3(q, rub->slip, at);
+    store3(e, rub->radiated, at);
     const Triple more = (q - had_q) + (e - had_e);
     impulse = impulse + more;
     change = larger(change, sqrt(dot(more, more)) * rub_w * Pack(dt));
   }
-  push(movers, p, factor, impulse);
+  push(movers, p, at, factor, impulse);
   return change;
 }
 
+/// Calls work(i, at) for all lanes of so many packs.
+template <class Work> [[gnu::always_inline]] inline void each(long count, const Work& work) {
+  for (long i = 0; i < count; ++i)
+    for (int at = 0; at < kLanes; at += kWidth) work(i, at);
+}
+
 void start(const Movers& movers, const PairPack* packs, const RubPack* rubs, long count) {
-  for (long i = 0; i < count; ++i) {
+  each(count, [&](long i, int at) {
     const PairPack& p = packs[i];
     Pack factor[4];
     for (int k = 0; k < p.nodes; ++k)
-      for (int l = 0; l < kLanes; ++l) factor[k].v[l] = p.weight[k][l] * movers.v[4 * static_cast<long>(p.node[k][l]) + 3];
-    Triple impulse = Pack::load(p.impulse) * load3(p.normal);
-    if (rubs) impulse = impulse + load3(rubs[i].slip);
-    push(movers, p, factor, impulse);
-  }
+      factor[k] = Pack::load(p.weight[k] + at) * Pack(lanes_from([&](int l) { return movers.v[4 * static_cast<long>(p.node[k][at + l]) + 3]; }));
+    Triple impulse = Pack::load(p.impulse + at) * load3(p.normal, at);
+    if (rubs) impulse = impulse + load3(rubs[i].slip, at);
+    push(movers, p, at, factor, impulse);
+  });
 }
 
 double sweep(double dt, double omega, const Movers& movers, PairPack* packs, RubPack* rubs, long count) {
   Pack change(0.0);
-  if (rubs)
-    for (long i = 0; i < count; ++i) change = larger(change, visit(dt, omega, movers, packs[i], rubs + i));
-  else
-    for (long i = 0; i < count; ++i) change = larger(change, visit(dt, omega, movers, packs[i], nullptr));
+  if (rubs) each(count, [&](long i, int at) { change = larger(change, visit(dt, omega, movers, packs[i], rubs + i, at)); });
+  else each(count, [&](long i, int at) { change = larger(change, visit(dt, omega, movers, packs[i], nullptr, at)); });
   double most = 0;
-  for (int l = 0; l < kLanes; ++l)
+  for (int l = 0; l < kWidth; ++l)
     if (!(change[l] <= most)) most = change[l];
   return most;
 }
@@ -123,13 +128,13 @@ double sweep(double dt, double omega, const Movers& movers, PairPack* packs, Rub
 bool end_gaps(double dt, const Movers& movers, PairPack* packs, long count) {
   const Pack zero(0.0);
   Pack open(1.0);
-  for (long i = 0; i < count; ++i) {
+  each(count, [&](long i, int at) {
     PairPack& p = packs[i];
     Pack factor[4];
-    const Pack h = Pack::load(p.gap) + Pack(dt) * dot(load3(p.normal), relative(movers, p, factor));
-    h.store(p.end_gap);
-    open = select(h > zero, open, select(Pack::load(p.w) > zero, zero, open));
-  }
+    const Pack h = Pack::load(p.gap + at) + Pack(dt) * dot(load3(p.normal, at), relative(movers, p, at, factor));
+    h.store(p.end_gap + at);
+    open = select(h > zero, open, select(Pack::load(p.w + at) > zero, zero, open));
+  });
   return !any(open < Pack(1.0));
 }
 

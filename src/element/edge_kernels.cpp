@@ -1,5 +1,5 @@
 // The loops over the points at edges (element/edge_points.h), compiled once per vector width (see CMakeLists.txt).
-#include "element/block.h"
+#include "element/cell_pack.h"
 #include "forming_sim/element/edge_points.h"
 #include "forming_sim/element/time_step.h"
 #include "forming_sim/material/law.h"
@@ -9,18 +9,23 @@ namespace forming_sim {
 namespace FORMING_SIM_ISA {
 namespace {
 
-template <int D, bool Ring> const double* weights_of(const CellGroup& g, long row) {
-  return g.constants + row * edge_weights(D, Ring) * kLanes;
+/// Where the lanes of a pack are in a row of its block, of arrays with so many items a row; and the rows of its block.
+template <class T> T* lanes_of_row(T* array, long items, long row, long pack) { return array + row * items * kLanes + first_lane(pack); }
+long first_row(const CellGroup& g, long pack) { return g.rows[block_of(pack)]; }
+long last_row(const CellGroup& g, long pack) { return g.rows[block_of(pack) + 1]; }
+
+template <int D, bool Ring> const double* weights_of(const CellGroup& g, long row, long pack) {
+  return lanes_of_row(g.constants, edge_weights(D, Ring), row, pack);
 }
 
 /// x_m = sum_a w_ma x_a, of a ring x_3 = sum_a o_a r_a.
-template <int D, bool Ring> Edges<Pack, D, Ring> edges_of_point(const CellGroup& g, const NodalView& view, long block) {
+template <int D, bool Ring> Edges<Pack, D, Ring> edges_of_point(const CellGroup& g, const NodalView& view, long pack) {
   Edges<Pack, D, Ring> e;
   for (Vector<Pack, D>& edge : e.x)
     for (int i = 0; i < D; ++i) edge[i] = Pack(0.0);
-  for (long row = g.rows[block]; row < g.rows[block + 1]; ++row) {
-    const Vector<Pack, D> x = gather_vectors<D>(g.nodes + row * kLanes, view.x);
-    const double* w = weights_of<D, Ring>(g, row);
+  for (long row = first_row(g, pack); row < last_row(g, pack); ++row) {
+    const Vector<Pack, D> x = gather_vectors<D>(lanes_of_row(g.nodes, 1, row, pack), view.x);
+    const double* w = weights_of<D, Ring>(g, row, pack);
     for (int m = 0; m < D; ++m) e.x[m] += weight(w, m) * x;
     if constexpr (Ring) e.x[2][0] += weight(w, D) * x[0];
   }
@@ -28,68 +33,68 @@ template <int D, bool Ring> Edges<Pack, D, Ring> edges_of_point(const CellGroup&
 }
 
 /// f_a = - V_e dw/dx_a: the forces -V S . x^m on the edges and -V S . x^3 on the hoop, through the weights by which the nodes make them.
-template <int D, bool Ring, class Pull> void add_forces(const CellGroup& g, long block, const Edges<Pack, D, Ring>& e, const Pull& pull) {
+template <int D, bool Ring, class Pull> void add_forces(const CellGroup& g, long pack, const Edges<Pack, D, Ring>& e, const Pull& pull) {
   Vector<Pack, D> force[D];
   for (int m = 0; m < D; ++m) force[m] = -pull.on(e, m);
-  for (long row = g.rows[block]; row < g.rows[block + 1]; ++row) {
-    const double* w = weights_of<D, Ring>(g, row);
+  for (long row = first_row(g, pack); row < last_row(g, pack); ++row) {
+    const double* w = weights_of<D, Ring>(g, row, pack);
     Vector<Pack, D> f = weight(w, 0) * force[0];
     for (int m = 1; m < D; ++m) f += weight(w, m) * force[m];
     if constexpr (Ring) f[0] -= weight(w, D) * pull.on_hoop(e);
-    add_vectors(f, g.slots + row * kLanes, g.sums);
+    add_vectors(f, lanes_of_row(g.slots, 1, row, pack), g.sums);
   }
 }
 
-double* memory_of_point(const CellGroup& g, long block) { return g.memory + block * g.items * kLanes; }
+double* memory_of_point(const CellGroup& g, long pack) { return lanes_of(g.memory, g.items, pack); }
 
-/// The points of a block: a bundle for material/von_mises_points.h.
-template <int D, bool Ring> struct BlockOfPoints : BlockOfGroup {
+/// The points of a pack: a bundle for material/von_mises_points.h.
+template <int D, bool Ring> struct PackOfPoints : PackOfGroup {
   Vector<Pack, D> x[kEdges<D, Ring>];
   Pack dissipated;
 
   void open() {
     fetch_memory(g(), memory(0), 8);
-    const long row = g().rows[block], weights = (g().rows[block + 1] - row) * edge_weights(D, Ring);
-    fetch_ahead(weights_of<D, Ring>(g(), row), 8 * weights * static_cast<long>(sizeof(Lane)), weights);
-    const Edges<Pack, D, Ring> e = edges_of_point<D, Ring>(g(), *view, block);
+    const long row = first_row(g(), pack), weights = (last_row(g(), pack) - row) * edge_weights(D, Ring);
+    fetch_ahead(weights_of<D, Ring>(g(), row, pack), 8 * weights * static_cast<long>(sizeof(Lane)), weights);
+    const Edges<Pack, D, Ring> e = edges_of_point<D, Ring>(g(), *view, pack);
     for (int m = 0; m < kEdges<D, Ring>; ++m) x[m] = e.x[m];
     dissipated = Pack(0.0);
   }
-  double* memory(int) const { return memory_of_point(g(), block); }
+  double* memory(int) const { return memory_of_point(g(), pack); }
   void edges(int, Edges<Pack, D, Ring>& e) const {
     for (int m = 0; m < kEdges<D, Ring>; ++m) e.x[m] = x[m];
   }
   Pack ratio(int, const Edges<Pack, D, Ring>& e) const {
     const Pack J = simplex_volume<Pack, D, Ring>(e.x) / initial_volume(g(), memory(0));
-    g().upright[block] = all(J > Pack(0.0));
+    holds(g().upright, pack, all(J > Pack(0.0)));
     return J;
   }
   void dissipate(int, const Pack& what) { dissipated += what * initial_volume(g(), memory(0)); }
   const CellGroup& start_forces() const { return g(); }
-  template <class Pull> void respond(int, const Edges<Pack, D, Ring>& e, const Pull& pull, const CellGroup& sums) const { add_forces(sums, block, e, pull); }
-  void close(const CellGroup&) const { g().plastic_work[block] += sum_of_first(dissipated, lanes_in_use(g(), block)); }
+  template <class Pull> void respond(int, const Edges<Pack, D, Ring>& e, const Pull& pull, const CellGroup& sums) const { add_forces(sums, pack, e, pull); }
+  void close(const CellGroup&) const { g().plastic_work[block_of(pack)] += sum_of_first(dissipated, lanes_in_use(g(), pack)); }
 };
 
 /// Blocks that go through the law together.
 constexpr int kTogether = 4;
 
-template <int D, bool Ring> [[gnu::flatten]] void forces_of_blocks(const CellGroup& g, const NodalView& view, long block, int count) {
-  BlockOfPoints<D, Ring> blocks[kTogether];
-  set_blocks(g, view, block, count, blocks);
-  von_mises_points<1, kTogether, Pack, D, Ring>(g.solid, blocks, count);
+template <int D, bool Ring> [[gnu::flatten]] void forces_of_packs(const CellGroup& g, const NodalView& view, long pack, int count) {
+  PackOfPoints<D, Ring> packs[kTogether];
+  set_packs(g, view, pack, count, packs);
+  von_mises_points<1, kTogether, Pack, D, Ring>(g.solid, packs, count);
 }
 
 /// Of Law::hill.
-template <int D, bool Ring> [[gnu::flatten]] void forces_of_rolled(const CellGroup& g, const NodalView& view, long block, int count) {
-  BlockOfPoints<D, Ring> blocks[kTogether];
-  set_blocks(g, view, block, count, blocks);
-  hill_points<1, kTogether, Pack, D, Ring>(g.solid, blocks, count);
+template <int D, bool Ring> [[gnu::flatten]] void forces_of_rolled(const CellGroup& g, const NodalView& view, long pack, int count) {
+  PackOfPoints<D, Ring> packs[kTogether];
+  set_packs(g, view, pack, count, packs);
+  hill_points<1, kTogether, Pack, D, Ring>(g.solid, packs, count);
 }
 
 /// Of any other law, but for the classical one.
-template <int D, bool Ring> [[gnu::flatten]] void forces_of_any_law(const CellGroup& g, const NodalView& view, long block) {
-  BlockOfPoints<D, Ring> at;
-  set_blocks(g, view, block, 1, &at);
+template <int D, bool Ring> [[gnu::flatten]] void forces_of_any_law(const CellGroup& g, const NodalView& view, long pack) {
+  PackOfPoints<D, Ring> at;
+  set_packs(g, view, pack, 1, &at);
   at.open();
   Edges<Pack, D, Ring> e;
   at.edges(0, e);
@@ -101,33 +106,33 @@ template <int D, bool Ring> [[gnu::flatten]] void forces_of_any_law(const CellGr
   at.close(g);
 }
 
-template <int D, bool Ring> void observe_block(const CellGroup& g, const NodalView& view, long block, double* stress, double* ratio, double* energy) {
-  Edges<Pack, D, Ring> e = edges_of_point<D, Ring>(g, view, block);
+template <int D, bool Ring> void observe_pack(const CellGroup& g, const NodalView& view, long pack, double* stress, double* ratio, double* energy) {
+  Edges<Pack, D, Ring> e = edges_of_point<D, Ring>(g, view, pack);
   find_reciprocal(e);
-  double* memory = memory_of_point(g, block);
+  double* memory = memory_of_point(g, pack);
   const Pack V0 = initial_volume(g, memory), J = e.volume / V0;
-  energy[block] = sum_of_first(V0 * point_energy(g.solid, e, J, memory), lanes_in_use(g, block));
+  add_to_block(energy, pack, sum_of_first(V0 * point_energy(g.solid, e, J, memory), lanes_in_use(g, pack)));
   if (!stress) return;
   const Vector<Pack, D>* at_rest = nullptr;
   const Symmetric<Pack, D> S = point_step(g.solid, e, at_rest, J, memory, Keep::no).S;
-  for (int i = 0; i < 6; ++i) (i < Symmetric<Pack, D>::size ? S[i] : Pack(0.0)).store(stress + (block * 6 + i) * kLanes);
-  J.store(ratio + block * kLanes);
+  for (int i = 0; i < 6; ++i) (i < Symmetric<Pack, D>::size ? S[i] : Pack(0.0)).store(lanes_of(stress, 6, pack) + i * kLanes);
+  J.store(lanes_of(ratio, 1, pack));
 }
 
 /// omega_e^2 of element/time_step.h.
-template <int D, bool Ring> void rates_of_block(const CellGroup& g, const NodalView& view, long block, double* omega2) {
-  Edges<Pack, D, Ring> e = edges_of_point<D, Ring>(g, view, block);
+template <int D, bool Ring> void rates_of_pack(const CellGroup& g, const NodalView& view, long pack, double* omega2) {
+  Edges<Pack, D, Ring> e = edges_of_point<D, Ring>(g, view, pack);
   find_reciprocal(e);
   Symmetric<Pack, D> S;
   Symmetric<Pack, 3> M;  // of a ring
   for (int i = 0; i < Symmetric<Pack, D>::size; ++i) S[i] = Pack(0.0);
   for (int i = 0; i < 6; ++i) M[i] = Pack(0.0);
-  for (long row = g.rows[block]; row < g.rows[block + 1]; ++row) {
-    const int* nodes = g.nodes + row * kLanes;
-    const double* w = weights_of<D, Ring>(g, row);
+  for (long row = first_row(g, pack); row < last_row(g, pack); ++row) {
+    const int* nodes = lanes_of_row(g.nodes, 1, row, pack);
+    const double* w = weights_of<D, Ring>(g, row, pack);
     Vector<Pack, D> gradient = weight(w, 0) * e.up[0];
     for (int m = 1; m < D; ++m) gradient += weight(w, m) * e.up[m];
-    const Pack over_mass = Pack(1.0) / Pack::load(g.node_share + row * kLanes);
+    const Pack over_mass = Pack(1.0) / Pack::load(lanes_of_row(g.node_share, 1, row, pack));
     if constexpr (Ring) {
       const Pack axial = over_mass * gather_numbers(view.inertia, nodes);
       const Pack radial = select(gather_vectors<D>(nodes, view.x)[0] > Pack(0.0), axial, Pack(0.0));  // no radial motion on the axis
@@ -139,9 +144,9 @@ template <int D, bool Ring> void rates_of_block(const CellGroup& g, const NodalV
   Pack largest, trace_S;
   if constexpr (Ring) largest = Pack(2.0) * largest_eigenvalue(M);
   else largest = shape_bound(S, trace_S);
-  const double* memory = memory_of_point(g, block);
+  const double* memory = memory_of_point(g, pack);
   const Pack tangent = point_tangent(g.solid, e, e.volume / initial_volume(g, memory), memory);
-  (Pack(g.solid.mu / g.density) * tangent * largest).store(omega2 + block * kLanes);
+  (Pack(g.solid.mu / g.density) * tangent * largest).store(lanes_of(omega2, 1, pack));
 }
 
 /// Calls work(D, Ring) of the group, as integral constants.
@@ -155,21 +160,21 @@ template <class Work> void with_dimension(const CellGroup& g, Work&& work) {
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
   with_dimension(g, [&](auto D, auto ring) {
     if (of_von_mises(g.solid.law))
-      several_at_a_time(first, last, kTogether, [&](int block, int count) { forces_of_blocks<D, ring>(g, view, block, count); });
+      packs_at_a_time(first, last, kTogether, [&](long pack, int count) { forces_of_packs<D, ring>(g, view, pack, count); });
     else if (g.solid.law == Law::hill)
-      several_at_a_time(first, last, kTogether, [&](int block, int count) { forces_of_rolled<D, ring>(g, view, block, count); });
+      packs_at_a_time(first, last, kTogether, [&](long pack, int count) { forces_of_rolled<D, ring>(g, view, pack, count); });
     else
-      for (int b = first; b < last; ++b) forces_of_any_law<D, ring>(g, view, b);
+      each_pack(first, last, [&](long pack) { forces_of_any_law<D, ring>(g, view, pack); });
   });
 }
 void observe(const CellGroup& g, const NodalView& view, int first, int last, double* stress, double* ratio, double* energy) {
   with_dimension(g, [&](auto D, auto ring) {
-    for (int b = first; b < last; ++b) observe_block<D, ring>(g, view, b, stress, ratio, energy);
+    each_pack(first, last, [&](long pack) { observe_pack<D, ring>(g, view, pack, stress, ratio, energy); });
   });
 }
 void rates(const CellGroup& g, const NodalView& view, int first, int last, double* omega2) {
   with_dimension(g, [&](auto D, auto ring) {
-    for (int b = first; b < last; ++b) rates_of_block<D, ring>(g, view, b, omega2);
+    each_pack(first, last, [&](long pack) { rates_of_pack<D, ring>(g, view, pack, omega2); });
   });
 }
 

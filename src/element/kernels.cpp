@@ -2,8 +2,8 @@
 // Only raw arrays and types of this width's namespace are used here, so that no
 // inline function of a wider instruction set can leak into the rest of the program.
 #include "element/bulk_viscosity.h"
-#include "element/classical_block.h"
-#include "element/one_point_block.h"
+#include "element/classical_pack.h"
+#include "element/one_point_pack.h"
 #include "forming_sim/element/hourglass.h"
 #include "forming_sim/element/one_point_step.h"
 #include "forming_sim/element/time_step.h"
@@ -14,22 +14,22 @@ namespace forming_sim {
 namespace FORMING_SIM_ISA {
 namespace {
 
-/// V and J = V/V0 of every simplex of the block.
-template <class Cell> void find_volumes(const CellGroup& g, long block, const double* constants, const Vector<Pack, kD<Cell>>* x, Pack* V, Pack* J) {
+/// V and J = V/V0 of every simplex of the pack.
+template <class Cell> void find_volumes(const CellGroup& g, long pack, const double* constants, const Vector<Pack, kD<Cell>>* x, Pack* V, Pack* J) {
   for (int s = 0; s < Cell::simplices; ++s) {
     V[s] = volume_of<Cell>(constants, x, s);
-    J[s] = V[s] / initial_volume(g, memory_of<Cell>(g, block, s));
+    J[s] = V[s] / initial_volume(g, memory_of<Cell>(g, pack, s));
   }
 }
 
-/// p of every simplex of the block: K (V/V0 - 1) of the cell (with a share of the
+/// p of every simplex of the pack: K (V/V0 - 1) of the cell (with a share of the
 /// element's own, see elements.cpp) or of the element. That of nodes: nodal_kernels.cpp.
 template <class Cell>
-void pressures(const CellGroup& g, long block, const double* constants, const Pack* V, const Pack* J, Pack* p) {
+void pressures(const CellGroup& g, long pack, const double* constants, const Pack* V, const Pack* J, Pack* p) {
   constexpr int D = kD<Cell>;
   const Pack K(g.solid.K);
   if (g.solid.law == Law::classical) {
-    for (int s = 0; s < Cell::simplices; ++s) load(memory_of<Cell>(g, block, s), kClassicalPressure<D>, p[s]);
+    for (int s = 0; s < Cell::simplices; ++s) load(memory_of<Cell>(g, pack, s), kClassicalPressure<D>, p[s]);
     return;
   }
   if (g.pressure == PressureMode::element || Cell::simplices == 1) {
@@ -39,7 +39,7 @@ void pressures(const CellGroup& g, long block, const double* constants, const Pa
   Pack sum_V(0.0), sum_V0(0.0);
   for (int s = 0; s < Cell::simplices; ++s) {
     sum_V += V[s];
-    sum_V0 += initial_volume(g, memory_of<Cell>(g, block, s));
+    sum_V0 += initial_volume(g, memory_of<Cell>(g, pack, s));
   }
   const Pack theta(g.element_share);
   const Pack mean = (Pack(1.0) - theta) * K * (sum_V / sum_V0 - Pack(1.0));
@@ -52,13 +52,13 @@ void pressures(const CellGroup& g, long block, const double* constants, const Pa
   }
 }
 
-/// Simplices of a cell that go through the law at a time, and blocks of cells: some eight points keep a processor busy while each
+/// Simplices of a cell that go through the law at a time, and packs of cells: some eight points keep a processor busy while each
 /// waits for its own roots and divisions. Crossed cells of several layers go alone: the places of one cell's points are known beforehand.
 template <class Cell> constexpr int kPoints = Cell::simplices % 6 == 0 ? 6 : Cell::simplices;
-template <class Cell, Made made> constexpr int kBlocks = kD<Cell> == 3 || (made == Made::layers && Cell::simplices == 4) ? 1 : 8 / Cell::simplices;
+template <class Cell, Made made> constexpr int kTogether = kD<Cell> == 3 || (made == Made::layers && Cell::simplices == 4) ? 1 : 8 / Cell::simplices;
 
-/// Forces of the simplices of a block, summed by its nodes.
-template <class Cell> struct BlockForces {
+/// Forces of the simplices of a pack, summed by its nodes.
+template <class Cell> struct PackForces {
   static constexpr int D = kD<Cell>;
   const double* constants;
   const Vector<Pack, D>* x;
@@ -101,8 +101,8 @@ template <class Cell> struct BlockForces {
   }
 };
 
-/// A block of cells of simplices in a step: n of its simplices from `first` on are a bundle of material/von_mises_points.h.
-template <class Cell, int n> struct BlockInStep : BlockOfGroup {
+/// A pack of cells of simplices in a step: n of its simplices from `first` on are a bundle of material/von_mises_points.h.
+template <class Cell, int n> struct PackInStep : PackOfGroup {
   static constexpr int D = kD<Cell>, simplices = Cell::simplices;
   const double* constants;
   Vector<Pack, D> x[Cell::nodes], drawn[kDrawn<Cell>];
@@ -111,33 +111,33 @@ template <class Cell, int n> struct BlockInStep : BlockOfGroup {
   Mask upright;
   int first = 0;
   struct Nothing {};
-  std::conditional_t<n == simplices, Nothing, BlockForces<Cell>> sums;  ///< of a block that is several bundles
+  std::conditional_t<n == simplices, Nothing, PackForces<Cell>> sums;  ///< of a pack that is several bundles
 
-  const int* nodes() const { return g().nodes + block * Cell::nodes * kLanes; }
+  const int* nodes() const { return nodes_of<Cell>(g(), pack); }
 
   [[gnu::always_inline]] void open() {
     if (first > 0) return;
     Pack V[simplices];
     gather(V);
-    pressures<Cell>(g(), block, constants, V, J, p);
+    pressures<Cell>(g(), pack, constants, V, J, p);
     if (is_viscous(g())) add_viscosity();
   }
   [[gnu::always_inline]] void gather(Pack* V) {
-    constants = constants_of<Cell>(g(), block);
+    constants = constants_of<Cell>(g(), pack);
     gather_ways<Cell>(nodes(), view->x, x);
-    find_volumes<Cell>(g(), block, constants, x, V, J);
+    find_volumes<Cell>(g(), pack, constants, x, V, J);
     if constexpr (Cell::drawn) draw<Cell>(constants, x, drawn);
     upright = J[0] > Pack(0.0);
     dissipated = Pack(0.0);
   }
   void add_viscosity() {
-    const Pack q = viscosity_of_block<Cell>(g(), *view, block);
+    const Pack q = viscosity_of_pack<Cell>(g(), *view, pack);
     for (int s = 0; s < simplices; ++s) p[s] += q;
   }
 
   /// Simplex of point i; without a sum where they are all of the cell's, so that the compiler knows it.
   [[gnu::always_inline]] int simplex(int i) const { return n == simplices ? i : first + i; }
-  [[gnu::always_inline]] double* memory(int i) const { return memory_of<Cell>(g(), block, simplex(i)); }
+  [[gnu::always_inline]] double* memory(int i) const { return memory_of<Cell>(g(), pack, simplex(i)); }
   [[gnu::always_inline]] void edges(int i, CellEdges<Cell>& e) const { law_edges<Cell>(constants, x, drawn, simplex(i), e.x); }
   /// J that the law sees.
   [[gnu::always_inline]] Pack ratio(int i, const CellEdges<Cell>& e) {
@@ -147,13 +147,13 @@ template <class Cell, int n> struct BlockInStep : BlockOfGroup {
     return of_law;
   }
   [[gnu::always_inline]] void dissipate(int i, const Pack& what) { dissipated += what * initial_volume(g(), memory(i)); }
-  template <class Pull> [[gnu::always_inline]] void respond(int i, const CellEdges<Cell>& e, const Pull& pull, BlockForces<Cell>& forces) const {
-    fetch_initial_volume(g(), memory(i), simplices);  // for the pressures of the next block
+  template <class Pull> [[gnu::always_inline]] void respond(int i, const CellEdges<Cell>& e, const Pull& pull, PackForces<Cell>& forces) const {
+    fetch_initial_volume(g(), memory(i), simplices);  // for the pressures of the next pack
     forces.add(simplex(i), e, pull, p[simplex(i)]);
   }
   [[gnu::always_inline]] decltype(auto) start_forces() {
     if constexpr (n == simplices) {
-      BlockForces<Cell> forces;
+      PackForces<Cell> forces;
       forces.start(constants, x);
       return forces;
     } else {
@@ -161,52 +161,52 @@ template <class Cell, int n> struct BlockInStep : BlockOfGroup {
       return (sums);
     }
   }
-  [[gnu::always_inline]] void close(BlockForces<Cell>& forces) const {
+  [[gnu::always_inline]] void close(PackForces<Cell>& forces) const {
     if (first + n < simplices) return;
     if constexpr (Cell::drawn) hand_back<Cell>(constants, forces.on_drawn, forces.on_node);
     balance_apex<Cell>(forces.hoops, forces.on_node);
-    g().plastic_work[block] += sum_of_first(dissipated, lanes_in_use(g(), block));
-    g().upright[block] = all(upright);
-    const int* slots = g().slots + block * Cell::nodes * kLanes;
+    g().plastic_work[block_of(pack)] += sum_of_first(dissipated, lanes_in_use(g(), pack));
+    holds(g().upright, pack, all(upright));
+    const int* slots = slots_of<Cell>(g(), pack);
     for (int a = 0; a < Cell::nodes; ++a) add_vectors(forces.on_node[a], slots + a * kLanes, g().sums);
   }
 };
 
 /// Of the law of material/von_mises.h.
-template <class Cell, Made made> [[gnu::flatten]] void forces_of_several(const CellGroup& g, const NodalView& view, long block, int count) {
-  constexpr int n = kPoints<Cell>, most = kBlocks<Cell, made>, D = kD<Cell>;
-  BlockInStep<Cell, n> blocks[most];
-  set_blocks(g, view, block, count, blocks);
+template <class Cell, Made made> [[gnu::flatten]] void forces_of_several(const CellGroup& g, const NodalView& view, long pack, int count) {
+  constexpr int n = kPoints<Cell>, most = kTogether<Cell, made>, D = kD<Cell>;
+  PackInStep<Cell, n> packs[most];
+  set_packs(g, view, pack, count, packs);
   for (int first = 0; first < Cell::simplices; first += n) {
-    blocks[0].first = first;
-    if constexpr (made == Made::one_layer) one_layer_of_points<n, most, Pack, D, Cell::ring>(g.solid, blocks, count);
-    else several_layers_of_points<n, most, Pack, D, Cell::ring>(g.solid, blocks, count);
+    packs[0].first = first;
+    if constexpr (made == Made::one_layer) one_layer_of_points<n, most, Pack, D, Cell::ring>(g.solid, packs, count);
+    else several_layers_of_points<n, most, Pack, D, Cell::ring>(g.solid, packs, count);
   }
 }
 
 /// Of Law::hill.
-template <class Cell> [[gnu::flatten]] void forces_of_rolled(const CellGroup& g, const NodalView& view, long block, int count) {
-  constexpr int n = kPoints<Cell>, most = kBlocks<Cell, Made::any>;
-  BlockInStep<Cell, n> blocks[most];
-  set_blocks(g, view, block, count, blocks);
+template <class Cell> [[gnu::flatten]] void forces_of_rolled(const CellGroup& g, const NodalView& view, long pack, int count) {
+  constexpr int n = kPoints<Cell>, most = kTogether<Cell, Made::any>;
+  PackInStep<Cell, n> packs[most];
+  set_packs(g, view, pack, count, packs);
   for (int first = 0; first < Cell::simplices; first += n) {
-    blocks[0].first = first;
-    hill_points<n, most, Pack, kD<Cell>, Cell::ring>(g.solid, blocks, count);
+    packs[0].first = first;
+    hill_points<n, most, Pack, kD<Cell>, Cell::ring>(g.solid, packs, count);
   }
 }
 
 /// Of any other, one simplex after the other.
-template <class Cell> [[gnu::flatten]] void forces_of_any_law(const CellGroup& g, const NodalView& view, long block) {
+template <class Cell> [[gnu::flatten]] void forces_of_any_law(const CellGroup& g, const NodalView& view, long pack) {
   constexpr int D = kD<Cell>;
-  BlockInStep<Cell, 1> at;
-  set_blocks(g, view, block, 1, &at);
+  PackInStep<Cell, 1> at;
+  set_packs(g, view, pack, 1, &at);
   Vector<Pack, D> v[Cell::nodes], drawn_v[kDrawn<Cell>];  // only where the law asks for velocities
   const bool classical = g.solid.law == Law::classical;
   if (classical) {
     Pack V[Cell::simplices];
     at.gather(V);
     gather_ways<Cell>(at.nodes(), view.v, v);
-    classical_pressures<Cell>(g, view, block, at.x, v, at.p, Keep::yes);
+    classical_pressures<Cell>(g, view, pack, at.x, v, at.p, Keep::yes);
     if (is_viscous(g)) at.add_viscosity();
     if constexpr (Cell::drawn) draw<Cell>(at.constants, v, drawn_v);
   } else {
@@ -234,10 +234,10 @@ using CellBound = std::conditional_t<!Cell::one_point, StepBound<Pack, kD<Cell>,
                                      std::conditional_t<Cell::ring, OnePointRingBound<Pack>, OnePointBound<Pack, kD<Cell>>>>;
 
 template <class Cell>
-[[gnu::flatten]] void rates_of_block(const CellGroup& g, const NodalView& view, long block, BlockRates& out) {
+[[gnu::flatten]] void rates_of_pack(const CellGroup& g, const NodalView& view, long pack, BlockRates& out) {
   constexpr int D = kD<Cell>;
-  const double* constants = constants_of<Cell>(g, block);
-  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
+  const double* constants = constants_of<Cell>(g, pack);
+  const int* nodes = nodes_of<Cell>(g, pack);
   Vector<Pack, D> x[Cell::nodes];
   gather<Cell>(nodes, view.x, x);
   Vector<Pack, D> inertia[Cell::nodes];  // rings only
@@ -256,15 +256,15 @@ template <class Cell>
     CellEdges<Cell> e;
     edges_of<Cell>(constants, x, s, e.x);
     find_reciprocal(e);
-    const double* memory = memory_of<Cell>(g, block, s);
+    const double* memory = memory_of<Cell>(g, pack, s);
     if constexpr (Cell::one_point) {
       const Variation<Cell> variation(g, constants, e, x);
       if constexpr (Cell::ring) bound.set(e, x, memory, initial_volume(g, memory), constants, variation.sums.mode, variation.hourglass);
       else bound.set(e, memory, initial_volume(g, memory), constants, variation.sums.mode);
-      if (variation.hourglass.far()) bound.omega2 += corner_rate<Cell>(g, view, block, bound.omega2);
+      if (variation.hourglass.far()) bound.omega2 += corner_rate<Cell>(g, view, pack, bound.omega2);
     } else {
       Pack at_edges;
-      if (g.edge_omega2) at_edges = Pack::load(g.edge_omega2 + (block * Cell::simplices + s) * kLanes);
+      if (g.edge_omega2) at_edges = Pack::load(lanes_of(g.edge_omega2, Cell::simplices, pack) + s * kLanes);
       bound.add(e, memory, g.edge_omega2 ? &at_edges : nullptr, initial_volume(g, memory), free_of_guard<Cell>(constants, s), Cell::table[s]);
       if (drawn) {
         law_edges<Cell>(constants, x, drawn_x, s, e.x);
@@ -282,21 +282,21 @@ template <class Cell>
     rate = absolute(rate / V);
   }
   const StepRates<Pack> rates = bound.rates(rate);
-  rates.omega2.store(out.omega2.value);
-  rates.damping.store(out.damping.value);
+  rates.omega2.store(out.omega2.value + first_lane(pack));
+  rates.damping.store(out.damping.value + first_lane(pack));
 }
 
 template <class Cell>
-void observe_block(const CellGroup& g, const NodalView& view, long block, double* stress, double* ratio,
+void observe_pack(const CellGroup& g, const NodalView& view, long pack, double* stress, double* ratio,
                    double* energy) {
   constexpr int D = kD<Cell>;
-  const double* constants = constants_of<Cell>(g, block);
-  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
+  const double* constants = constants_of<Cell>(g, pack);
+  const int* nodes = nodes_of<Cell>(g, pack);
   Vector<Pack, D> x[Cell::nodes];
   gather_ways<Cell>(nodes, view.x, x);
   Pack V[Cell::simplices], J[Cell::simplices], p[Cell::simplices];
-  find_volumes<Cell>(g, block, constants, x, V, J);
-  pressures<Cell>(g, block, constants, V, J, p);
+  find_volumes<Cell>(g, pack, constants, x, V, J);
+  pressures<Cell>(g, pack, constants, V, J, p);
   Vector<Pack, D> drawn_x[kDrawn<Cell>];
   if constexpr (Cell::drawn) draw<Cell>(constants, x, drawn_x);
   Pack stored(0.0), cell_V(0.0), cell_V0(0.0);
@@ -305,14 +305,14 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
   Vector<Pack, D> v[Cell::nodes], drawn_v[kDrawn<Cell>];  // only from a memory of other positions
   if (ahead) {
     gather_ways<Cell>(nodes, view.v, v);
-    classical_pressures<Cell>(g, view, block, x, v, p, Keep::no);
+    classical_pressures<Cell>(g, view, pack, x, v, p, Keep::no);
     if constexpr (Cell::drawn) draw<Cell>(constants, v, drawn_v);
   }
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
     law_edges<Cell>(constants, x, drawn_x, s, e.x);
     find_reciprocal(e);
-    double* memory = memory_of<Cell>(g, block, s);
+    double* memory = memory_of<Cell>(g, pack, s);
     const Pack V0 = initial_volume(g, memory), law_J = Cell::drawn ? e.volume / V0 : J[s];
     Vector<Pack, D> w[kE<Cell>];
     if (ahead) {
@@ -321,7 +321,7 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
     }
     stored += V0 * point_energy(g.solid, e, law_J, memory, ahead ? w : nullptr);
     if constexpr (Cell::one_point) {
-      stored += V0 * Variation<Cell>(g, constants, e, x).hourglass.energy(g.solid, hourglass_of<Cell>(g, block));
+      stored += V0 * Variation<Cell>(g, constants, e, x).hourglass.energy(g.solid, hourglass_of<Cell>(g, pack));
       stored += Pack(kCornerGuard * g.solid.K) * V0 * CornerGuard<Pack, D, Cell::ring>(constants, x, e.x, e.up).energy();
     }
     if (!classical) stored += Pack(0.5 * g.solid.K * own) * V0 * (J[s] - Pack(1.0)) * (J[s] - Pack(1.0));
@@ -331,13 +331,13 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
     if (!stress) continue;
     const Vector<Pack, D>* at_rest = nullptr;
     const PointResponse<Pack, D> point = point_step(g.solid, e, at_rest, law_J, memory, Keep::no);
-    double* to = stress + (block * Cell::simplices + s) * 6 * kLanes;
+    double* to = lanes_of(stress, Cell::simplices * 6, pack) + s * 6 * kLanes;
     for (int i = 0; i < 6; ++i) {
       Pack component = i < Symmetric<Pack, D>::size ? point.S[i] : Pack(0.0);
       if (i < 3) component += p[s];
       component.store(to + i * kLanes);
     }
-    J[s].store(ratio + (block * Cell::simplices + s) * kLanes);
+    J[s].store(lanes_of(ratio, Cell::simplices, pack) + s * kLanes);
   }
   if (classical) {
     stored += energy_of_classical_pressures<Cell>(V, p, g.solid.K, own);
@@ -345,42 +345,40 @@ void observe_block(const CellGroup& g, const NodalView& view, long block, double
     const Pack strain = cell_V / cell_V0 - Pack(1.0);
     stored += Pack(0.5 * g.solid.K * (1 - own)) * cell_V0 * strain * strain;
   }
-  const int in_use = lanes_in_use(g, block);
-  energy[block] = 0;
-  for (int l = 0; l < in_use; ++l) energy[block] += stored[l];
+  add_to_block(energy, pack, sum_of_first(stored, lanes_in_use(g, pack)));
 }
 
-template <class Cell, Made made> void forces_of_blocks(const CellGroup& g, const NodalView& view, int first, int last) {
+template <class Cell, Made made> void forces_of_packs(const CellGroup& g, const NodalView& view, int first, int last) {
   if constexpr (Cell::one_point) {
     const PlaneModuli moduli(g.solid);
-    WaitingBlocks<Cell> waiting(g, moduli, view);
-    for (int b = first; b < last; ++b) forces_of_one_point_block<Cell, made>(g, moduli, view, b, waiting);
+    WaitingPacks<Cell> waiting(g, moduli, view);
+    each_pack(first, last, [&](long pack) { forces_of_one_point_pack<Cell, made>(g, moduli, view, pack, waiting); });
     waiting.end();
   } else if constexpr (made == Made::any) {
     if (g.solid.law == Law::hill)
-      return several_at_a_time(first, last, kBlocks<Cell, made>, [&](int block, int count) { forces_of_rolled<Cell>(g, view, block, count); });
-    for (int b = first; b < last; ++b) forces_of_any_law<Cell>(g, view, b);
+      return packs_at_a_time(first, last, kTogether<Cell, made>, [&](long pack, int count) { forces_of_rolled<Cell>(g, view, pack, count); });
+    each_pack(first, last, [&](long pack) { forces_of_any_law<Cell>(g, view, pack); });
   } else {
-    several_at_a_time(first, last, kBlocks<Cell, made>, [&](int block, int count) { forces_of_several<Cell, made>(g, view, block, count); });
+    packs_at_a_time(first, last, kTogether<Cell, made>, [&](long pack, int count) { forces_of_several<Cell, made>(g, view, pack, count); });
   }
 }
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
   with_cell(g, [&](auto cell) {
     using Cell = decltype(cell);
-    if (of_von_mises(g.solid.law) && g.solid.layers == 1) return forces_of_blocks<Cell, Made::one_layer>(g, view, first, last);
-    if (of_von_mises(g.solid.law)) return forces_of_blocks<Cell, Made::layers>(g, view, first, last);
-    forces_of_blocks<Cell, Made::any>(g, view, first, last);
+    if (of_von_mises(g.solid.law) && g.solid.layers == 1) return forces_of_packs<Cell, Made::one_layer>(g, view, first, last);
+    if (of_von_mises(g.solid.law)) return forces_of_packs<Cell, Made::layers>(g, view, first, last);
+    forces_of_packs<Cell, Made::any>(g, view, first, last);
   });
 }
 void rates(const CellGroup& g, const NodalView& view, int first, int last, BlockRates* out) {
   with_cell(g, [&](auto cell) {
-    for (int b = first; b < last; ++b) rates_of_block<decltype(cell)>(g, view, b, out[b]);
+    each_pack(first, last, [&](long pack) { rates_of_pack<decltype(cell)>(g, view, pack, out[block_of(pack)]); });
   });
 }
 void observe(const CellGroup& g, const NodalView& view, int first, int last, double* stress, double* ratio,
              double* energy) {
   with_cell(g, [&](auto cell) {
-    for (int b = first; b < last; ++b) observe_block<decltype(cell)>(g, view, b, stress, ratio, energy);
+    each_pack(first, last, [&](long pack) { observe_pack<decltype(cell)>(g, view, pack, stress, ratio, energy); });
   });
 }
 

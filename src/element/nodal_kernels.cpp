@@ -10,10 +10,10 @@ namespace forming_sim {
 namespace FORMING_SIM_ISA {
 namespace {
 
-template <class Cell> void volumes_of_block(const CellGroup& g, const NodalView& view, long block) {
+template <class Cell> void volumes_of_pack(const CellGroup& g, const NodalView& view, long pack) {
   constexpr int D = kD<Cell>;
   Vector<Pack, D> x[Cell::nodes];
-  gather_ways<Cell>(g.nodes + block * Cell::nodes * kLanes, view.x, x);
+  gather_ways<Cell>(nodes_of<Cell>(g, pack), view.x, x);
   Pack V[Cell::simplices], share[Cell::nodes];
   simplex_volumes<Cell>(nullptr, x, V);
   for (Pack& s : share) s = Pack(0.0);
@@ -21,34 +21,34 @@ template <class Cell> void volumes_of_block(const CellGroup& g, const NodalView&
     const Pack part = V[s] * Pack(1.0 / (D + 1));
     for (int a = 0; a <= D; ++a) share[Cell::table[s][a]] += part;
   }
-  const int* slots = g.slots + block * Cell::nodes * kLanes;
+  const int* slots = slots_of<Cell>(g, pack);
   for (int a = 0; a < Cell::nodes; ++a) add_numbers(share[a], slots + a * kLanes, g.sums);
 }
 
-/// p_s of every simplex of the block, and J = V_s / V_s0.
-template <class Cell> void pressures(const CellGroup& g, const NodalView& view, long block, const Vector<Pack, kD<Cell>>* x, Pack* p, Pack* J) {
-  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
+/// p_s of every simplex of the pack, and J = V_s / V_s0.
+template <class Cell> void pressures(const CellGroup& g, const NodalView& view, long pack, const Vector<Pack, kD<Cell>>* x, Pack* p, Pack* J) {
+  const int* nodes = nodes_of<Cell>(g, pack);
   simplex_volumes<Cell>(nullptr, x, J);
   Pack of_node[Cell::nodes];
   for (int a = 0; a < Cell::nodes; ++a) of_node[a] = gather_numbers(view.pressure, nodes + a * kLanes);
   for (int s = 0; s < Cell::simplices; ++s) {
     p[s] = Pack(0.0);
     for (int a = 0; a <= kD<Cell>; ++a) p[s] += of_node[Cell::table[s][a]];
-    J[s] = J[s] / initial_volume(g, memory_of<Cell>(g, block, s));
+    J[s] = J[s] / initial_volume(g, memory_of<Cell>(g, pack, s));
     p[s] = Pack(1.0 / (kD<Cell> + 1)) * p[s] + Pack(kGuard * g.solid.K) * guard_pressure(J[s]);
   }
 }
 
-template <class Cell> [[gnu::flatten]] void forces_of_block(const CellGroup& g, const NodalView& view, long block) {
+template <class Cell> [[gnu::flatten]] void forces_of_pack(const CellGroup& g, const NodalView& view, long pack) {
   constexpr int D = kD<Cell>;
   Vector<Pack, D> x[Cell::nodes], f[Cell::nodes];
-  gather_ways<Cell>(g.nodes + block * Cell::nodes * kLanes, view.x, x);
+  gather_ways<Cell>(nodes_of<Cell>(g, pack), view.x, x);
   for (Vector<Pack, D>& on_node : f)
     for (int i = 0; i < D; ++i) on_node[i] = Pack(0.0);
   Pack p[Cell::simplices], J[Cell::simplices];
-  pressures<Cell>(g, view, block, x, p, J);
+  pressures<Cell>(g, view, pack, x, p, J);
   if (is_viscous(g)) {
-    const Pack q = viscosity_of_block<Cell>(g, view, block);
+    const Pack q = viscosity_of_pack<Cell>(g, view, pack);
     for (Pack& of_simplex : p) of_simplex += q;
   }
   Mask upright = Pack(1.0) > Pack(0.0);
@@ -67,24 +67,24 @@ template <class Cell> [[gnu::flatten]] void forces_of_block(const CellGroup& g, 
     }
   }
   balance_apex<Cell>(hoops, f);
-  g.upright[block] = all(upright);
-  const int* slots = g.slots + block * Cell::nodes * kLanes;
+  holds(g.upright, pack, all(upright));
+  const int* slots = slots_of<Cell>(g, pack);
   for (int a = 0; a < Cell::nodes; ++a) add_vectors(f[a], slots + a * kLanes, g.sums);
 }
 
-template <class Cell> void observe_block(const CellGroup& g, const NodalView& view, long block, double* stress, double* ratio, double* energy) {
+template <class Cell> void observe_pack(const CellGroup& g, const NodalView& view, long pack, double* stress, double* ratio, double* energy) {
   Vector<Pack, kD<Cell>> x[Cell::nodes];
-  gather_ways<Cell>(g.nodes + block * Cell::nodes * kLanes, view.x, x);
+  gather_ways<Cell>(nodes_of<Cell>(g, pack), view.x, x);
   Pack p[Cell::simplices], J[Cell::simplices], stored(0.0);
-  pressures<Cell>(g, view, block, x, p, J);
+  pressures<Cell>(g, view, pack, x, p, J);
   for (int s = 0; s < Cell::simplices; ++s) {
-    stored += Pack(kGuard * g.solid.K) * initial_volume(g, memory_of<Cell>(g, block, s)) * guard_energy(J[s]);
+    stored += Pack(kGuard * g.solid.K) * initial_volume(g, memory_of<Cell>(g, pack, s)) * guard_energy(J[s]);
     if (!stress) continue;
-    double* to = stress + (block * Cell::simplices + s) * 6 * kLanes;
+    double* to = lanes_of(stress, Cell::simplices * 6, pack) + s * 6 * kLanes;
     for (int i = 0; i < 6; ++i) (i < 3 ? p[s] : Pack(0.0)).store(to + i * kLanes);
-    J[s].store(ratio + (block * Cell::simplices + s) * kLanes);
+    J[s].store(lanes_of(ratio, Cell::simplices, pack) + s * kLanes);
   }
-  energy[block] = sum_of_first(stored, lanes_in_use(g, block));
+  add_to_block(energy, pack, sum_of_first(stored, lanes_in_use(g, pack)));
 }
 
 /// Calls `work` with the cell type of simplices; one-point cells have pressures of their own.
@@ -96,17 +96,17 @@ template <class Work> void with_simplices(const CellGroup& g, Work&& work) {
 
 void volumes(const CellGroup& g, const NodalView& view, int first, int last) {
   with_simplices(g, [&](auto cell) {
-    for (int b = first; b < last; ++b) volumes_of_block<decltype(cell)>(g, view, b);
+    each_pack(first, last, [&](long pack) { volumes_of_pack<decltype(cell)>(g, view, pack); });
   });
 }
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
   with_simplices(g, [&](auto cell) {
-    for (int b = first; b < last; ++b) forces_of_block<decltype(cell)>(g, view, b);
+    each_pack(first, last, [&](long pack) { forces_of_pack<decltype(cell)>(g, view, pack); });
   });
 }
 void observe(const CellGroup& g, const NodalView& view, int first, int last, double* stress, double* ratio, double* energy) {
   with_simplices(g, [&](auto cell) {
-    for (int b = first; b < last; ++b) observe_block<decltype(cell)>(g, view, b, stress, ratio, energy);
+    each_pack(first, last, [&](long pack) { observe_pack<decltype(cell)>(g, view, pack, stress, ratio, energy); });
   });
 }
 

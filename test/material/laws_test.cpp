@@ -259,18 +259,19 @@ TEST(Classical, AClosedPathLeavesAnErrorOfTheStepTheMemoryDoesNot) {
 
 // ---------------------------------------------------------------- all laws
 
-TEST(Laws, EightPointsAtOnceAreEightPoints) {
-  using portable::Pack;
+TEST(Laws, PointsOfABlockAreThoseOneByOne) {
+  using portable::Pack, portable::kPacks, portable::kWidth;
   for (const SolidConstants& solid : {rubber(100e6, 20e6, 2e9), levels(100e9, 0.45, {.5, .5}, {1e9, 2e9}), classical(perfect(1e9))}) {
     const int items = memory_items<3>(solid);
     struct alignas(64) Item { double lane[kLanes]; };
     std::vector<Item> memory(items);
-    Edges<Pack, 3> e;
-    Vector<Pack, 3> moved[3];
-    Pack J;
+    Edges<Pack, 3> e[kPacks];
+    Vector<Pack, 3> moved[kPacks][3];
+    Pack J[kPacks];
     std::vector<PointResponse<double, 3>> single;
     std::vector<std::vector<double>> alone(kLanes, std::vector<double>(items));
     for (int l = 0; l < kLanes; ++l) {
+      const int pack = l / kWidth, lane = l % kWidth;
       Edges<double, 3> one;
       Vector<double, 3> w[3];
       for (int m = 0; m < 3; ++m)
@@ -278,20 +279,23 @@ TEST(Laws, EightPointsAtOnceAreEightPoints) {
           const double d = 0.002 * l * std::sin(1.0 + 3 * m + i);
           one.x[m][i] = (m == i) + d;
           w[m][i] = d;
-          e.x[m][i].v[l] = one.x[m][i];
-          moved[m][i].v[l] = d;
+          e[pack].x[m][i].v[lane] = one.x[m][i];
+          moved[pack][m][i].v[lane] = d;
         }
       find_reciprocal(one);
       start_memory<3>(solid, {{1, 1, 1, 0, 0, 0}}, axes_at_start(solid.orthotropy, 3, Mat3::Identity()).data(), [&](int i, double value) { alone[l][i] = value; });
       alone[l].back() = 1.0 / 6;
       for (int i = 0; i < items; ++i) memory[i].lane[l] = alone[l][i];
-      J.v[l] = one.volume * 6;
+      J[pack].v[lane] = one.volume * 6;
       single.push_back(point_step(solid, one, w, one.volume * 6, alone[l].data(), Keep::yes));
     }
-    find_reciprocal(e);
-    const PointResponse<Pack, 3> packed = point_step(solid, e, moved, J, memory[0].lane, Keep::yes);
+    PointResponse<Pack, 3> packed[kPacks];
+    for (int pack = 0; pack < kPacks; ++pack) {
+      find_reciprocal(e[pack]);
+      packed[pack] = point_step(solid, e[pack], moved[pack], J[pack], memory[0].lane + pack * kWidth, Keep::yes);
+    }
     for (int l = 0; l < kLanes; ++l) {
-      for (int i = 0; i < 6; ++i) EXPECT_NEAR(packed.S[i][l], single[l].S[i], 1e-9 * solid.mu);
+      for (int i = 0; i < 6; ++i) EXPECT_NEAR(packed[l / kWidth].S[i][l % kWidth], single[l].S[i], 1e-9 * solid.mu);
       for (int i = 0; i < items; ++i) EXPECT_NEAR(memory[i].lane[l], alone[l][i], 1e-9 * (1 + std::fabs(alone[l][i])));
     }
   }

@@ -121,7 +121,7 @@ template <class T, int D, bool Ring = false> class Hourglass {
   T energy(const SolidConstants& m, const double* memory) const {
     if (m.law == Law::hyperelastic) return layer_energy(nullptr);
     T sum(0);
-    for (int k = 0; k < m.layers; ++k, memory += kHourglassItems<D> * lanes_of<T>) sum += T(m.layer[k].weight) * layer_energy(memory);
+    for (int k = 0; k < m.layers; ++k, memory += kHourglassItems<D> * stride_of<T>) sum += T(m.layer[k].weight) * layer_energy(memory);
     return sum;
   }
 

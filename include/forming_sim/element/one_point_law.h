@@ -99,8 +99,8 @@ void step_of_layers(const SolidConstants& m, const PlaneModuli& moduli, OnePoint
     cell.hourglass.finish_layer(w, cell.point.dissipation, hourglass_memory);
     repeat<size>([&](auto i) { S[i] += w * cell.point.S[i]; });
     dissipation += w * cell.point.dissipation;
-    memory += kLayerItems<D> * lanes_of<T>;
-    hourglass_memory += kHourglassItems<D> * lanes_of<T>;
+    memory += kLayerItems<D> * stride_of<T>;
+    hourglass_memory += kHourglassItems<D> * stride_of<T>;
   }
   repeat<size>([&](auto i) { cell.point.S[i] = S[i]; });
   cell.point.dissipation = dissipation;

@@ -66,7 +66,7 @@ template <class T, int D> void find_axes(const Orthotropy& material, const Vecto
 }
 
 /// The memory of the axes, of a point whose memory starts at `memory`.
-template <class T, int D> const double* axes_of(const SolidConstants& m, const double* memory) { return memory + m.layers * kLayerItems<D> * lanes_of<T>; }
+template <class T, int D> const double* axes_of(const SolidConstants& m, const double* memory) { return memory + m.layers * kLayerItems<D> * stride_of<T>; }
 
 template <int D> const HillModes& modes_of(const SolidConstants& m) { return D == 2 ? m.orthotropy.plane : m.orthotropy.space; }
 
@@ -203,7 +203,7 @@ template <int N, class T, int D, bool Ring>
   constexpr int size = Symmetric<T, D>::size;
   const HillModes& h = modes_of<D>(solid);
   const HardeningCurve& hardening = solid.layer[layer].hardening;
-  const auto memory_of = [&](int i) { return points[i].memory + layer * kLayerItems<D> * lanes_of<T>; };
+  const auto memory_of = [&](int i) { return points[i].memory + layer * kLayerItems<D> * stride_of<T>; };
   Symmetric<T, D> deviator[N];
   Trial<T> trial[N];
   HillFlow<T, D> flow[N];

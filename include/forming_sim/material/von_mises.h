@@ -204,7 +204,7 @@ PointResponse<T, D> von_mises_step(const SolidConstants& m, const Edges<T, D, Ri
   PointResponse<T, D> sum;
   repeat<Symmetric<T, D>::size>([&](auto i) { sum.S[i] = T(0); });
   sum.dissipation = T(0);
-  for (int k = 0; k < m.layers; ++k, memory += kLayerItems<D> * lanes_of<T>) {
+  for (int k = 0; k < m.layers; ++k, memory += kLayerItems<D> * stride_of<T>) {
     const PointResponse<T, D> r = layer_step(m, k, factor, e, J, memory, keep);
     const T w(m.layer[k].weight);
     repeat<Symmetric<T, D>::size>([&](auto i) { sum.S[i] += w * r.S[i]; });
@@ -231,7 +231,7 @@ template <class T, int D> T deviatoric_energy(double mu, const Symmetric<T, D>& 
 template <class T, int D, bool Ring>
 T von_mises_energy(const SolidConstants& m, const Edges<T, D, Ring>& e, const T& J, const double* memory) {
   T sum(0);
-  for (int k = 0; k < m.layers; ++k, memory += kLayerItems<D> * lanes_of<T>)
+  for (int k = 0; k < m.layers; ++k, memory += kLayerItems<D> * stride_of<T>)
     sum += T(m.layer[k].weight) * deviatoric_energy(m.mu, push(load_memory<T, D>(memory), e), J);
   return sum;
 }
@@ -241,7 +241,7 @@ T von_mises_energy(const SolidConstants& m, const Edges<T, D, Ring>& e, const T&
 template <class T, int D, bool Ring>
 T von_mises_tangent(const SolidConstants& m, const Edges<T, D, Ring>& e, const T& J, const double* memory) {
   T sum(0);
-  for (int k = 0; k < m.layers; ++k, memory += kLayerItems<D> * lanes_of<T>) {
+  for (int k = 0; k < m.layers; ++k, memory += kLayerItems<D> * stride_of<T>) {
     const Symmetric<T, D> B = push(load_memory<T, D>(memory), e);
     sum += T(m.layer[k].weight) * (trace(B) * T(1.0 / 3) + T(2.0 / 3) * mises(deviator(B)));
   }

@@ -120,7 +120,7 @@ template <int L, class F> [[gnu::always_inline]] inline void each_layer(int laye
 /// The trials of two are found from their B; for more it pays to make the edges upright first.
 template <int L, int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_inline]] inline void layers_of_points(const SolidConstants& m, Bundle* bundles, int count) {
   constexpr int size = Symmetric<T, D>::size;
-  constexpr long behind = kLayerItems<D> * lanes_of<T>;
+  constexpr long behind = kLayerItems<D> * stride_of<T>;
   if constexpr (M == 1) count = 1;  // told to the compiler
   LayerOfPoints<T, D, N * M> layer[L > 0 ? L : kMaxLayers];
   T J[N * M], factor[N * M];

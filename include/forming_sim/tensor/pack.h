@@ -1,14 +1,16 @@
 #pragma once
-// The packed scalar: eight doubles that behave as one number, so that a law is
-// written once, for a single point (T = double) and for eight elements (T = Pack).
+// The packed scalar: several doubles that behave as one number, so that a law is
+// written once, for a single point (T = double) and for several elements (T = Pack).
 //
 // This header is compiled once per instruction set (see CMakeLists.txt); Pack
 // lives in a namespace of that set's name, so that no code made for a wider
-// processor is ever linked into a narrower path.
+// processor is ever linked into a narrower path. A Pack is as wide as that set's registers:
+// eight doubles with AVX-512, four with AVX2, two with SSE2.
 #include <immintrin.h>
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #ifndef FORMING_SIM_ISA
 #define FORMING_SIM_ISA portable
@@ -16,6 +18,8 @@
 
 namespace forming_sim {
 
+/// What is kept of elements, or of pairs in contact, lies in blocks of so many side by side, whatever the width of a Pack:
+/// the widest takes a block at once, others a part of it after the other.
 constexpr int kLanes = 8;
 
 // The same words for a plain double, so that templates read alike.
@@ -29,8 +33,8 @@ inline double log(double a) { return std::log(a); }
 inline double absolute(double a) { return std::fabs(a); }
 inline double least(double a) { return a; }  ///< of all lanes
 template <class F> double lanewise(F&& f, double a) { return f(a); }
-/// Doubles of one number: 1, or a Pack's lanes. Numbers of a point lie one after the other in memory.
-template <class T> constexpr int lanes_of = 1;
+/// Doubles from one number of a point to the next in memory: 1, or a block's lanes.
+template <class T> constexpr int stride_of = 1;
 inline void load(const double* from, int item, double& to) { to = from[item]; }
 inline void store(double* to, int item, double value) { to[item] = value; }
 
@@ -43,9 +47,23 @@ inline const double* read_again(const double* from) {
 
 namespace FORMING_SIM_ISA {
 
-typedef double Lanes __attribute__((vector_size(64)));
-typedef std::int64_t Bits __attribute__((vector_size(64)));
-typedef std::uint64_t Whole __attribute__((vector_size(64)));
+/// Lanes of a Pack, and Packs of a block.
+#if defined(__AVX512DQ__)
+constexpr int kWidth = 8;
+#elif defined(__AVX2__)
+constexpr int kWidth = 4;
+#else
+constexpr int kWidth = 2;
+#endif
+constexpr int kPacks = kLanes / kWidth;
+
+typedef double Lanes __attribute__((vector_size(kWidth * sizeof(double))));
+typedef std::int64_t Bits __attribute__((vector_size(kWidth * sizeof(double))));
+typedef std::uint64_t Whole __attribute__((vector_size(kWidth * sizeof(double))));
+
+/// Of what at(lane) gives.
+template <class At, std::size_t... lane> [[gnu::always_inline]] inline Lanes lanes_from(const At& at, std::index_sequence<lane...>) { return Lanes{at(static_cast<int>(lane))...}; }
+template <class At> [[gnu::always_inline]] inline Lanes lanes_from(const At& at) { return lanes_from(at, std::make_index_sequence<kWidth>()); }
 
 /// One truth a lane.
 #if defined(__AVX512DQ__)
@@ -65,7 +83,7 @@ struct Mask {
 struct Pack {
   Lanes v;
   Pack() = default;
-  Pack(double s) : v{s, s, s, s, s, s, s, s} {}
+  Pack(double s) : v(lanes_from([s](int) { return s; })) {}
   explicit Pack(Lanes lanes) : v(lanes) {}
   static Pack load(const double* p) { return Pack(*reinterpret_cast<const Lanes*>(p)); }
   void store(double* p) const { *reinterpret_cast<Lanes*>(p) = v; }
@@ -96,54 +114,64 @@ inline bool all(Mask m) { return m.v == 0xff; }
 inline Pack select(Mask m, Pack a, Pack b) { return Pack(_mm512_mask_blend_pd(m.v, b.v, a.v)); }
 inline Pack larger(Pack a, Pack b) { return Pack(_mm512_maskz_max_pd(0xff, a.v, b.v)); }
 inline Pack smaller(Pack a, Pack b) { return Pack(_mm512_maskz_min_pd(0xff, a.v, b.v)); }
+inline Pack sqrt(Pack a) { return Pack(_mm512_maskz_sqrt_pd(0xff, a.v)); }
+#elif defined(__AVX2__)
+inline bool any(Mask m) { return _mm256_movemask_pd((__m256d)m.v) != 0; }
+inline bool all(Mask m) { return _mm256_movemask_pd((__m256d)m.v) == 0xf; }
+inline Pack select(Mask m, Pack a, Pack b) { return Pack(_mm256_blendv_pd(b.v, a.v, (__m256d)m.v)); }
+inline Pack larger(Pack a, Pack b) { return Pack(_mm256_max_pd(a.v, b.v)); }
+inline Pack smaller(Pack a, Pack b) { return Pack(_mm256_min_pd(a.v, b.v)); }
+inline Pack sqrt(Pack a) { return Pack(_mm256_sqrt_pd(a.v)); }
 #else
-inline bool any(Mask m) {
-  typedef std::int64_t Pair __attribute__((vector_size(16)));
-  const Pair* two = reinterpret_cast<const Pair*>(&m.v);
-  return _mm_movemask_pd((__m128d)((two[0] | two[1]) | (two[2] | two[3]))) != 0;
-}
-inline bool all(Mask m) { return !any(Mask{~m.v}); }
-inline Pack select(Mask m, Pack a, Pack b) { return Pack(m.v ? a.v : b.v); }
-inline Pack larger(Pack a, Pack b) { return select(a > b, a, b); }
-inline Pack smaller(Pack a, Pack b) { return select(a < b, a, b); }
+inline bool any(Mask m) { return _mm_movemask_pd((__m128d)m.v) != 0; }
+inline bool all(Mask m) { return _mm_movemask_pd((__m128d)m.v) == 0x3; }
+inline Pack select(Mask m, Pack a, Pack b) { return Pack((Lanes)((m.v & (Bits)a.v) | (~m.v & (Bits)b.v))); }
+inline Pack larger(Pack a, Pack b) { return Pack(_mm_max_pd(a.v, b.v)); }
+inline Pack smaller(Pack a, Pack b) { return Pack(_mm_min_pd(a.v, b.v)); }
+inline Pack sqrt(Pack a) { return Pack(_mm_sqrt_pd(a.v)); }
 #endif
 inline void load(const double* from, int item, Pack& to) { to = Pack::load(from + item * kLanes); }
 inline void store(double* to, int item, Pack value) { value.store(to + item * kLanes); }
 inline Pack absolute(Pack a) { return Pack((Lanes)((Bits)a.v & INT64_MAX)); }  // without the bit of the sign
+/// All lanes joined, in pairs of pairs.
+template <class Join> inline double joined(Pack a, const Join& join) {
+  double part[kWidth];
+  for (int l = 0; l < kWidth; ++l) part[l] = a[l];
+  for (int n = kWidth / 2; n > 0; n /= 2)
+    for (int l = 0; l < n; ++l) part[l] = join(part[2 * l], part[2 * l + 1]);
+  return part[0];
+}
 inline double least(Pack a) {
-  const auto lesser = [](double b, double c) { return b < c ? b : c; };
-  return lesser(lesser(lesser(a[0], a[1]), lesser(a[2], a[3])), lesser(lesser(a[4], a[5]), lesser(a[6], a[7])));
+  return joined(a, [](double b, double c) { return b < c ? b : c; });
 }
 inline double sum(Pack a) {
-  return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
+  return joined(a, [](double b, double c) { return b + c; });
 }
 /// Of the first lanes; those behind them count for nothing.
 inline double sum_of_first(Pack a, int lanes) {
-  for (int l = lanes; l < kLanes; ++l) a.v[l] = 0;
+  for (int l = lanes; l < kWidth; ++l) a.v[l] = 0;
   return sum(a);
 }
 
 /// Numbers anywhere in memory.
-inline Pack gather_numbers(const double* from, const int index[kLanes]) {
-  return Pack(Lanes{from[index[0]], from[index[1]], from[index[2]], from[index[3]], from[index[4]], from[index[5]], from[index[6]], from[index[7]]});
+inline Pack gather_numbers(const double* from, const int* index) {
+  return Pack(lanes_from([&](int l) { return from[index[l]]; }));
 }
 /// Adds to numbers anywhere in memory; lanes may have one in common.
-inline void add_numbers(Pack a, const int index[kLanes], double* to) {
-  for (int l = 0; l < kLanes; ++l) to[index[l]] += a[l];
+inline void add_numbers(Pack a, const int* index, double* to) {
+  for (int l = 0; l < kWidth; ++l) to[index[l]] += a[l];
 }
 
-/// Four doubles anywhere in memory: a nodal record.
+/// Four doubles anywhere in memory: a nodal record; and two.
 typedef double Quad __attribute__((vector_size(32), aligned(8)));
+typedef double Pair __attribute__((vector_size(16), aligned(8)));
 
-/// Loads kLanes nodal records, the one of lane l at at(l), and hands back their components.
+/// Loads the nodal record of each lane, that of lane l at at(l), and hands back their components.
 template <class At> [[gnu::always_inline]] inline void gather_records(const At& at, Pack& x, Pack& y, Pack& z, Pack& fourth) {
+#if defined(__AVX512DQ__)
   const auto two = [&](int k, int l) -> Lanes {
     const Quad &low = *reinterpret_cast<const Quad*>(at(k)), &high = *reinterpret_cast<const Quad*>(at(l));
-#if defined(__AVX512DQ__)
     return _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512((__m256d)low), (__m256d)high, 1);
-#else
-    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
-#endif
   };
   const Lanes even = two(0, 2), odd = two(1, 3), even_high = two(4, 6), odd_high = two(5, 7);
   const Lanes xz = __builtin_shufflevector(even, odd, 0, 8, 2, 10, 4, 12, 6, 14), yw = __builtin_shufflevector(even, odd, 1, 9, 3, 11, 5, 13, 7, 15);
@@ -153,6 +181,24 @@ template <class At> [[gnu::always_inline]] inline void gather_records(const At& 
   y.v = __builtin_shufflevector(yw, yw_high, 0, 1, 4, 5, 8, 9, 12, 13);
   z.v = __builtin_shufflevector(xz, xz_high, 2, 3, 6, 7, 10, 11, 14, 15);
   fourth.v = __builtin_shufflevector(yw, yw_high, 2, 3, 6, 7, 10, 11, 14, 15);
+#elif defined(__AVX2__)
+  const auto pairs = [&](int k, int l, int half) {  // of two records, beside each other
+    const Pair &low = *reinterpret_cast<const Pair*>(at(k) + half), &high = *reinterpret_cast<const Pair*>(at(l) + half);
+    return Lanes(_mm256_insertf128_pd(_mm256_castpd128_pd256((__m128d)low), (__m128d)high, 1));
+  };
+  const Lanes even = pairs(0, 2, 0), odd = pairs(1, 3, 0), even_high = pairs(0, 2, 2), odd_high = pairs(1, 3, 2);
+  x.v = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+  y.v = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+  z.v = __builtin_shufflevector(even_high, odd_high, 0, 4, 2, 6);
+  fourth.v = __builtin_shufflevector(even_high, odd_high, 1, 5, 3, 7);
+#else
+  const auto pair = [&](int l, int half) -> Lanes { return *reinterpret_cast<const Pair*>(at(l) + half); };
+  const Lanes even = pair(0, 0), odd = pair(1, 0), even_high = pair(0, 2), odd_high = pair(1, 2);
+  x.v = __builtin_shufflevector(even, odd, 0, 2);
+  y.v = __builtin_shufflevector(even, odd, 1, 3);
+  z.v = __builtin_shufflevector(even_high, odd_high, 0, 2);
+  fourth.v = __builtin_shufflevector(even_high, odd_high, 1, 3);
+#endif
 }
 /// The first three alone.
 template <class At> [[gnu::always_inline]] inline void gather_records(const At& at, Pack& x, Pack& y, Pack& z) {
@@ -160,51 +206,62 @@ template <class At> [[gnu::always_inline]] inline void gather_records(const At& 
   gather_records(at, x, y, z, unused);
 }
 
-typedef double Pair __attribute__((vector_size(16), aligned(8)));
-
-/// Adds kLanes pairs to those that start at to[at[lane]]; lanes may have one in common.
-inline void add_pairs(Pack x, Pack y, const int at[kLanes], double* to) {
-  const Lanes pairs[2] = {__builtin_shufflevector(x.v, y.v, 0, 8, 1, 9, 2, 10, 3, 11), __builtin_shufflevector(x.v, y.v, 4, 12, 5, 13, 6, 14, 7, 15)};
+/// Adds the pairs (x, y) to those that start at to[at[lane]]; lanes may have one in common.
+inline void add_pairs(Pack x, Pack y, const int* at, double* to) {
   const auto add = [&](int lane, Pair pair) { *reinterpret_cast<Pair*>(to + at[lane]) += pair; };
+#if defined(__AVX512DQ__)
+  const Lanes pairs[2] = {__builtin_shufflevector(x.v, y.v, 0, 8, 1, 9, 2, 10, 3, 11), __builtin_shufflevector(x.v, y.v, 4, 12, 5, 13, 6, 14, 7, 15)};
   for (int k = 0; k < 2; ++k) {
     add(4 * k, __builtin_shufflevector(pairs[k], pairs[k], 0, 1));
     add(4 * k + 1, __builtin_shufflevector(pairs[k], pairs[k], 2, 3));
     add(4 * k + 2, __builtin_shufflevector(pairs[k], pairs[k], 4, 5));
     add(4 * k + 3, __builtin_shufflevector(pairs[k], pairs[k], 6, 7));
   }
+#elif defined(__AVX2__)
+  const Lanes even = __builtin_shufflevector(x.v, y.v, 0, 4, 2, 6), odd = __builtin_shufflevector(x.v, y.v, 1, 5, 3, 7);
+  add(0, __builtin_shufflevector(even, even, 0, 1));
+  add(1, __builtin_shufflevector(odd, odd, 0, 1));
+  add(2, __builtin_shufflevector(even, even, 2, 3));
+  add(3, __builtin_shufflevector(odd, odd, 2, 3));
+#else
+  add(0, __builtin_shufflevector(x.v, y.v, 0, 2));
+  add(1, __builtin_shufflevector(x.v, y.v, 1, 3));
+#endif
 }
-/// kLanes vectors as records of four doubles, the last of each zero, two records after each other in each of `quads`.
-inline void to_quads(Pack x, Pack y, Pack z, Lanes quads[4]) {
-  const Lanes zero = {0, 0, 0, 0, 0, 0, 0, 0};
+/// The vectors (x, y, z) as records of four doubles, the last of each zero.
+inline void to_records(Pack x, Pack y, Pack z, Quad* records) {
+  const Lanes zero = Pack(0.0).v;
+#if defined(__AVX512DQ__)
   const Lanes xy0 = __builtin_shufflevector(x.v, y.v, 0, 8, 1, 9, 2, 10, 3, 11);
   const Lanes xy1 = __builtin_shufflevector(x.v, y.v, 4, 12, 5, 13, 6, 14, 7, 15);
   const Lanes z0 = __builtin_shufflevector(z.v, zero, 0, 8, 1, 9, 2, 10, 3, 11);
   const Lanes z1 = __builtin_shufflevector(z.v, zero, 4, 12, 5, 13, 6, 14, 7, 15);
-  quads[0] = __builtin_shufflevector(xy0, z0, 0, 1, 8, 9, 2, 3, 10, 11);
-  quads[1] = __builtin_shufflevector(xy0, z0, 4, 5, 12, 13, 6, 7, 14, 15);
-  quads[2] = __builtin_shufflevector(xy1, z1, 0, 1, 8, 9, 2, 3, 10, 11);
-  quads[3] = __builtin_shufflevector(xy1, z1, 4, 5, 12, 13, 6, 7, 14, 15);
-}
-/// Adds kLanes vectors to records of four doubles, which start at to[at[lane]], nothing to the last of each; lanes may have one in common.
-inline void add_quads(Pack x, Pack y, Pack z, const int at[kLanes], double* to) {
-  Lanes quads[4];
-  to_quads(x, y, z, quads);
-  const auto add = [&](int lane, Quad quad) { *reinterpret_cast<Quad*>(to + at[lane]) += quad; };
+  const Lanes two[4] = {__builtin_shufflevector(xy0, z0, 0, 1, 8, 9, 2, 3, 10, 11), __builtin_shufflevector(xy0, z0, 4, 5, 12, 13, 6, 7, 14, 15),
+                        __builtin_shufflevector(xy1, z1, 0, 1, 8, 9, 2, 3, 10, 11), __builtin_shufflevector(xy1, z1, 4, 5, 12, 13, 6, 7, 14, 15)};
   for (int k = 0; k < 4; ++k) {
-    add(2 * k, __builtin_shufflevector(quads[k], quads[k], 0, 1, 2, 3));
-    add(2 * k + 1, __builtin_shufflevector(quads[k], quads[k], 4, 5, 6, 7));
+    records[2 * k] = __builtin_shufflevector(two[k], two[k], 0, 1, 2, 3);
+    records[2 * k + 1] = __builtin_shufflevector(two[k], two[k], 4, 5, 6, 7);
   }
+#elif defined(__AVX2__)
+  const Lanes even = __builtin_shufflevector(x.v, y.v, 0, 4, 2, 6), odd = __builtin_shufflevector(x.v, y.v, 1, 5, 3, 7);
+  const Lanes even_z = __builtin_shufflevector(z.v, zero, 0, 4, 2, 6), odd_z = __builtin_shufflevector(z.v, zero, 1, 5, 3, 7);
+  records[0] = __builtin_shufflevector(even, even_z, 0, 1, 4, 5);
+  records[1] = __builtin_shufflevector(odd, odd_z, 0, 1, 4, 5);
+  records[2] = __builtin_shufflevector(even, even_z, 2, 3, 6, 7);
+  records[3] = __builtin_shufflevector(odd, odd_z, 2, 3, 6, 7);
+#else
+  for (int l = 0; l < kWidth; ++l) records[l] = Quad{x[l], y[l], z[l], zero[0]};
+#endif
+}
+/// Adds the vectors (x, y, z) to records of four doubles, which start at to[at[lane]], nothing to the last of each; lanes may have one in common.
+inline void add_records(Pack x, Pack y, Pack z, const int* at, double* to) {
+  Quad records[kWidth];
+  to_records(x, y, z, records);
+  for (int l = 0; l < kWidth; ++l) *reinterpret_cast<Quad*>(to + at[l]) += records[l];
 }
 
 template <class F> Pack lanewise(F&& f, Pack a) {
-  Pack r;
-  for (int l = 0; l < kLanes; ++l) r.v[l] = f(a.v[l]);
-  return r;
-}
-inline Pack sqrt(Pack a) {
-  Pack r;
-  for (int l = 0; l < kLanes; ++l) r.v[l] = __builtin_sqrt(a.v[l]);
-  return r;
+  return Pack(lanes_from([&](int l) { return f(a[l]); }));
 }
 
 /// Of sixteen numbers those that the lowest four bits of each lane count.
@@ -214,9 +271,7 @@ struct alignas(64) Sixteen {
 #if defined(__AVX512DQ__)
     return Pack(_mm512_permutex2var_pd(_mm512_load_pd(value), (__m512i)j, _mm512_load_pd(value + 8)));
 #else
-    Pack r;
-    for (int l = 0; l < kLanes; ++l) r.v[l] = value[j[l] & 15];
-    return r;
+    return Pack(lanes_from([&](int l) { return value[j[l] & 15]; }));
 #endif
   }
 };
@@ -249,7 +304,8 @@ inline Pack exp(Pack x) {
 inline Pack log(Pack x) {
   const Whole whole = (Whole)x.v;
   const Bits j = (Bits)(whole >> 48);
-  const Pack n(__builtin_convertvector((Bits)(whole >> 52) - 1023, Lanes)), m((Lanes)((whole & 0xfffffffffffffu) | 0x3ff0000000000000u));
+  const double two_52 = 4503599627370496.0;  // its last bit counts one: the exponent put there is added to it
+  const Pack n((Lanes)((whole >> 52) | 0x4330000000000000u) - (two_52 + 1023)), m((Lanes)((whole & 0xfffffffffffffu) | 0x3ff0000000000000u));
   const Pack r = m * kInverses[j] - Pack(1.0), r2 = r * r, r4 = r2 * r2;
   const auto pair = [&](int k) { return Pack(1.0 / k) - Pack(1.0 / (k + 1)) * r; };
   const Pack beyond_r = (pair(3) + r2 * pair(5)) + r4 * (pair(7) + r2 * pair(9));
@@ -258,7 +314,7 @@ inline Pack log(Pack x) {
 
 }  // namespace FORMING_SIM_ISA
 
-template <> constexpr int lanes_of<FORMING_SIM_ISA::Pack> = kLanes;
+template <> constexpr int stride_of<FORMING_SIM_ISA::Pack> = kLanes;
 
 /// J^(-1/3) for J > 0. For |J - 1| <= 0.2 from its Taylor polynomial y of degree 4 about J = 1, which is
 /// right to 5e-5, by J^(-1/3) = y (1 - r)^(-1/3), r = 1 - J y^3, to the third power of r: to

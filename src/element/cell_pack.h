@@ -1,6 +1,6 @@
 #pragma once
-// A block of kLanes cells of a kind as the kernels see it: its nodes gathered, its simplices' edges and
-// volumes, its memory. For files that are compiled once per vector width only.
+// A pack of cells of a kind as the kernels see it: kWidth of the kLanes cells of a block, their nodes gathered, their simplices'
+// edges and volumes, their memory. For files that are compiled once per vector width only.
 #include <cstdint>
 
 #include "forming_sim/element/cell_group.h"
@@ -19,7 +19,16 @@ template <class Cell> constexpr int kE = kEdges<kD<Cell>, Cell::ring>;
 template <class Cell> using CellEdges = Edges<Pack, kD<Cell>, Cell::ring>;
 template <class Cell> using CellIncrement = Increment<Pack, kD<Cell>, Cell::ring>;
 
-/// A nodal vector of each of kLanes nodes, gathered: one Pack per component.
+/// Packs are counted through the blocks of a group. The block of one, and where its lanes begin there.
+inline long block_of(long pack) { return pack / kPacks; }
+inline int first_lane(long pack) { return static_cast<int>(pack % kPacks) * kWidth; }
+/// Where the lanes of a pack are, of arrays with so many items a block.
+template <class T> T* lanes_of(T* array, long items, long pack) { return array + block_of(pack) * items * kLanes + first_lane(pack); }
+/// Its cells' nodes, and the slots of their forces.
+template <class Cell> const int* nodes_of(const CellGroup& g, long pack) { return lanes_of(g.nodes, Cell::nodes, pack); }
+template <class Cell> const int* slots_of(const CellGroup& g, long pack) { return lanes_of(g.slots, Cell::nodes, pack); }
+
+/// A nodal vector of each of kWidth nodes, gathered: one Pack per component.
 template <int D> Vector<Pack, D> gather_vectors(const int* nodes, const double* field) {
   const auto record = [&](int l) { return field + 4 * static_cast<long>(nodes[l]); };
   Vector<Pack, D> out;
@@ -28,9 +37,9 @@ template <int D> Vector<Pack, D> gather_vectors(const int* nodes, const double* 
   else gather_records(record, out[0], out[1], out[2]);
   return out;
 }
-/// Adds a vector to the slots of kLanes nodes.
+/// Adds a vector to the slots of kWidth nodes.
 inline void add_vectors(const Vector<Pack, 2>& f, const int* slots, double* sums) { add_pairs(f[0], f[1], slots, sums); }
-inline void add_vectors(const Vector<Pack, 3>& f, const int* slots, double* sums) { add_quads(f[0], f[1], f[2], slots, sums); }
+inline void add_vectors(const Vector<Pack, 3>& f, const int* slots, double* sums) { add_records(f[0], f[1], f[2], slots, sums); }
 
 /// Nodal vectors of a block of cells.
 template <class Cell>
@@ -58,13 +67,14 @@ template <class Cell> void gather_ways(const int* nodes, const double* field, Ve
   }
 }
 
-/// Constants of a block of one-point cells, or crossed ones; null elsewhere, and where the law is at the edges.
-template <class Cell> const double* constants_of(const CellGroup& g, long block) {
-  if constexpr (Cell::one_point) return g.constants + static_cast<long>(g.constant_set[block]) * OnePoint<kD<Cell>, Cell::ring>::items * kLanes;
-  else if constexpr (Cell::drawn) return g.constants ? g.constants + static_cast<long>(g.constant_set[block]) * kCrossedItems * kLanes : nullptr;
+/// Constants of one-point cells, or crossed ones; null elsewhere, and where the law is at the edges.
+template <class Cell> const double* constants_of(const CellGroup& g, long pack) {
+  const auto of_set = [&](long items) { return g.constants + g.constant_set[block_of(pack)] * items * kLanes + first_lane(pack); };
+  if constexpr (Cell::one_point) return of_set(OnePoint<kD<Cell>, Cell::ring>::items);
+  else if constexpr (Cell::drawn) return g.constants ? of_set(kCrossedItems) : nullptr;
   else return nullptr;
 }
-template <class Cell> double* hourglass_of(const CellGroup& g, long block) { return g.hourglass + block * g.hourglass_items * kLanes; }
+template <class Cell> double* hourglass_of(const CellGroup& g, long pack) { return lanes_of(g.hourglass, g.hourglass_items, pack); }
 
 /// One of the constants of a cell.
 inline Pack weight(const double* constants, int item) { return Pack::load(constants + item * kLanes); }
@@ -135,14 +145,15 @@ template <class Cell> void balance_apex(const Pack& hoops, Vector<Pack, kD<Cell>
   if constexpr (Cell::ring) f[kApex<Cell>][0] -= Pack(3.0) * hoops;
 }
 
-template <class Cell> double* memory_of(const CellGroup& g, long block, int s) {
-  return g.memory + (block * Cell::simplices + s) * g.items * kLanes;
+template <class Cell> double* memory_of(const CellGroup& g, long pack, int s) {
+  return lanes_of(g.memory, static_cast<long>(Cell::simplices) * g.items, pack) + static_cast<long>(s) * g.items * kLanes;
 }
 /// Fetches so many lines of what is needed soon into the second cache: what the processor fetches ahead by itself ends with a
 /// page, and the first cache is too small for what comes early. Behind the end of an array there is nothing to fetch, which does
-/// no harm. (Where it is not inlined at once the compiler takes it for a function that does nothing, and leaves it out.)
+/// no harm. The first pack of a block fetches for all of it. (Where it is not inlined at once the compiler takes it for a function that does nothing, and leaves it out.)
 [[gnu::always_inline]] inline void fetch_ahead(const void* from, long bytes_ahead, long lines) {
-  const std::uintptr_t ahead = reinterpret_cast<std::uintptr_t>(from) + static_cast<std::uintptr_t>(bytes_ahead);
+  const std::uintptr_t here = reinterpret_cast<std::uintptr_t>(from), ahead = here + static_cast<std::uintptr_t>(bytes_ahead);
+  if (kPacks > 1 && here % sizeof(Lane) != 0) return;
   for (long i = 0; i < lines; ++i) __builtin_prefetch(reinterpret_cast<const void*>(ahead + static_cast<std::uintptr_t>(i) * sizeof(Lane)), 0, 2);
 }
 /// The memory of the simplex so many behind this one.
@@ -153,24 +164,42 @@ template <class Cell> double* memory_of(const CellGroup& g, long block, int s) {
 [[gnu::always_inline]] inline void fetch_initial_volume(const CellGroup& g, const double* memory, int simplices) {
   fetch_ahead(memory, (static_cast<long>(simplices) * g.items + g.items - 1) * static_cast<long>(sizeof(Lane)), 1);
 }
-/// A block in a step: what every bundle of material/von_mises_points.h that is a block knows of itself.
-struct BlockOfGroup {
+/// A pack in a step: what every bundle of material/von_mises_points.h that is one knows of itself.
+struct PackOfGroup {
   const CellGroup* group;
   const NodalView* view;
-  long block;
+  long pack;
 
   const CellGroup& g() const { return *group; }
 };
-/// Those from `block` on, `count` of them.
-template <class Block> void set_blocks(const CellGroup& g, const NodalView& view, long block, int count, Block* blocks) {
-  for (int b = 0; b < count; ++b) static_cast<BlockOfGroup&>(blocks[b]) = {&g, &view, block + b};
+/// Those from `pack` on, `count` of them.
+template <class InStep> void set_packs(const CellGroup& g, const NodalView& view, long pack, int count, InStep* packs) {
+  for (int b = 0; b < count; ++b) static_cast<PackOfGroup&>(packs[b]) = {&g, &view, pack + b};
 }
-/// Calls work(block, count) with the blocks from `first` on, `most` at a time.
-template <class Work> void several_at_a_time(int first, int last, int most, Work&& work) {
-  for (int b = first; b < last; b += most) work(b, last - b < most ? last - b : most);
+/// Calls work(pack, count) with the packs of the blocks [first, last), `most` at a time.
+template <class Work> void packs_at_a_time(int first, int last, int most, Work&& work) {
+  const long end = static_cast<long>(last) * kPacks;
+  for (long pack = static_cast<long>(first) * kPacks; pack < end; pack += most) work(pack, static_cast<int>(end - pack < most ? end - pack : most));
 }
-/// Lanes of a block that are not copies.
-inline int lanes_in_use(const CellGroup& g, long block) { return block + 1 == g.blocks ? g.cells - static_cast<int>(block) * kLanes : kLanes; }
+/// Calls work(pack) with each of them.
+template <class Work> void each_pack(int first, int last, Work&& work) {
+  for (long pack = static_cast<long>(first) * kPacks; pack < static_cast<long>(last) * kPacks; ++pack) work(pack);
+}
+/// Lanes of a pack that are not copies.
+inline int lanes_in_use(const CellGroup& g, long pack) {
+  const long left = g.cells - pack * kWidth;
+  return left >= kWidth ? kWidth : left > 0 ? static_cast<int>(left) : 0;
+}
+/// What holds of a block where it holds of each of its packs, in turn.
+inline void holds(bool* of_blocks, long pack, bool of_pack) {
+  bool& of_block = of_blocks[block_of(pack)];
+  of_block = of_pack && (first_lane(pack) == 0 || of_block);
+}
+/// What a block has of a number that its packs add up to, in turn.
+inline void add_to_block(double* of_blocks, long pack, double of_pack) {
+  double& of_block = of_blocks[block_of(pack)];
+  of_block = first_lane(pack) == 0 ? of_pack : of_block + of_pack;
+}
 inline Pack initial_volume(const CellGroup& g, const double* memory) { return Pack::load(memory + (g.items - 1) * kLanes); }
 
 /// What a kernel of the forces is made for, so that it is as lean as it can be: the law of material/von_mises.h with a single

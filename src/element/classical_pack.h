@@ -1,6 +1,6 @@
 #pragma once
-// What the classical method asks of a block of cells beside positions. For files that are compiled once per vector width only.
-#include "element/block.h"
+// What the classical method asks of a pack of cells beside positions. For files that are compiled once per vector width only.
+#include "element/cell_pack.h"
 
 namespace forming_sim {
 namespace FORMING_SIM_ISA {
@@ -13,10 +13,10 @@ template <class Cell> void moved(const NodalView& view, Vector<Pack, kD<Cell>>* 
 /// Incremental pressure (2.11) of the classical method, p + K tr D dt, with the
 /// mean rate of the cell or that of the element. Keep::no: the memory stays as it is.
 template <class Cell>
-void classical_pressures(const CellGroup& g, const NodalView& view, long block, const Vector<Pack, kD<Cell>>* x,
+void classical_pressures(const CellGroup& g, const NodalView& view, long pack, const Vector<Pack, kD<Cell>>* x,
                          const Vector<Pack, kD<Cell>>* v, Pack* p, Keep keep) {
   constexpr int D = kD<Cell>;
-  const double* constants = constants_of<Cell>(g, block);
+  const double* constants = constants_of<Cell>(g, pack);
   Pack rate[Cell::simplices], sum_V(0.0), sum_rate(0.0);
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
@@ -31,7 +31,7 @@ void classical_pressures(const CellGroup& g, const NodalView& view, long block, 
   }
   const Pack mean = sum_rate / sum_V, theta(g.pressure == PressureMode::element ? 1 : g.element_share);
   for (int s = 0; s < Cell::simplices; ++s) {
-    double* at = memory_of<Cell>(g, block, s);
+    double* at = memory_of<Cell>(g, pack, s);
     load(at, kClassicalPressure<D>, p[s]);
     p[s] += Pack(g.solid.K) * ((Pack(1.0) - theta) * mean + theta * rate[s]);
     if (keep == Keep::yes) store(at, kClassicalPressure<D>, p[s]);
@@ -53,15 +53,15 @@ template <class Cell> Pack energy_of_classical_pressures(const Pack* V, const Pa
 }
 
 /// Of one-point cells: p, and the ways w of the edges.
-template <class Cell> [[gnu::noinline]] Pack classical_step_of_edges(const CellGroup& g, const NodalView& view, long block, Vector<Pack, kD<Cell>>* w) {
-  const int* nodes = g.nodes + block * Cell::nodes * kLanes;
+template <class Cell> [[gnu::noinline]] Pack classical_step_of_edges(const CellGroup& g, const NodalView& view, long pack, Vector<Pack, kD<Cell>>* w) {
+  const int* nodes = nodes_of<Cell>(g, pack);
   Vector<Pack, kD<Cell>> x[Cell::nodes], v[Cell::nodes];
   gather<Cell>(nodes, view.x, x);
   gather<Cell>(nodes, view.v, v);
-  edges_of<Cell>(constants_of<Cell>(g, block), v, 0, w);
+  edges_of<Cell>(constants_of<Cell>(g, pack), v, 0, w);
   moved<Cell>(view, w);
   Pack p;
-  classical_pressures<Cell>(g, view, block, x, v, &p, Keep::yes);
+  classical_pressures<Cell>(g, view, pack, x, v, &p, Keep::yes);
   return p;
 }
 

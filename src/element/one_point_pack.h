@@ -1,5 +1,5 @@
 #pragma once
-// The forces of a block of one-point cells (element/one_point.h). For files that are compiled once per vector width only.
+// The forces of a pack of one-point cells (element/one_point.h). For files that are compiled once per vector width only.
 //
 // On the way in the nodes are gathered in pairs, and only the edges and the sums of the modes remain of them; on the way out
 // each node's force is made when it is added up. With p I + S = sigma and r_alpha = dU/d(sum_alpha) of the hourglass energy,
@@ -7,8 +7,8 @@
 //   M . x^m,  M = sum_alpha r_alpha (x) sum_alpha - V sigma,
 // and that on corner a sum_m w_ma M . x^m - sum_alpha h_alpha,a r_alpha.
 #include "element/bulk_viscosity.h"
-#include "element/classical_block.h"
-#include "element/corner_block.h"
+#include "element/classical_pack.h"
+#include "element/corner_pack.h"
 #include "forming_sim/element/one_point_law.h"
 
 namespace forming_sim {
@@ -27,15 +27,16 @@ template <class Cell> void gather_one_point(const int* nodes, const double* fiel
 }
 
 /// The constants of the next block, where they are others: cells of a file have each their own.
-template <class Cell> void fetch_constants(const CellGroup& g, long block) {
+template <class Cell> void fetch_constants(const CellGroup& g, long pack) {
+  const long block = block_of(pack);
   if (block + 1 == g.blocks || g.constant_set[block + 1] == g.constant_set[block]) return;
   using Items = OnePoint<kD<Cell>, Cell::ring>;
-  const double* constants = constants_of<Cell>(g, block + 1);
+  const double* constants = constants_of<Cell>(g, pack + kPacks);
   fetch_ahead(constants, 0, Items::inertia);  // those behind are for the time step, but for one
   fetch_ahead(constants + Items::near * kLanes, 0, 1);
 }
 
-/// What varies across the cells of a block whose nodes are gathered.
+/// What varies across the cells of a pack whose nodes are gathered.
 template <class Cell> class Variation {
  public:
   Variation(const CellGroup& g, const double* constants, const CellEdges<Cell>& e, const Vector<Pack, kD<Cell>>* x) : moduli_(g.solid), hourglass(moduli_, constants) {
@@ -52,8 +53,8 @@ template <class Cell> class Variation {
   Hourglass<Pack, kD<Cell>, Cell::ring> hourglass;
 };
 
-/// A block in a step. It opens with its nodes gathered and closes with its forces handed out.
-template <class Cell> class OnePointBlock : public OnePointCell<Pack, kD<Cell>, Cell::ring> {
+/// A pack in a step. It opens with its nodes gathered and closes with its forces handed out.
+template <class Cell> class OnePointPack : public OnePointCell<Pack, kD<Cell>, Cell::ring> {
   static constexpr int D = kD<Cell>;
   using Base = OnePointCell<Pack, D, Cell::ring>;
 
@@ -61,30 +62,31 @@ template <class Cell> class OnePointBlock : public OnePointCell<Pack, kD<Cell>, 
   Pack V0, p;  ///< p: the pressure
   using Base::e, Base::sums, Base::J, Base::constants, Base::memory, Base::hourglass, Base::point;
 
-  OnePointBlock(const CellGroup& g, const PlaneModuli& moduli, const NodalView& view, long block)
-      : Base(moduli, constants_of<Cell>(g, block), memory_of<Cell>(g, block, 0), hourglass_of<Cell>(g, block)), g_(g), view_(view), block_(block) {}
+  OnePointPack(const CellGroup& g, const PlaneModuli& moduli, const NodalView& view, long pack)
+      : Base(moduli, constants_of<Cell>(g, pack), memory_of<Cell>(g, pack, 0), hourglass_of<Cell>(g, pack)), g_(g), view_(view), pack_(pack) {}
 
-  void wait_as(const OnePointBlock& other) {
+  void wait_as(const OnePointPack& other) {
     Base::wait_as(other);
     V0 = other.V0, p = other.p;
-    block_ = other.block_;
+    pack_ = other.pack_;
   }
 
   void open() {
     fetch_memory(g_, memory, 2);
-    fetch_constants<Cell>(g_, block_);
+    fetch_constants<Cell>(g_, pack_);
     fetch_ahead(Base::hourglass_memory, 2L * g_.hourglass_items * static_cast<long>(sizeof(Lane)), g_.hourglass_items);
     gather_one_point<Cell>(nodes(), view_.x, constants, e.x, sums);
     find_reciprocal(e);
     V0 = initial_volume(g_, memory), J = e.volume / V0;
     p = Pack(g_.solid.K) * (J - Pack(1.0));
-    g_.upright[block_] = all(J > Pack(0.0));
+    holds(g_.upright, pack_, all(J > Pack(0.0)));
+    if (first_lane(pack_) == 0) g_.pressed[block_of(pack_)] = false;
     if constexpr (Cell::ring) gather<Cell>(nodes(), view_.x, Base::x);
   }
 
   void close() {
-    if (is_viscous(g_)) p += viscosity_of_block<Cell>(g_, view_, block_);
-    g_.plastic_work[block_] += sum_of_first(point.dissipation * V0, lanes_in_use(g_, block_));
+    if (is_viscous(g_)) p += viscosity_of_pack<Cell>(g_, view_, pack_);
+    g_.plastic_work[block_of(pack_)] += sum_of_first(point.dissipation * V0, lanes_in_use(g_, pack_));
 
     Vector<Pack, D> r[OnePoint<D>::modes], M[D], force[D];
     hourglass.gradient(V0, r);
@@ -98,7 +100,7 @@ template <class Cell> class OnePointBlock : public OnePointCell<Pack, kD<Cell>, 
     if constexpr (Cell::ring) hoop = e.volume * e.up[2][0] * point.S[2];
 
     const CornerForces<Pack, D> corners(constants, force, r);
-    const int* slots = g_.slots + block_ * Cell::nodes * kLanes;
+    const int* slots = slots_of<Cell>(g_, pack_);
     repeat<Cell::nodes / 2>([&](auto a) {
       constexpr int opposite = a + Cell::nodes / 2;
       Vector<Pack, D> low, high;
@@ -110,26 +112,25 @@ template <class Cell> class OnePointBlock : public OnePointCell<Pack, kD<Cell>, 
       add_vectors(low, slots + a * kLanes, g_.sums);
       add_vectors(high, slots + opposite * kLanes, g_.sums);
     });
-    g_.pressed[block_] = false;
-    if (hourglass.far()) guard_corners<Cell>(g_, view_, block_);
+    if (hourglass.far()) guard_corners<Cell>(g_, view_, pack_);
   }
 
  private:
-  const int* nodes() const { return g_.nodes + block_ * Cell::nodes * kLanes; }
+  const int* nodes() const { return nodes_of<Cell>(g_, pack_); }
 
   const CellGroup& g_;
   const NodalView& view_;
-  long block_;
+  long pack_;
 };
 
 /// Blocks whose cells ask to flow, until there are two.
-template <class Cell> class WaitingBlocks {
+template <class Cell> class WaitingPacks {
  public:
-  WaitingBlocks(const CellGroup& g, const PlaneModuli& moduli, const NodalView& view) : g_(g), moduli_(moduli), blocks_{{g, moduli, view, 0}, {g, moduli, view, 0}} {}
+  WaitingPacks(const CellGroup& g, const PlaneModuli& moduli, const NodalView& view) : g_(g), moduli_(moduli), packs_{{g, moduli, view, 0}, {g, moduli, view, 0}} {}
 
-  void add(const OnePointBlock<Cell>& block) {
-    put_one_layer(flow_, count_, block);
-    blocks_[count_++].wait_as(block);
+  void add(const OnePointPack<Cell>& pack) {
+    put_one_layer(flow_, count_, pack);
+    packs_[count_++].wait_as(pack);
     if (count_ == 2) flow();
   }
   /// An odd one flows beside what was there before it.
@@ -139,47 +140,47 @@ template <class Cell> class WaitingBlocks {
 
  private:
   [[gnu::noinline, gnu::flatten]] void flow() {
-    flow_.find_planes(TwinItems{{blocks_[0].constants, blocks_[count_ - 1].constants}});
+    flow_.find_planes(TwinItems{{packs_[0].constants, packs_[count_ - 1].constants}});
     flow_.flow(g_.solid, moduli_);
     for (int b = 0; b < count_; ++b) {
-      take_one_layer(flow_, b, blocks_[b]);
-      finish_one_layer(blocks_[b]);
-      blocks_[b].close();
+      take_one_layer(flow_, b, packs_[b]);
+      finish_one_layer(packs_[b]);
+      packs_[b].close();
     }
     count_ = 0;
   }
 
   const CellGroup& g_;
   const PlaneModuli& moduli_;
-  OnePointBlock<Cell> blocks_[2];
+  OnePointPack<Cell> packs_[2];
   FlowTogether<Twin<Pack>, kD<Cell>, Cell::ring> flow_{};
   int count_ = 0;
 };
 
-template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_block(const CellGroup& g, const PlaneModuli& moduli, const NodalView& view, long b, WaitingBlocks<Cell>& waiting) {
-  OnePointBlock<Cell> block(g, moduli, view, b);
-  block.open();
+template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_pack(const CellGroup& g, const PlaneModuli& moduli, const NodalView& view, long b, WaitingPacks<Cell>& waiting) {
+  OnePointPack<Cell> pack(g, moduli, view, b);
+  pack.open();
   if constexpr (made == Made::one_layer) {
-    if (try_one_layer(g.solid, block)) return waiting.add(block);
-    finish_one_layer(block);
+    if (try_one_layer(g.solid, pack)) return waiting.add(pack);
+    finish_one_layer(pack);
   } else if constexpr (made == Made::layers) {
-    step_of_layers(g.solid, moduli, block);
+    step_of_layers(g.solid, moduli, pack);
   } else if (g.solid.law == Law::hill) {
-    step_of_hill(g.solid, moduli, block);
+    step_of_hill(g.solid, moduli, pack);
   } else if (g.solid.law == Law::hyperelastic) {
-    block.find_strains();
-    block.hourglass.set_elastic();
-    block.answer(hyperelastic_step(g.solid, block.e, block.J, block.memory));
+    pack.find_strains();
+    pack.hourglass.set_elastic();
+    pack.answer(hyperelastic_step(g.solid, pack.e, pack.J, pack.memory));
   } else {
     Vector<Pack, kD<Cell>> w[kE<Cell>];
-    block.p = classical_step_of_edges<Cell>(g, view, b, w);
-    block.factor = Pack(g.solid.mu);
-    block.answer(classical_step(g.solid, block.e, w, block.J, block.memory, Keep::yes));
-    block.find_strains();
-    if (block.hourglass.try_layer(g.solid.layer[0], block.point, block.memory, block.hourglass_memory)) flow_alone(g.solid, moduli, block);
-    finish_one_layer(block);
+    pack.p = classical_step_of_edges<Cell>(g, view, b, w);
+    pack.factor = Pack(g.solid.mu);
+    pack.answer(classical_step(g.solid, pack.e, w, pack.J, pack.memory, Keep::yes));
+    pack.find_strains();
+    if (pack.hourglass.try_layer(g.solid.layer[0], pack.point, pack.memory, pack.hourglass_memory)) flow_alone(g.solid, moduli, pack);
+    finish_one_layer(pack);
   }
-  block.close();
+  pack.close();
 }
 
 }  // namespace FORMING_SIM_ISA
