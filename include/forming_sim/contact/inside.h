@@ -1,6 +1,6 @@
 #pragma once
 // Closest points that lie inside both features: a point over a face, and two edges that
-// cross; and that of a point on the border of a face. T: double, or a Pack of eight such pairs.
+// cross; and that of a point on the border of a face. T: double, or a Pack of such pairs.
 #include "forming_sim/tensor/tensor.h"
 
 namespace forming_sim {
