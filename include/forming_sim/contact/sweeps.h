@@ -9,7 +9,7 @@
 //
 // The pairs are visited tile by tile: a tile is a run of pairs in the order of their keys,
 // which lie near each other, so that their nodes stay in cache. Within a tile pairs have colours: those of
-// one colour share no node that can move, and eight of them are visited at a time (pair_pack.h). Tiles have
+// one colour share no node that can move, and as many as a Pack holds are visited at a time (pair_pack.h). Tiles have
 // colours in the same way: the order of those of one colour does not matter either, so that the
 // threads share them, and the result is that of one thread.
 #include <cstdint>
