@@ -47,8 +47,8 @@ class SpeedReport {
     head();
     const long elements = short_ ? sizes_[0] : kInCache;
     for (const SpeedFamily& family : kSpeedFamilies)
-      for (const SpeedMotion& motion : kSpeedMotions)
-        for (int threads : {1, 2}) add(family, motion, elements, threads, 1);
+      for (const SpeedMotion* motion : kSpeedMotions)
+        for (int threads : {1, 2}) add(family, *motion, elements, threads, 1);
     for (const SpeedFamily& family : kSpeedFamilies)
       if (is_one_point(family.kind)) add(family, kBending, elements, 1, 1);
     std::printf("\nseveral layers of plasticity\n\n");

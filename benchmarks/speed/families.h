@@ -35,7 +35,7 @@ constexpr SpeedMotion kElastic{"elastic", 0, 1e-9};          ///< far from the y
 constexpr SpeedMotion kForming{"forming", 0.03, 1e-6};       ///< all of it yields, as in a forming run of some hundred thousand steps
 constexpr SpeedMotion kImpactFlow{"full flow", 0.03, 3e-4};  ///< all of it yields, as in an impact
 constexpr SpeedMotion kBending{"forming and bending", 0.03, 1e-6, 1e-6};  ///< one-point cells flow by what varies across them too
-constexpr SpeedMotion kSpeedMotions[] = {kElastic, kForming, kImpactFlow};
+constexpr const SpeedMotion* kSpeedMotions[] = {&kElastic, &kForming, &kImpactFlow};
 
 /// Stretches of the axes of a body whose strain along itself is e: the volume stays to first order.
 /// Along y of a ring, so that its radius shrinks.

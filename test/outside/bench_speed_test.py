@@ -34,7 +34,18 @@ class Speed(BenchRun):
         bent = {(family, 'forming and bending', '1') for family in ONE_POINT}
         hardened = {(family, f'forming, {curve}', '1') for family in HARDENED for curve in CURVES}
         self.assertEqual(one_layer, {(family, motion, threads) for family in FAMILIES for motion in MOTIONS for threads in '12'} | bent | hardened)
-        self.assertEqual({line['elements'] for line in self.lines if line['layers'] == '5'}, FAMILIES)
+        for layers in ('2', '3', '5', '10'):
+            self.assertEqual({line['elements'] for line in self.lines if line['layers'] == layers}, FAMILIES)
+
+    def test_a_further_layer_is_what_the_step_takes_longer(self):
+        one = {line['elements']: float(line['whole_ns']) for line in reversed(self.lines) if (line['layers'], line['motion'], line['threads']) == ('1', 'forming', '1')}
+        for line in self.lines:
+            layers = int(line['layers'])
+            if layers == 1:
+                self.assertEqual(line['further_layer_over_first'], '')
+            else:
+                longer = (float(line['whole_ns']) / one[line['elements']] - 1) / (layers - 1)
+                self.assertAlmostEqual(float(line['further_layer_over_first']), longer, delta=1e-9)
 
     def test_the_stages_make_the_whole(self):
         for line in self.lines:
