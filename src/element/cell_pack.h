@@ -1,9 +1,7 @@
 #pragma once
 // A pack of cells of a kind as the kernels see it: kWidth of the kLanes cells of a block, their nodes gathered, their simplices'
 // edges and volumes, their memory. For files that are compiled once per vector width only.
-#include <cstdint>
-
-#include "forming_sim/element/cell_group.h"
+#include "element/packs.h"
 #include "forming_sim/element/cell_types.h"
 #include "forming_sim/element/crossed.h"
 #include "forming_sim/element/guard.h"
@@ -19,12 +17,7 @@ template <class Cell> constexpr int kE = kEdges<kD<Cell>, Cell::ring>;
 template <class Cell> using CellEdges = Edges<Pack, kD<Cell>, Cell::ring>;
 template <class Cell> using CellIncrement = Increment<Pack, kD<Cell>, Cell::ring>;
 
-/// Packs are counted through the blocks of a group. The block of one, and where its lanes begin there.
-inline long block_of(long pack) { return pack / kPacks; }
-inline int first_lane(long pack) { return static_cast<int>(pack % kPacks) * kWidth; }
-/// Where the lanes of a pack are, of arrays with so many items a block.
-template <class T> T* lanes_of(T* array, long items, long pack) { return array + block_of(pack) * items * kLanes + first_lane(pack); }
-/// Its cells' nodes, and the slots of their forces.
+/// The nodes of a pack's cells, and the slots of their forces.
 template <class Cell> const int* nodes_of(const CellGroup& g, long pack) { return lanes_of(g.nodes, Cell::nodes, pack); }
 template <class Cell> const int* slots_of(const CellGroup& g, long pack) { return lanes_of(g.slots, Cell::nodes, pack); }
 
@@ -148,59 +141,6 @@ template <class Cell> void balance_apex(const Pack& hoops, Vector<Pack, kD<Cell>
 template <class Cell> double* memory_of(const CellGroup& g, long pack, int s) {
   return lanes_of(g.memory, static_cast<long>(Cell::simplices) * g.items, pack) + static_cast<long>(s) * g.items * kLanes;
 }
-/// Fetches so many lines of what is needed soon into the second cache: what the processor fetches ahead by itself ends with a
-/// page, and the first cache is too small for what comes early. Behind the end of an array there is nothing to fetch, which does
-/// no harm. The first pack of a block fetches for all of it. (Where it is not inlined at once the compiler takes it for a function that does nothing, and leaves it out.)
-[[gnu::always_inline]] inline void fetch_ahead(const void* from, long bytes_ahead, long lines) {
-  const std::uintptr_t here = reinterpret_cast<std::uintptr_t>(from), ahead = here + static_cast<std::uintptr_t>(bytes_ahead);
-  if (kPacks > 1 && here % sizeof(Lane) != 0) return;
-  for (long i = 0; i < lines; ++i) __builtin_prefetch(reinterpret_cast<const void*>(ahead + static_cast<std::uintptr_t>(i) * sizeof(Lane)), 0, 2);
-}
-/// The memory of the simplex so many behind this one.
-[[gnu::always_inline]] inline void fetch_memory(const CellGroup& g, const double* memory, int simplices) {
-  fetch_ahead(memory, static_cast<long>(simplices) * g.items * static_cast<long>(sizeof(Lane)), g.items);
-}
-/// V0 of the simplex so many behind this one.
-[[gnu::always_inline]] inline void fetch_initial_volume(const CellGroup& g, const double* memory, int simplices) {
-  fetch_ahead(memory, (static_cast<long>(simplices) * g.items + g.items - 1) * static_cast<long>(sizeof(Lane)), 1);
-}
-/// A pack in a step: what every bundle of material/von_mises_points.h that is one knows of itself.
-struct PackOfGroup {
-  const CellGroup* group;
-  const NodalView* view;
-  long pack;
-
-  const CellGroup& g() const { return *group; }
-};
-/// Those from `pack` on, `count` of them.
-template <class InStep> void set_packs(const CellGroup& g, const NodalView& view, long pack, int count, InStep* packs) {
-  for (int b = 0; b < count; ++b) static_cast<PackOfGroup&>(packs[b]) = {&g, &view, pack + b};
-}
-/// Calls work(pack, count) with the packs of the blocks [first, last), `most` at a time.
-template <class Work> void packs_at_a_time(int first, int last, int most, Work&& work) {
-  const long end = static_cast<long>(last) * kPacks;
-  for (long pack = static_cast<long>(first) * kPacks; pack < end; pack += most) work(pack, static_cast<int>(end - pack < most ? end - pack : most));
-}
-/// Calls work(pack) with each of them.
-template <class Work> void each_pack(int first, int last, Work&& work) {
-  for (long pack = static_cast<long>(first) * kPacks; pack < static_cast<long>(last) * kPacks; ++pack) work(pack);
-}
-/// Lanes of a pack that are not copies.
-inline int lanes_in_use(const CellGroup& g, long pack) {
-  const long left = g.cells - pack * kWidth;
-  return left >= kWidth ? kWidth : left > 0 ? static_cast<int>(left) : 0;
-}
-/// What holds of a block where it holds of each of its packs, in turn.
-inline void holds(bool* of_blocks, long pack, bool of_pack) {
-  bool& of_block = of_blocks[block_of(pack)];
-  of_block = of_pack && (first_lane(pack) == 0 || of_block);
-}
-/// What a block has of a number that its packs add up to, in turn.
-inline void add_to_block(double* of_blocks, long pack, double of_pack) {
-  double& of_block = of_blocks[block_of(pack)];
-  of_block = first_lane(pack) == 0 ? of_pack : of_block + of_pack;
-}
-inline Pack initial_volume(const CellGroup& g, const double* memory) { return Pack::load(memory + (g.items - 1) * kLanes); }
 
 /// What a kernel of the forces is made for, so that it is as lean as it can be: the law of material/von_mises.h with a single
 /// layer, or with several; all others are told apart at run time.
