@@ -53,10 +53,10 @@ void pressures(const CellGroup& g, long pack, const double* constants, const Pac
 }
 
 /// Simplices of a cell that go through the law at a time, and packs of cells: some eight points keep a processor busy while each
-/// waits for its own roots and divisions. Where a Pack is not as wide as a block, there are half as many registers to hold them,
-/// and crossed cells of several layers go alone too: the places of one cell's points are known beforehand.
+/// waits for its own roots and divisions. Cells in the plane go alone where registers are few, and crossed ones of several layers: the
+/// places of one cell's points are known beforehand.
 template <class Cell> constexpr int kPoints = Cell::simplices % 6 == 0 ? 6 : Cell::simplices;
-template <class Cell, Made made> constexpr int kTogether = kD<Cell> == 3 || kPacks > 1 || (made == Made::layers && Cell::simplices == 4) ? 1 : 8 / Cell::simplices;
+template <class Cell, Made made> constexpr int kTogether = kD<Cell> == 3 || registers_of<Pack> <= 16 || (made == Made::layers && Cell::simplices == 4) ? 1 : 8 / Cell::simplices;
 
 /// Forces of the simplices of a pack, summed by its nodes.
 template <class Cell> struct PackForces {

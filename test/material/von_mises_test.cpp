@@ -238,7 +238,8 @@ template <int N> struct SomePoints {
 };
 
 /// A step of `count` bundles of N points, at most M, of which some or all yield, in passes, against one point after the other.
-template <int N, int M> void compare_with_one_after_the_other(int count, int layers, double last) {
+/// L: 2 where it is made for two layers.
+template <int N, int M, int L = 0> void compare_with_one_after_the_other(int count, int layers, double last) {
   SolidConstants solid = solid_of(70.5e9, 0.34, voce(192.1e6, 429.8e6, 8.504));
   solid.layers = layers;
   for (int k = 0; k < layers; ++k) solid.layer[k].weight = 1.0 / layers;
@@ -261,7 +262,8 @@ template <int N, int M> void compare_with_one_after_the_other(int count, int lay
   }
   std::vector<std::vector<double>> alone;
   for (int i = 0; i < count * N; ++i) alone.push_back(bundles[i / N].items[i % N]);
-  von_mises_points<N, M, double, 3, false>(solid, bundles, count);
+  if constexpr (L == 2) layers_of_points<2, N, M, double, 3, false>(solid, bundles, count);
+  else von_mises_points<N, M, double, 3, false>(solid, bundles, count);
   for (int i = 0; i < count * N; ++i) {
     const SomePoints<N>& points = bundles[i / N];
     const int s = i % N;
@@ -286,6 +288,7 @@ TEST(VonMises, PointsInPassesArePointsOneAfterTheOther) {
       compare_with_one_after_the_other<1, 4>(3, layers, last);
       compare_with_one_after_the_other<6, 1>(1, layers, last);
       compare_with_one_after_the_other<2, 3>(2, layers, last);
+      if (layers == 2) compare_with_one_after_the_other<6, 1, 2>(1, layers, last);
     }
 }
 

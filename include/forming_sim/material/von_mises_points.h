@@ -117,7 +117,7 @@ template <int L, class F> [[gnu::always_inline]] inline void each_layer(int laye
 
 /// Likewise with several. What they pull is summed as
 ///   S x^m = sum_i w_i f_i (B_i - s_i I) x^m = x_k (sum_i w_i f_i G_i^mk) - (sum_i w_i f_i s_i) x^m.
-/// The trials of two are found from their B; for more it pays to make the edges upright first.
+/// The trials of two are found from their B where there are registers for both; for more it pays to make the edges upright first.
 template <int L, int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_inline]] inline void layers_of_points(const SolidConstants& m, Bundle* bundles, int count) {
   constexpr int size = Symmetric<T, D>::size;
   constexpr long behind = kLayerItems<D> * stride_of<T>;
@@ -186,8 +186,9 @@ template <int L, int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::a
 }
 
 template <int N, int M, class T, int D, bool Ring, class Bundle> [[gnu::always_inline]] inline void several_layers_of_points(const SolidConstants& m, Bundle* bundles, int count) {
-  if (m.layers == 2) layers_of_points<2, N, M, T, D, Ring>(m, bundles, count);
-  else layers_of_points<0, N, M, T, D, Ring>(m, bundles, count);
+  if constexpr (registers_of<T> > 16)
+    if (m.layers == 2) return layers_of_points<2, N, M, T, D, Ring>(m, bundles, count);
+  layers_of_points<0, N, M, T, D, Ring>(m, bundles, count);
 }
 
 /// A step of the points of a body of either.

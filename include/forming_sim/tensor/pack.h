@@ -35,6 +35,8 @@ inline double least(double a) { return a; }  ///< of all lanes
 template <class F> double lanewise(F&& f, double a) { return f(a); }
 /// Doubles from one number of a point to the next in memory: 1, or a block's lanes.
 template <class T> constexpr int stride_of = 1;
+/// Registers that hold such numbers.
+template <class T> constexpr int registers_of = 16;
 inline void load(const double* from, int item, double& to) { to = from[item]; }
 inline void store(double* to, int item, double value) { to[item] = value; }
 
@@ -315,6 +317,9 @@ inline Pack log(Pack x) {
 }  // namespace FORMING_SIM_ISA
 
 template <> constexpr int stride_of<FORMING_SIM_ISA::Pack> = kLanes;
+#if defined(__AVX512DQ__)
+template <> constexpr int registers_of<FORMING_SIM_ISA::Pack> = 32;
+#endif
 
 /// J^(-1/3) for J > 0. For |J - 1| <= 0.2 from its Taylor polynomial y of degree 4 about J = 1, which is
 /// right to 5e-5, by J^(-1/3) = y (1 - r)^(-1/3), r = 1 - J y^3, to the third power of r: to
