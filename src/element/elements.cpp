@@ -231,28 +231,28 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   if (options.shares) keep_shares(x);
 }
 
-/// A thread gets 400 packs or more: below that, waiting for each other costs more.
-constexpr long kPacksOfAThread = 400;
-long Elements::packs_of_a_block(const Group& g) const {
+/// A thread gets 400 times eight simplices or more: below that, waiting for each other costs more.
+constexpr long kEightsOfAThread = 400;
+long Elements::eights_of_a_block(const Group& g) const {
   if (!g.at_edges) return g.cell_simplices;
   return std::max(1L, g.first_node(g.blocks) / kLanes / (g.blocks * (dimension_ + 1)));  // a point at an edge costs what its nodes do
 }
-long Elements::blocks_of_a_thread(const Group& g) const { return kPacksOfAThread / packs_of_a_block(g); }
+long Elements::blocks_of_a_thread(const Group& g) const { return kEightsOfAThread / eights_of_a_block(g); }
 long Elements::tiles_of_a_thread(const Group& g) const { return std::max(1L, blocks_of_a_thread(g) / g.tile); }
 
 /// Calls work(group, tile) for all tiles of the groups of which that is asked, shared by the team: small groups that lie side by
-/// side are shared like a large one. A tile belongs to the thread in whose share its first pack lies.
+/// side are shared like a large one. A tile belongs to the thread in whose share its first cells lie.
 template <class Asked, class Work> void Elements::over_tiles(Asked&& asked, Work&& work) const {
-  long packs = 0;
+  long eights = 0;
   for (const Group& g : groups_)
-    if (asked(g)) packs += g.blocks * packs_of_a_block(g);
-  team_->share(packs, kPacksOfAThread, [&](long first, long last) {
+    if (asked(g)) eights += g.blocks * eights_of_a_block(g);
+  team_->share(eights, kEightsOfAThread, [&](long first, long last) {
     long begin = 0;
     for (const Group& g : groups_) {
       if (!asked(g)) continue;
-      const long of_tile = g.tile * packs_of_a_block(g);
+      const long of_tile = g.tile * eights_of_a_block(g);
       for (long t = std::max(0L, (first - begin + of_tile - 1) / of_tile); t < g.tiles && begin + t * of_tile < last; ++t) work(g, t);
-      begin += g.blocks * packs_of_a_block(g);
+      begin += g.blocks * eights_of_a_block(g);
     }
   });
 }

@@ -5,11 +5,11 @@
 
 namespace forming_sim {
 
-/// Simplices of 512 packs, whose nodes a core's cache holds, or an eighth of a small
-/// group, so that there is something to share among threads; 64 packs at least.
+/// 512 times eight simplices, whose nodes a core's cache holds, or an eighth of a small
+/// group, so that there is something to share among threads; 64 times eight at least.
 int blocks_of_a_tile(int blocks, int simplices_of_a_cell) {
-  const auto of_packs = [&](int packs) { return std::max(1, packs / simplices_of_a_cell); };
-  return std::clamp((blocks + 7) / 8, of_packs(64), of_packs(512));
+  const auto of_eights = [&](int eights) { return std::max(1, eights / simplices_of_a_cell); };
+  return std::clamp((blocks + 7) / 8, of_eights(64), of_eights(512));
 }
 
 void Elements::lay_tiles(int nodes) {

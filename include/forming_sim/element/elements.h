@@ -142,7 +142,7 @@ class Elements {
   /// Those of the tiles whose nodes moved, or whose memory the last evaluation changed.
   /// Returns whether some tile has no node that moves.
   bool forces_of_moved(Group& g, const NodalView& view);
-  long packs_of_a_block(const Group& group) const;
+  long eights_of_a_block(const Group& group) const;
   long blocks_of_a_thread(const Group& group) const;
   long tiles_of_a_thread(const Group& group) const;
   template <class Asked, class Work> void over_tiles(Asked&& asked, Work&& work) const;
