@@ -34,7 +34,7 @@ template <int D> Vector<Pack, D> gather_vectors(const int* nodes, const double* 
 inline void add_vectors(const Vector<Pack, 2>& f, const int* slots, double* sums) { add_pairs(f[0], f[1], slots, sums); }
 inline void add_vectors(const Vector<Pack, 3>& f, const int* slots, double* sums) { add_records(f[0], f[1], f[2], slots, sums); }
 
-/// Nodal vectors of a block of cells.
+/// Nodal vectors of a pack of cells.
 template <class Cell>
 void gather(const int* nodes, const double* field, Vector<Pack, kD<Cell>>* out) {
   for (int a = 0; a < Cell::nodes; ++a) out[a] = gather_vectors<kD<Cell>>(nodes + a * kLanes, field);

@@ -75,7 +75,7 @@ template <int D, bool Ring> struct PackOfPoints : PackOfGroup {
   void close(const CellGroup&) const { g().plastic_work[block_of(pack)] += sum_of_first(dissipated, lanes_in_use(g(), pack)); }
 };
 
-/// Blocks that go through the law together.
+/// Packs that go through the law together.
 constexpr int kTogether = 4;
 
 template <int D, bool Ring> [[gnu::flatten]] void forces_of_packs(const CellGroup& g, const NodalView& view, long pack, int count) {

@@ -149,7 +149,7 @@ template <class Cell, int n> struct PackInStep : PackOfGroup {
   }
   [[gnu::always_inline]] void dissipate(int i, const Pack& what) { dissipated += what * initial_volume(g(), memory(i)); }
   template <class Pull> [[gnu::always_inline]] void respond(int i, const CellEdges<Cell>& e, const Pull& pull, PackForces<Cell>& forces) const {
-    fetch_initial_volume(g(), memory(i), simplices);  // for the pressures of the next pack
+    fetch_initial_volume(g(), memory(i), simplices);  // for the pressures of the next block
     forces.add(simplex(i), e, pull, p[simplex(i)]);
   }
   [[gnu::always_inline]] decltype(auto) start_forces() {
@@ -289,7 +289,7 @@ template <class Cell>
 
 template <class Cell>
 void observe_pack(const CellGroup& g, const NodalView& view, long pack, double* stress, double* ratio,
-                   double* energy) {
+                  double* energy) {
   constexpr int D = kD<Cell>;
   const double* constants = constants_of<Cell>(g, pack);
   const int* nodes = nodes_of<Cell>(g, pack);

@@ -123,7 +123,7 @@ template <class Cell> class OnePointPack : public OnePointCell<Pack, kD<Cell>, C
   long pack_;
 };
 
-/// Blocks whose cells ask to flow, until there are two.
+/// Packs whose cells ask to flow, until there are two.
 template <class Cell> class WaitingPacks {
  public:
   WaitingPacks(const CellGroup& g, const PlaneModuli& moduli, const NodalView& view) : g_(g), moduli_(moduli), packs_{{g, moduli, view, 0}, {g, moduli, view, 0}} {}
@@ -157,30 +157,30 @@ template <class Cell> class WaitingPacks {
   int count_ = 0;
 };
 
-template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_pack(const CellGroup& g, const PlaneModuli& moduli, const NodalView& view, long b, WaitingPacks<Cell>& waiting) {
-  OnePointPack<Cell> pack(g, moduli, view, b);
-  pack.open();
+template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_pack(const CellGroup& g, const PlaneModuli& moduli, const NodalView& view, long pack, WaitingPacks<Cell>& waiting) {
+  OnePointPack<Cell> at(g, moduli, view, pack);
+  at.open();
   if constexpr (made == Made::one_layer) {
-    if (try_one_layer(g.solid, pack)) return waiting.add(pack);
-    finish_one_layer(pack);
+    if (try_one_layer(g.solid, at)) return waiting.add(at);
+    finish_one_layer(at);
   } else if constexpr (made == Made::layers) {
-    step_of_layers(g.solid, moduli, pack);
+    step_of_layers(g.solid, moduli, at);
   } else if (g.solid.law == Law::hill) {
-    step_of_hill(g.solid, moduli, pack);
+    step_of_hill(g.solid, moduli, at);
   } else if (g.solid.law == Law::hyperelastic) {
-    pack.find_strains();
-    pack.hourglass.set_elastic();
-    pack.answer(hyperelastic_step(g.solid, pack.e, pack.J, pack.memory));
+    at.find_strains();
+    at.hourglass.set_elastic();
+    at.answer(hyperelastic_step(g.solid, at.e, at.J, at.memory));
   } else {
     Vector<Pack, kD<Cell>> w[kE<Cell>];
-    pack.p = classical_step_of_edges<Cell>(g, view, b, w);
-    pack.factor = Pack(g.solid.mu);
-    pack.answer(classical_step(g.solid, pack.e, w, pack.J, pack.memory, Keep::yes));
-    pack.find_strains();
-    if (pack.hourglass.try_layer(g.solid.layer[0], pack.point, pack.memory, pack.hourglass_memory)) flow_alone(g.solid, moduli, pack);
-    finish_one_layer(pack);
+    at.p = classical_step_of_edges<Cell>(g, view, pack, w);
+    at.factor = Pack(g.solid.mu);
+    at.answer(classical_step(g.solid, at.e, w, at.J, at.memory, Keep::yes));
+    at.find_strains();
+    if (at.hourglass.try_layer(g.solid.layer[0], at.point, at.memory, at.hourglass_memory)) flow_alone(g.solid, moduli, at);
+    finish_one_layer(at);
   }
-  pack.close();
+  at.close();
 }
 
 }  // namespace FORMING_SIM_ISA

@@ -1,5 +1,5 @@
 #pragma once
-// Listed pairs in lanes: the closest points of kLanes of them at a time (inside.h). Compiled once per vector width.
+// Listed pairs in lanes, kLanes beside each other: their closest points (inside.h). Compiled once per vector width.
 #include "forming_sim/tensor/isa.h"
 #include "forming_sim/tensor/pack.h"
 

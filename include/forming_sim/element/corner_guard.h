@@ -21,7 +21,7 @@
 // With L = sum_b g_b (x) dx_b, g_b = sum_m w_mb x^m, d2J/J is (tr L)^2 - tr L^2, not larger than 2 |L|^2 <= 2 t,
 // t = sum_b |g_b|^2/share_b, and with the smallest share
 //   B = |d2j|/(c_a J share) + 2 |q| t + 2 |dq| sqrt(t),   |d2j| = sqrt 3 in a section, 4 sum_i |e_i| in space.
-// The bound of a step takes the u that will be at its end (src/element/corner_block.h).
+// The bound of a step takes the u that will be at its end (src/element/corner_pack.h).
 //
 // `near` of one_point.h: up to that square of the strains that vary across the cell no q can be below q_0, and nobody
 // asks for it (src/element/corner_reach.h).
