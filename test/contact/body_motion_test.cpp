@@ -91,7 +91,9 @@ TEST(BodyMotion, OfAGrippedBodyIsThatOfItsGrips) {
     const BodyMotion motion = cloud.motion(body);
     for (int n = 50; n < 60; ++n) EXPECT_LT((motion.at(cloud.x[n]) - cloud.v[n]).norm(), 1e-5);
     body.hold({});
-    if (count == 200) EXPECT_GT((cloud.motion(body).at(cloud.x[50]) - cloud.v[50]).norm(), .1);
+    if (count == 200) {
+      EXPECT_GT((cloud.motion(body).at(cloud.x[50]) - cloud.v[50]).norm(), .1);
+    }
   }
 }
 

@@ -66,8 +66,9 @@ TEST(ShearWaves, ABodyThatGathersSpeedAndTurnsIsSteady) {
       return v;
     };
     for (int n = 0; n < 8; ++n) EXPECT_LT((steady(n, 0) - after[n]).norm(), 1e-9 * after[n].norm());
-    if (step == 50)
+    if (step == 50) {
       for (int n = 0; n < 8; ++n) EXPECT_LT((steady(n, 1) - (place((step + 2) * dt, n) - x[n]) / dt).norm(), 5e-3 * after[n].norm());  // what is to come
+    }
     before = after;
   }
 }
@@ -177,7 +178,9 @@ TEST(ShearWaves, AStrikeKeepsCoulombsImpulse) {
     const double ratio = -change.x() / change.y();
     std::printf("  T %g s: pressed for %.1e s, friction over normal impulse %.5f\n", time, pressed, ratio);
     EXPECT_LT(pressed, 1e-3);
-    if (time == 1) EXPECT_NEAR(ratio, .1, 2e-4);
+    if (time == 1) {
+      EXPECT_NEAR(ratio, .1, 2e-4);
+    }
   }
 }
 
