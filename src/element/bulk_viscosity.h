@@ -8,18 +8,12 @@ namespace FORMING_SIM_ISA {
 /// V, dV/dt and extent (tensor.h) of the cell whose nodes stand at x and move with v.
 template <class Cell>
 void volume_and_rate(const double* constants, const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v, Pack& V, Pack& rate, Pack& size) {
-  constexpr int D = kD<Cell>;
   V = rate = size = Pack(0.0);
-  for (int s = 0; s < Cell::simplices; ++s) {
-    CellEdges<Cell> e;
-    edges_of<Cell>(constants, x, s, e.x);
-    find_reciprocal(e);
-    Vector<Pack, D> w[kE<Cell>];
-    edges_of<Cell>(constants, v, s, w);
+  each_moving<Cell>(constants, x, v, [&](int, const CellEdges<Cell>& e, const Vector<Pack, kD<Cell>>* w) {
     V += e.volume;
     size += extent(e);
     rate += e.volume * CellIncrement<Cell>(e, w).divergence();
-  }
+  });
 }
 
 inline bool is_viscous(const CellGroup& g) { return g.linear_viscosity > 0 || g.quadratic_viscosity > 0; }

@@ -131,6 +131,19 @@ template <class Cell> void simplex_volumes(const double* constants, const Vector
   for (int s = 0; s < Cell::simplices; ++s) V[s] = volume_of<Cell>(constants, x, s);
 }
 
+/// Calls work(s, e, w) with each simplex of cells whose nodes stand at x and move with v: its edges with their reciprocal vectors, and how
+/// the edges move.
+template <class Cell, class Work> [[gnu::always_inline]] inline void each_moving(const double* constants, const Vector<Pack, kD<Cell>>* x, const Vector<Pack, kD<Cell>>* v, Work&& work) {
+  for (int s = 0; s < Cell::simplices; ++s) {
+    CellEdges<Cell> e;
+    edges_of<Cell>(constants, x, s, e.x);
+    find_reciprocal(e);
+    Vector<Pack, kD<Cell>> w[kE<Cell>];
+    edges_of<Cell>(constants, v, s, w);
+    work(s, e, w);
+  }
+}
+
 /// The forces on edges are in balance with those on the apex, where all of them start; of rings but for the thirds of the hoops' forces, `hoops` their sum.
 template <class Cell> void balance_apex(const Pack& hoops, Vector<Pack, kD<Cell>>* f) {
   for (int a = 0; a < Cell::nodes; ++a)

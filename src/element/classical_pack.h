@@ -16,19 +16,13 @@ template <class Cell>
 void classical_pressures(const CellGroup& g, const NodalView& view, long pack, const Vector<Pack, kD<Cell>>* x,
                          const Vector<Pack, kD<Cell>>* v, Pack* p, Keep keep) {
   constexpr int D = kD<Cell>;
-  const double* constants = constants_of<Cell>(g, pack);
   Pack rate[Cell::simplices], sum_V(0.0), sum_rate(0.0);
-  for (int s = 0; s < Cell::simplices; ++s) {
-    CellEdges<Cell> e;
-    edges_of<Cell>(constants, x, s, e.x);
-    find_reciprocal(e);
-    Vector<Pack, D> w[kE<Cell>];
-    edges_of<Cell>(constants, v, s, w);
+  each_moving<Cell>(constants_of<Cell>(g, pack), x, v, [&](int s, const CellEdges<Cell>& e, Vector<Pack, D>* w) {
     moved<Cell>(view, w);
     rate[s] = CellIncrement<Cell>(e, w).divergence();
     sum_V += e.volume;
     sum_rate += e.volume * rate[s];
-  }
+  });
   const Pack mean = sum_rate / sum_V, theta(g.pressure == PressureMode::element ? 1 : g.element_share);
   for (int s = 0; s < Cell::simplices; ++s) {
     double* at = memory_of<Cell>(g, pack, s);
