@@ -2,6 +2,7 @@
 // only raw arrays and types of this width's namespace are used here.
 #include "forming_sim/contact/closest_pack.h"
 
+#include "contact/lanes.h"
 #include "forming_sim/contact/inside.h"
 #include "forming_sim/contact/pair_shares.h"
 
@@ -97,19 +98,14 @@ inline void edge(const double* places, const double* shares, double wedge, EdgeP
   store(sum, p.shares, at);
 }
 
-/// Calls work(pack, at) for all lanes of all packs.
-template <class Of, class Work> void each(Of* packs, long count, Work&& work) {
-  for (long i = 0; i < count; ++i)
-    for (int at = 0; at < kLanes; at += kWidth) work(packs[i], at);
-}
 void faces(const double* places, const double* shares, FacePack* packs, long count) {
-  each(packs, count, [&](FacePack& p, int at) { face(places, shares, p, at); });
+  each_part(count, [&](long i, int at) { face(places, shares, packs[i], at); });
 }
 void segments(const double* places, const double* shares, FacePack* packs, long count) {
-  each(packs, count, [&](FacePack& p, int at) { segment(places, shares, p, at); });
+  each_part(count, [&](long i, int at) { segment(places, shares, packs[i], at); });
 }
 void edges(const double* places, const double* shares, double wedge, EdgePack* packs, long count) {
-  each(packs, count, [&](EdgePack& p, int at) { edge(places, shares, wedge, p, at); });
+  each_part(count, [&](long i, int at) { edge(places, shares, wedge, packs[i], at); });
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // only raw arrays and types of this width's namespace are used here.
 #include "forming_sim/contact/pair_pack.h"
 
+#include "contact/lanes.h"
 #include "forming_sim/contact/law.h"
 
 namespace forming_sim {
@@ -97,14 +98,8 @@ inline Pack visit(double dt, double omega, const Movers& movers, PairPack& p, Ru
   return change;
 }
 
-/// Calls work(i, at) for all lanes of so many packs.
-template <class Work> [[gnu::always_inline]] inline void each(long count, const Work& work) {
-  for (long i = 0; i < count; ++i)
-    for (int at = 0; at < kLanes; at += kWidth) work(i, at);
-}
-
 void start(const Movers& movers, const PairPack* packs, const RubPack* rubs, long count) {
-  each(count, [&](long i, int at) {
+  each_part(count, [&](long i, int at) {
     const PairPack& p = packs[i];
     Pack factor[4];
     for (int k = 0; k < p.nodes; ++k)
@@ -117,8 +112,8 @@ void start(const Movers& movers, const PairPack* packs, const RubPack* rubs, lon
 
 double sweep(double dt, double omega, const Movers& movers, PairPack* packs, RubPack* rubs, long count) {
   Pack change(0.0);
-  if (rubs) each(count, [&](long i, int at) { change = larger(change, visit(dt, omega, movers, packs[i], rubs + i, at)); });
-  else each(count, [&](long i, int at) { change = larger(change, visit(dt, omega, movers, packs[i], nullptr, at)); });
+  if (rubs) each_part(count, [&](long i, int at) { change = larger(change, visit(dt, omega, movers, packs[i], rubs + i, at)); });
+  else each_part(count, [&](long i, int at) { change = larger(change, visit(dt, omega, movers, packs[i], nullptr, at)); });
   double most = 0;
   for (int l = 0; l < kWidth; ++l)
     if (!(change[l] <= most)) most = change[l];
@@ -128,7 +123,7 @@ double sweep(double dt, double omega, const Movers& movers, PairPack* packs, Rub
 bool end_gaps(double dt, const Movers& movers, PairPack* packs, long count) {
   const Pack zero(0.0);
   Pack open(1.0);
-  each(count, [&](long i, int at) {
+  each_part(count, [&](long i, int at) {
     PairPack& p = packs[i];
     Pack factor[4];
     const Pack h = Pack::load(p.gap + at) + Pack(dt) * dot(load3(p.normal, at), relative(movers, p, at, factor));

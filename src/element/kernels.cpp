@@ -173,7 +173,7 @@ template <class Cell, int n> struct PackInStep : PackOfGroup {
   }
 };
 
-/// Of the law of material/von_mises.h.
+/// Of the laws of material/von_mises.h, and made for any of Law::hill.
 template <class Cell, Made made> [[gnu::flatten]] void forces_of_several(const CellGroup& g, const NodalView& view, long pack, int count) {
   constexpr int n = kPoints<Cell>, most = kTogether<Cell, made>, D = kD<Cell>;
   PackInStep<Cell, n> packs[most];
@@ -181,18 +181,8 @@ template <class Cell, Made made> [[gnu::flatten]] void forces_of_several(const C
   for (int first = 0; first < Cell::simplices; first += n) {
     packs[0].first = first;
     if constexpr (made == Made::one_layer) one_layer_of_points<n, most, Pack, D, Cell::ring>(g.solid, packs, count);
-    else several_layers_of_points<n, most, Pack, D, Cell::ring>(g.solid, packs, count);
-  }
-}
-
-/// Of Law::hill.
-template <class Cell> [[gnu::flatten]] void forces_of_rolled(const CellGroup& g, const NodalView& view, long pack, int count) {
-  constexpr int n = kPoints<Cell>, most = kTogether<Cell, Made::any>;
-  PackInStep<Cell, n> packs[most];
-  set_packs(g, view, pack, count, packs);
-  for (int first = 0; first < Cell::simplices; first += n) {
-    packs[0].first = first;
-    hill_points<n, most, Pack, kD<Cell>, Cell::ring>(g.solid, packs, count);
+    else if constexpr (made == Made::layers) several_layers_of_points<n, most, Pack, D, Cell::ring>(g.solid, packs, count);
+    else hill_points<n, most, Pack, D, Cell::ring>(g.solid, packs, count);
   }
 }
 
@@ -355,9 +345,7 @@ template <class Cell, Made made> void forces_of_packs(const CellGroup& g, const 
     WaitingPacks<Cell> waiting(g, moduli, view);
     each_pack(first, last, [&](long pack) { forces_of_one_point_pack<Cell, made>(g, moduli, view, pack, waiting); });
     waiting.end();
-  } else if constexpr (made == Made::any) {
-    if (g.solid.law == Law::hill)
-      return packs_at_a_time(first, last, kTogether<Cell, made>, [&](long pack, int count) { forces_of_rolled<Cell>(g, view, pack, count); });
+  } else if (made == Made::any && g.solid.law != Law::hill) {
     each_pack(first, last, [&](long pack) { forces_of_any_law<Cell>(g, view, pack); });
   } else {
     packs_at_a_time(first, last, kTogether<Cell, made>, [&](long pack, int count) { forces_of_several<Cell, made>(g, view, pack, count); });
