@@ -28,9 +28,18 @@ Mat3 cross_matrix(const Vec3& r) {
   R << 0, -r[2], r[1], r[2], 0, -r[0], -r[1], r[0], 0;
   return R;
 }
+
+/// Velocities at r of the modes: along y alone; along x, y and about z; along all and about all.
+template <int modes> Eigen::Matrix<double, 3, modes> velocities_at(const Vec3& r) {
+  Eigen::Matrix<double, 3, modes> B;
+  if constexpr (modes == 1) B << 0, 1, 0;
+  else if constexpr (modes == 3) B << 1, 0, -r[1], 0, 1, r[0], 0, 0, 0;
+  else B << Mat3::Identity(), -cross_matrix(r);
+  return B;
+}
 }  // namespace
 
-MovingBody::MovingBody(int first_node, int nodes, bool axisymmetric) : first_node_(first_node), nodes_(nodes), axisymmetric_(axisymmetric) {
+MovingBody::MovingBody(int first_node, int nodes, int modes) : first_node_(first_node), nodes_(nodes), modes_(modes) {
   for (std::size_t n = 0, stride = stride_of(nodes, kAsked); n < static_cast<std::size_t>(nodes); n += stride) asked_.push_back(first_node + static_cast<int>(n));
 }
 
@@ -42,7 +51,7 @@ void MovingBody::hold(const std::vector<HeldNode>& held) {
   for (std::size_t i = 0, stride = stride_of(own.size(), kHeldAsked); i < own.size(); i += stride) held_.push_back(*own[i]);
 }
 
-// p = (V, w), the velocity B p at r = x - c with B = (1, -r x); M = sum m B^T B about the masses' centre c, G = sum B^T H B, g = sum B^T H v.
+// p: of the modes, of six (V, w); the velocity B p at r = x - c, of six B = (1, -r x); M = sum m B^T B about the masses' centre c, G = sum B^T H B, g = sum B^T H v.
 template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, const std::vector<Hold>& holds) {
   using Vector = Eigen::Matrix<double, modes, 1>;
   using Square = Eigen::Matrix<double, modes, modes>;
@@ -51,6 +60,9 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
     motion.c = c;
     if constexpr (modes == 1) {
       motion.v[1] = p[0];
+    } else if constexpr (modes == 3) {
+      motion.v = Node(p[0], p[1], 0, 0);
+      motion.w[2] = p[2];
     } else {
       motion.v = Node(p[0], p[1], p[2], 0);
       motion.w = p.template tail<3>();
@@ -69,12 +81,24 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
   else if (!holds.empty()) c = holds[0].x;
   c[3] = 0;
 
+  constexpr int ways = modes == 6 ? 3 : modes == 3 ? 2 : 1;  // the modes without a turn
+  constexpr double kLine = 1e-12;  // what lies on a line does not turn about it, nor what lies in a point
   Square M = Square::Zero();
   Vector Mp = Vector::Zero();
   double size2 = 0;  // m2, of the body or its holds: what turns by 1/s moves as what moves by 1/s times its root
+  M.template topLeftCorner<ways, ways>().diagonal().setConstant(mass);
   if constexpr (modes == 1) {
-    M(0, 0) = mass;
     Mp[0] = momentum[1];
+  } else if constexpr (modes == 3) {
+    double L = 0, J = 0;
+    for (const Mass* s = masses; s != last; ++s) {
+      const Node r = s->x - c;
+      L += s->m * (r[0] * s->v[1] - r[1] * s->v[0]);
+      J += s->m * (r[0] * r[0] + r[1] * r[1]);
+    }
+    if (mass > 0) size2 = J / mass;
+    Mp << momentum[0], momentum[1], L;
+    M(2, 2) = J;
   } else {
     Vec3 L = Vec3::Zero();
     Mat3 J = Mat3::Zero();
@@ -84,11 +108,11 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
       J += s->m * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
     }
     if (mass > 0) size2 = J.trace() / (2 * mass);
-    for (const Hold& h : holds) size2 = std::max(size2, vec3(h.x - c).squaredNorm());
-    M.template topLeftCorner<3, 3>() = mass * Mat3::Identity();
-    M.template bottomRightCorner<3, 3>() = J + 1e-12 * mass * size2 * Mat3::Identity();  // what lies on a line does not turn about it
     Mp << vec3(momentum), L;
+    M.template bottomRightCorner<3, 3>() = J;
   }
+  for (const Hold& h : holds) size2 = std::max(size2, vec3(h.x - c).squaredNorm());
+  for (int i = ways; i < modes; ++i) M(i, i) += kLine * mass * size2;
   BodyMotion motion;
   if (holds.empty()) {
     motion.own = rigid(c, mass > 0 ? Vector(M.ldlt().solve(Mp)) : Vector::Zero());
@@ -98,9 +122,7 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
   Vector g = Vector::Zero();
   double told2 = 0;
   for (const Hold& h : holds) {
-    Eigen::Matrix<double, 3, modes> B;
-    if constexpr (modes == 1) B << 0, 1, 0;
-    else B << Mat3::Identity(), -cross_matrix(vec3(h.x - c));
+    const Eigen::Matrix<double, 3, modes> B = velocities_at<modes>(vec3(h.x - c));
     const Eigen::Matrix<double, modes, 3> BH = B.transpose() * h.across;
     const Vec3 v = vec3(h.v);
     G += BH * B;
@@ -113,7 +135,7 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
   // Least squares with kRest as many holds more that keep it at rest, A = G + kRest n, again for what is left of g: after k rounds p is G^-1 g but for
   // E^k of it, E = 1 - A^-1 G, and k doubles in each turn of the loop.
   Square A = G;
-  for (int i = 0; i < modes; ++i) A(i, i) += kRest * static_cast<double>(holds.size()) * (i < 3 ? 1 : size2);
+  for (int i = 0; i < modes; ++i) A(i, i) += kRest * static_cast<double>(holds.size()) * (i < ways ? 1 : size2);
   const Eigen::LDLT<Square> solver(A);
   Vector p = solver.solve(g);
   Square E = Square::Identity() - solver.solve(G);
@@ -128,6 +150,7 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
 }
 
 template BodyMotion MovingBody::of<1>(const Mass*, int, const std::vector<Hold>&);
+template BodyMotion MovingBody::of<3>(const Mass*, int, const std::vector<Hold>&);
 template BodyMotion MovingBody::of<6>(const Mass*, int, const std::vector<Hold>&);
 
 }  // namespace forming_sim

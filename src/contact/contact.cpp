@@ -41,7 +41,7 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
       bodies.push_back(body.waves);
       any = any || body.waves.impedance > 0;
     }
-    if (any) m.waves = ShearWaves(bodies, at.size(), setup.axisymmetric);
+    if (any) m.waves = ShearWaves(bodies, at.size(), rigid_modes(setup.dimension, setup.axisymmetric));
   }
   NodeField x = at, place;
   m.tools.place_all(m.features, at_start, false, place);

@@ -11,8 +11,8 @@ constexpr std::size_t kSaved = 8;  ///< numbers of a vertex
 constexpr std::size_t kHolds = 64; ///< vertices on tools that are asked
 }  // namespace
 
-ShearWaves::ShearWaves(const std::vector<WaveBody>& bodies, std::size_t nodes, bool axisymmetric) : bodies_(bodies), place_(nodes, -1) {
-  for (const WaveBody& body : bodies) moving_.emplace_back(body.first_node, body.nodes, axisymmetric);
+ShearWaves::ShearWaves(const std::vector<WaveBody>& bodies, std::size_t nodes, int modes) : bodies_(bodies), place_(nodes, -1) {
+  for (const WaveBody& body : bodies) moving_.emplace_back(body.first_node, body.nodes, modes);
 }
 
 const WaveBody& ShearWaves::of_pair(int first, int second) const {
@@ -67,8 +67,11 @@ void ShearWaves::follow(double dt, double last_dt, const std::vector<double>& in
     const WaveBody& body = bodies_[b];
     if (body.impedance == 0) continue;
     if (of != b) {
+      const std::vector<const RubbedNode*> asked = holds_of(body, pressed);
       std::vector<Hold> held_before, held_after;
-      for (const RubbedNode* h : holds_of(body, pressed)) {
+      held_before.reserve(asked.size());
+      held_after.reserve(asked.size());
+      for (const RubbedNode* h : asked) {
         const Node along = h->by_tools.normalized();
         const Mat3 across = vec3(along) * vec3(along).transpose();
         const double size = h->by_tools.norm();

@@ -29,10 +29,14 @@ void sum_nodes(Team& team, const NodalForces& forces, NodeField& f) {
 }
 
 Node force_on(long node, const NodalForces& forces) {
-  const int size = forces.dimension == 2 ? kRecord<2> : kRecord<3>;
+  const auto sum = [&](auto f) {
+    using Record = decltype(f);
+    for (int k = forces.start[node]; k < forces.start[node + 1]; ++k) f += Eigen::Map<const Record>(forces.slots + f.size() * static_cast<long>(forces.index[k]));
+    return f;
+  };
   Node f = Node::Zero();
-  for (int k = forces.start[node]; k < forces.start[node + 1]; ++k)
-    for (int i = 0; i < size; ++i) f[i] += forces.slots[static_cast<long>(forces.index[k]) * size + i];
+  if (forces.dimension == 2) f.head<kRecord<2>>() = sum(Eigen::Vector2d(0, 0));
+  else f = sum(f);
   if (forces.load) f += Eigen::Map<const Node>(forces.load + 4 * node);
   return f;
 }

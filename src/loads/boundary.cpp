@@ -138,6 +138,7 @@ BoundarySet::Group BoundarySet::merge(const std::vector<int>& members,
   for (const Direction& fixed : group.directions) group.projector -= fixed.axis * fixed.axis.transpose();
   // All directions fixed: nothing is left, not even rounding.
   if (group.directions.size() == 3) group.projector.setZero();
+  group.fixed.topLeftCorner<3, 3>() = Mat3::Identity() - group.projector;
   return group;
 }
 

@@ -155,11 +155,12 @@ void Simulation::Impl::book_reactions(double kick) {
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const int i = nodes[k];
     while (once_held[r] != i) ++r;
-    Vec3 impulse = boundaries.reaction_impulse(static_cast<int>(k), vec3(force_on(i, f)), mass[i], vec3(v_before[i]), vec3(v[i]), kick);
-    done += 0.5 * impulse.dot(vec3(v_before[i]) + vec3(v[i]));
-    if (!held_impulse.empty()) impulse -= held_impulse[k];
-    reactions[r].impulse += impulse;
-    reactions[r].angular += vec3(x[i]).cross(impulse);
+    const Node impulse = boundaries.reaction_impulse(static_cast<int>(k), force_on(i, f), mass[i], v_before[i], v[i], kick);
+    done += 0.5 * impulse.dot(v_before[i] + v[i]);
+    Vec3 felt = vec3(impulse);
+    if (!held_impulse.empty()) felt -= held_impulse[k];
+    reactions[r].impulse += felt;
+    reactions[r].angular += vec3(x[i]).cross(felt);
   }
   work += done;
 }

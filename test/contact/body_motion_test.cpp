@@ -35,7 +35,7 @@ Node turning(const Vec3& v, const Vec3& w, const Node& x) { return node(v + w.cr
 TEST(BodyMotion, OfAFreeBodyHasItsMomentum) {
   for (const int dimension : {2, 3}) {
     const Cloud cloud(40, dimension, 1);  // all of them are asked
-    const BodyMotion motion = cloud.motion(MovingBody(0, 40, false));
+    const BodyMotion motion = cloud.motion(MovingBody(0, 40, rigid_modes(dimension, false)));
     Vec3 p = Vec3::Zero(), L = Vec3::Zero();
     for (int n = 0; n < 40; ++n) {
       const Vec3 rest = vec3(cloud.v[n] - motion.at(cloud.x[n])) / cloud.inverse_mass[n];
@@ -51,7 +51,7 @@ TEST(BodyMotion, OfARigidOneIsItsOwn) {
   Cloud cloud(5000, 3, 2);
   const Vec3 v(3, -2, 1), w(.5, .7, -.2);
   for (int n = 0; n < 5000; ++n) cloud.v[n] = turning(v, w, cloud.x[n]);
-  const BodyMotion motion = cloud.motion(MovingBody(0, 5000, false));
+  const BodyMotion motion = cloud.motion(MovingBody(0, 5000, 6));
   for (int n = 0; n < 5000; n += 7) EXPECT_LT((motion.at(cloud.x[n]) - cloud.v[n]).norm(), 1e-10);
 }
 
@@ -67,8 +67,8 @@ TEST(BodyMotion, OfHalfABodyIsThatOfTheWhole) {
     whole.v[half + n][0] *= -1;
     whole.inverse_mass[half + n] = whole.inverse_mass[n];
   }
-  const BodyMotion exact = whole.motion(MovingBody(0, 2 * half, false));
-  MovingBody body(0, half, false);
+  const BodyMotion exact = whole.motion(MovingBody(0, 2 * half, 6));
+  MovingBody body(0, half, 6);
   std::vector<HeldNode> held;
   for (int n = 0; n < 3; ++n) held.push_back({n, Mat3(Vec3(0, 1, 1).asDiagonal())});
   body.hold(held);
@@ -86,7 +86,7 @@ TEST(BodyMotion, OfAGrippedBodyIsThatOfItsGrips) {
     cloud.inverse_mass[n] = 0;
   }
   for (const int count : {200, 60}) {
-    MovingBody body(50, count - 50, false);
+    MovingBody body(50, count - 50, 6);
     body.hold(held);
     const BodyMotion motion = cloud.motion(body);
     for (int n = 50; n < 60; ++n) EXPECT_LT((motion.at(cloud.x[n]) - cloud.v[n]).norm(), 1e-5);
@@ -102,7 +102,7 @@ TEST(BodyMotion, OfAPinnedBodyIsATurnAboutThePin) {
   Cloud cloud(64, 2, 5);
   cloud.v[7] = Node::Zero();
   cloud.inverse_mass[7] = 0;
-  MovingBody body(0, 64, false);
+  MovingBody body(0, 64, 3);
   body.hold({{7, Mat3::Zero()}});
   const BodyMotion motion = cloud.motion(body);
   double L = 0, J = 0;
@@ -119,7 +119,7 @@ TEST(BodyMotion, OfAPinnedBodyIsATurnAboutThePin) {
 // A block on a plane that rises: as the plane across it, by its masses along it.
 TEST(BodyMotion, OfABodyOnAToolIsTheToolsAcrossIt) {
   const Cloud cloud(64, 2, 7);
-  MovingBody body(0, 64, false);
+  MovingBody body(0, 64, 3);
   std::vector<Hold> holds;
   const Mat3 across = Vec3::UnitY() * Vec3::UnitY().transpose();
   for (int n = 0; n < 5; ++n) holds.push_back({cloud.x[n], Node(0, 3, 0, 0), across});
@@ -140,7 +140,7 @@ TEST(BodyMotion, OfItsOwnHasNoMoreThanTheMassesHave) {
   std::normal_distribution<double> some;
   for (unsigned seed = 0; seed < 50; ++seed) {
     const Cloud cloud(64, 3, seed);
-    const MovingBody body(0, 64, false);
+    const MovingBody body(0, 64, 6);
     const auto energy = [&](const BodyMotion& motion) {
       double sum = 0;
       for (int n = 0; n < 64; ++n) sum += motion.own.at(cloud.x[n]).squaredNorm() / cloud.inverse_mass[n];
@@ -160,7 +160,7 @@ TEST(BodyMotion, OfItsOwnHasNoMoreThanTheMassesHave) {
 TEST(BodyMotion, ToolsThatDoNotAgreeTellNothing) {
   Cloud cloud(64, 2, 8);
   for (Node& v : cloud.v) v = Node::Zero();
-  const MovingBody body(0, 64, false);
+  const MovingBody body(0, 64, 3);
   const auto across = [](double slope) { return Mat3(Vec3(slope, 1, 0).normalized() * Vec3(slope, 1, 0).normalized().transpose()); };
   const std::vector<Hold> holds = {{Node(-1, -.1, 0, 0), Node::Zero(), across(1e-3)}, {Node(1, -.1, 0, 0), Node::Zero(), across(0)}, {Node(0, .1, 0, 0), Node(0, -1, 0, 0), across(0)}};
   const BodyMotion motion = body.motion(cloud.inverse_mass, cloud.v, [&](int n) { return cloud.x[n]; }, holds);
@@ -168,10 +168,33 @@ TEST(BodyMotion, ToolsThatDoNotAgreeTellNothing) {
   for (const Node& x : cloud.x) EXPECT_LT(motion.told.at(x).norm(), 2);
 }
 
+// In the plane the other three of the six modes are still.
+TEST(BodyMotion, OfThreeModesInThePlaneIsThatOfSix) {
+  const Cloud cloud(64, 2, 9);
+  MovingBody flat(0, 64, 3), solid(0, 64, 6);
+  const auto compare = [&](const std::vector<Hold>& holds) {
+    const auto motion = [&](const MovingBody& body) { return body.motion(cloud.inverse_mass, cloud.v, [&](int n) { return cloud.x[n]; }, holds); };
+    const BodyMotion three = motion(flat), six = motion(solid);
+    EXPECT_NEAR(three.agreed, six.agreed, 1e-12);
+    for (int n = 0; n < 64; n += 5) {
+      EXPECT_LT((three.own.at(cloud.x[n]) - six.own.at(cloud.x[n])).norm(), 1e-10);
+      EXPECT_LT((three.told.at(cloud.x[n]) - six.told.at(cloud.x[n])).norm(), 1e-10);
+    }
+    EXPECT_GT(three.own.v.norm() + three.told.v.norm(), .01);
+  };
+  const Vec3 along = Vec3(1, 2, 0).normalized();
+  const std::vector<Hold> on_tool = {{cloud.x[9], Node(1, 2, 0, 0), along * along.transpose()}, {cloud.x[20], Node(0, .3, 0, 0), Mat3(Vec3::UnitY() * Vec3::UnitY().transpose())}};
+  compare({});
+  compare(on_tool);
+  for (MovingBody* body : {&flat, &solid}) body->hold({{4, Mat3(Vec3(0, 1, 1).asDiagonal())}, {5, Mat3(Vec3(0, 0, 1).asDiagonal())}});
+  compare({});
+  compare(on_tool);
+}
+
 // Off the axis nothing moves as a rigid body.
 TEST(BodyMotion, TurnedAboutAnAxisItIsAlongIt) {
   Cloud cloud(30, 2, 6);
-  MovingBody body(0, 30, true);
+  MovingBody body(0, 30, 1);
   double p = 0, m = 0;
   for (int n = 0; n < 30; ++n) {
     p += cloud.v[n][1] / cloud.inverse_mass[n];

@@ -22,7 +22,7 @@ struct Box {
       inverse_mass.push_back(1 / (1 + .3 * k));
     }
   }
-  ShearWaves waves(double time) const { return ShearWaves({{kImpedance, time, 0, 8}}, 8, false); }
+  ShearWaves waves(double time) const { return ShearWaves({{kImpedance, time, 0, 8}}, 8, 6); }
 };
 
 RubbedNode rubbed(int node) {

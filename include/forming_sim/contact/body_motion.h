@@ -46,10 +46,13 @@ struct Hold {
   Mat3 across;  ///< H: symmetric, its own square
 };
 
+/// Modes of rigid motion that nodes have: 6, in the plane x, y 3; of a section that is turned about y the motion along y alone.
+constexpr int rigid_modes(int dimension, bool axisymmetric) { return dimension == 3 ? 6 : axisymmetric ? 1 : 3; }
+
 class MovingBody {
  public:
-  /// axisymmetric: nodes in the plane x, y, turned about y: nothing but the motion along y is that of a rigid body.
-  MovingBody(int first_node, int nodes, bool axisymmetric);
+  /// modes: rigid_modes().
+  MovingBody(int first_node, int nodes, int modes);
 
   /// What is held from now on; nodes of other bodies do not count.
   void hold(const std::vector<HeldNode>& held);
@@ -59,8 +62,9 @@ class MovingBody {
     int count = 0;
     for (const int n : asked_)
       if (inverse_mass[n] > 0) masses[count++] = {1 / inverse_mass[n], place(n), v[n]};
+    holds.reserve(holds.size() + held_.size());
     for (const HeldNode& h : held_) holds.push_back({place(h.node), v[h.node], Mat3::Identity() - h.projector});
-    return axisymmetric_ ? of<1>(masses.data(), count, holds) : of<6>(masses.data(), count, holds);
+    return modes_ == 1 ? of<1>(masses.data(), count, holds) : modes_ == 3 ? of<3>(masses.data(), count, holds) : of<6>(masses.data(), count, holds);
   }
 
  private:
@@ -69,11 +73,9 @@ class MovingBody {
     double m;
     Node x, v;
   };
-  /// modes: of rigid motion, 6 or that along y alone.
   template <int modes> static BodyMotion of(const Mass* masses, int count, const std::vector<Hold>& holds);
 
-  int first_node_, nodes_;
-  bool axisymmetric_;
+  int first_node_, nodes_, modes_;
   std::vector<int> asked_;
   std::vector<HeldNode> held_;
 };

@@ -52,8 +52,8 @@ struct RubbedNode {
 class ShearWaves {
  public:
   ShearWaves() = default;
-  /// nodes: of all bodies, which follow one another in the order of their nodes.
-  ShearWaves(const std::vector<WaveBody>& bodies, std::size_t nodes, bool axisymmetric);
+  /// nodes: of all bodies, which follow one another in the order of their nodes; modes: rigid_modes().
+  ShearWaves(const std::vector<WaveBody>& bodies, std::size_t nodes, int modes);
 
   bool any() const { return !bodies_.empty(); }
   /// v_s of a node at the end of a step that is `steps` times as long as the last one, if its body goes on to change its speed as it did in that; last: phi.

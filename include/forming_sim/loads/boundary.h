@@ -58,10 +58,10 @@ class BoundarySet {
   /// R = (I - P) [m (v_after - v_before) - dt f], f all other forces, before projection.
   /// Its work is R . (v_before + v_after) / 2: with it and dt f . (v_before + v_after) / 2
   /// for the other forces, the change of m v^2 / 2 is met exactly.
-  Vec3 reaction_impulse(int k, const Vec3& force, double mass, const Vec3& v_before, const Vec3& v_after,
-                        double dt) const {
-    const Vec3 impulse = mass * (v_after - v_before) - dt * force;
-    return impulse - projector(k) * impulse;
+  Node reaction_impulse(int k, const Node& force, double mass, const Node& v_before, const Node& v_after, double dt) const {
+    const Node impulse = mass * (v_after - v_before) - dt * force;
+    const Eigen::Matrix4d& fixed = groups_[group_[k]].fixed;
+    return impulse[0] * fixed.col(0) + impulse[1] * fixed.col(1) + impulse[2] * fixed.col(2);
   }
 
  private:
@@ -82,6 +82,7 @@ class BoundarySet {
   /// Nodes that are in the same boundaries share one group.
   struct Group {
     Mat3 projector = Mat3::Identity();
+    Eigen::Matrix4d fixed = Eigen::Matrix4d::Zero();  ///< I - P of nodal records
     std::vector<Direction> directions;
     std::vector<Beyond> beyond;
     bool turns = false;  ///< u differs from node to node
