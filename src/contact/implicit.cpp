@@ -14,6 +14,7 @@
 namespace forming_sim {
 
 namespace {
+constexpr long kPairsOfAChunk = 300;  ///< whose sums are made in turn
 constexpr double kTolerance = 1e-5;  ///< of h0: a pressure of 1e-5 E; the jitter that bodies at rest keep is of that size too
 
 /// Adds to a part of the times what has passed since the part before was done.
@@ -156,12 +157,12 @@ void Contact::Impl::close_books(ContactStep& step) {
   };
   std::deque<Chunk> chunks;
   const long count = static_cast<long>(near.pairs.size());
-  for (long i = 0; i < count; i += kPairsOfAThread) chunks.emplace_back(*this);
+  for (long i = 0; i < count; i += kPairsOfAChunk) chunks.emplace_back(*this);
   records.resize(count, !near.rubs.empty());
-  team.share(static_cast<long>(chunks.size()), 1, [&](long first, long last) {
+  team.share(static_cast<long>(chunks.size()), kPairsOfAThread / kPairsOfAChunk, [&](long first, long last) {
     for (long c = first; c < last; ++c) {
       Chunk& chunk = chunks[c];
-      const long begin = c * kPairsOfAThread, end = std::min(count, begin + kPairsOfAThread);
+      const long begin = c * kPairsOfAChunk, end = std::min(count, begin + kPairsOfAChunk);
       sweeps.take_back(begin, end, near.pairs, near.rubs);
       for (long i = begin; i < end; ++i) {
         ContactPair& pair = near.pairs[i];
@@ -183,7 +184,7 @@ void Contact::Impl::close_books(ContactStep& step) {
   for (const Chunk& chunk : chunks) {
     records.move(from, kept, chunk.kept);
     kept += chunk.kept;
-    from += kPairsOfAThread;
+    from += kPairsOfAChunk;
     books.add(chunk.books);
     thickest = std::max(thickest, chunk.thickest);
     start += chunk.start;

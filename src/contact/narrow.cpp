@@ -328,7 +328,7 @@ void add_plane_pairs(const Features& features, const Workspace& work, const std:
 
 namespace {
 
-constexpr long kGroupsOfAThread = 500, kEdgesOfAThread = 1000;  ///< fewer are not worth another thread
+constexpr long kGroupsOfAThread = 1500, kEdgesOfAThread = 2000;  ///< fewer are not worth another thread
 
 /// Appends what another thread has found.
 void join(const Narrow& share, Narrow& result) {

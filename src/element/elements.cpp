@@ -231,9 +231,9 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   if (options.shares) keep_shares(x);
 }
 
-/// A thread gets 400 times eight simplices or more: below that, waiting for each other costs more.
-constexpr long kEightsOfAThread = 400;
+constexpr long kEightsOfAThread = 400;  ///< eight simplices each: fewer are not worth another thread
 long Elements::eights_of_a_block(const Group& g) const {
+  if (is_one_point(static_cast<CellKind>(g.kind)) && !g.at_edges) return dimension_ == 2 ? 2 : 4;  // such a cell costs what so many simplices do, or more
   if (!g.at_edges) return g.cell_simplices;
   return std::max(1L, g.first_node(g.blocks) / kLanes / (g.blocks * (dimension_ + 1)));  // a point at an edge costs what its nodes do
 }

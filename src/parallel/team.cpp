@@ -15,7 +15,7 @@
 namespace forming_sim {
 namespace {
 
-constexpr std::chrono::microseconds kWatch(100);
+constexpr std::chrono::microseconds kWatch(1000);
 
 void pause() {
 #if defined(__x86_64__) || defined(__i386__)

@@ -15,7 +15,7 @@ struct Moved {
   Elements elements;
   NodeField x, v, load;
 
-  Moved(CellKind kind, int threads) : Moved(body_of(block_of(kind, kind == CellKind::hex24 ? 9 : 40), aluminium()), threads) {}
+  Moved(CellKind kind, int threads) : Moved(body_of(block_of(kind, kind == CellKind::hex24 ? 13 : 72), aluminium()), threads) {}
   Moved(const BodyModel& body, int threads) : elements({body}, body.mesh.dimension, positions_of(body.mesh), {}, threads), x(positions_of(body.mesh)), v(x), load(x) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> any(-1, 1);

@@ -22,8 +22,8 @@ PLATE = {
     'name': 'plate', 'dimension': 3,
     'bodies': [{
         'name': 'plate',
-        'blank': {'shape': 'plate', 'length': 0.014, 'width': 0.014, 'thickness': 0.002,
-                  'cells_along': 28, 'cells_across': 28, 'cells_through': 2},
+        'blank': {'shape': 'plate', 'length': 0.015, 'width': 0.015, 'thickness': 0.002,
+                  'cells_along': 30, 'cells_across': 30, 'cells_through': 2},
         'material': {'density': 2710.0, 'youngs_modulus': 70.5e9, 'poissons_ratio': 0.34,
                      'hardening': {'curve': 'linear', 'yield_stress': 192.1e6, 'modulus': 1e9}},
         'boundaries': [{'set': 'left', 'kind': 'fixed'}, {'set': 'right', 'kind': 'fixed'}]}],

@@ -82,7 +82,7 @@ struct ContactPair : Link {
   int tool(int bodies) const { return std::max(-1, std::max(own, surface) - bodies); }
 };
 
-constexpr long kPairsOfAThread = 256;  ///< fewer are not worth another thread
+constexpr long kPairsOfAThread = 1200;  ///< fewer are not worth another thread
 
 /// Points of two features that are tied, or a vertex that is tied to a tool; see ties.h. A Link of feature vertices.
 struct Tie : Link {

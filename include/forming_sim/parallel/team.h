@@ -1,7 +1,9 @@
 #pragma once
 // The threads of a run. They share out a loop in equal parts and wait for each
-// other at its end. A thread without work watches for it for a tenth of a
+// other at its end. A thread without work watches for it for a
 // millisecond, which spans the gap between two loops of a step, and then sleeps.
+// To share a loop costs some microseconds, and what one thread wrote comes to the other slowly:
+// the constants that say how much is worth another thread are 15 to 30 microseconds of work.
 // On a machine that does other things as well a thread may not be there when its
 // part is due: then another takes it, and the loop waits for no more than the part
 // in which a thread was stopped.
@@ -13,7 +15,7 @@
 namespace forming_sim {
 
 constexpr int kMostThreads = 1024;
-constexpr long kNodesOfAThread = 1000;  ///< fewer are not worth another thread
+constexpr long kNodesOfAThread = 5000;  ///< fewer are not worth another thread
 
 class Team {
  public:
