@@ -233,9 +233,9 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
 
 constexpr long kEightsOfAThread = 400;  ///< eight simplices each: fewer are not worth another thread
 long Elements::eights_of_a_block(const Group& g) const {
-  if (is_one_point(static_cast<CellKind>(g.kind)) && !g.at_edges) return dimension_ == 2 ? 2 : 4;  // such a cell costs what so many simplices do, or more
-  if (!g.at_edges) return g.cell_simplices;
-  return std::max(1L, g.first_node(g.blocks) / kLanes / (g.blocks * (dimension_ + 1)));  // a point at an edge costs what its nodes do
+  if (g.at_edges) return std::max(1L, g.first_node(g.blocks) / kLanes / (g.blocks * (dimension_ + 1)));  // a point costs what its nodes do
+  if (is_one_point(static_cast<CellKind>(g.kind))) return dimension_ == 2 ? 2 : 4;  // a cell costs what so many simplices do, or more
+  return g.cell_simplices;
 }
 long Elements::blocks_of_a_thread(const Group& g) const { return kEightsOfAThread / eights_of_a_block(g); }
 long Elements::tiles_of_a_thread(const Group& g) const { return std::max(1L, blocks_of_a_thread(g) / g.tile); }

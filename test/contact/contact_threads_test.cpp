@@ -14,8 +14,8 @@ TEST(ContactThreads, ChangeNoBit) {
     world.config.layer = 1e-4;
     world.config.friction = .2;
     world.modulus = 1e9;
-    world.add_box(Vec3(0, 0, 0), 40, 40, 1, .01, 2700, 1e5);
-    world.add_box(Vec3(.0031, .0027, .0102), 37, 38, 1, .0103, 2700, 1e5);
+    world.add_box(Vec3(0, 0, 0), 80, 80, 1, .01, 2700, 1e5);
+    world.add_box(Vec3(.0031, .0027, .0102), 76, 77, 1, .0103, 2700, 1e5);
     Contact contact = world.make();
     world.take_shifts(contact);
     for (size_t i = 0; i < world.x.size(); ++i) world.v[i] = Node(.3 * std::sin(7. * static_cast<double>(i)), .1, world.x[i].z() > .0101 ? -2 : 1, 0);
