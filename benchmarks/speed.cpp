@@ -54,7 +54,9 @@ class SpeedReport {
     std::printf("\nseveral layers of plasticity\n\n");
     head();
     for (const SpeedFamily& family : kSpeedFamilies)
-      for (int layers : {2, 3, 5, 10}) add(family, kForming, elements, 1, layers);
+      for (const char* curve : {"voce", "perfect"})
+        for (int layers : {1, 2, 3, 5, 10})
+          if (layers > 1 || !voce(curve)) add(family, kForming, elements, 1, layers, curve);
     std::printf("\nother curves of hardening\n\n");
     head();
     for (const SpeedFamily& family : kSpeedFamilies)
@@ -102,7 +104,8 @@ class SpeedReport {
     print_and_keep(line, clock.seconds());
   }
 
-  static bool voce(const Line& line) { return line.curve == std::string("voce"); }
+  static bool voce(const char* curve) { return curve == std::string("voce"); }
+  static bool voce(const Line& line) { return voce(line.curve); }
 
   /// Whole step of the same elements with so many layers on so many threads, s; kNothing: it was not asked for.
   double time_with(const Line& line, int layers, int threads) const {

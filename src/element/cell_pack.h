@@ -22,7 +22,7 @@ template <class Cell> const int* nodes_of(const CellGroup& g, long pack) { retur
 template <class Cell> const int* slots_of(const CellGroup& g, long pack) { return lanes_of(g.slots, Cell::nodes, pack); }
 
 /// A nodal vector of each of kWidth nodes, gathered: one Pack per component.
-template <int D> Vector<Pack, D> gather_vectors(const int* nodes, const double* field) {
+template <int D> [[gnu::always_inline]] inline Vector<Pack, D> gather_vectors(const int* nodes, const double* field) {
   const auto record = [&](int l) { return field + 4 * static_cast<long>(nodes[l]); };
   Vector<Pack, D> out;
   Pack z;
