@@ -61,7 +61,7 @@ class SpeedReport {
     head();
     for (const SpeedFamily& family : kSpeedFamilies)
       if (family.kind == CellKind::crossed || family.kind == CellKind::hex24 || family.kind == CellKind::hex1)
-        for (const char* curve : {"perfect", "linear", "swift", "table"}) add(family, kForming, elements, 1, 1, curve);
+        for (const char* curve : {"linear", "swift", "table"}) add(family, kForming, elements, 1, 1, curve);
     std::printf("\nas the work grows\n\n");
     head();
     for (const SpeedFamily& family : kSpeedFamilies) {

@@ -60,9 +60,9 @@ inline void push(const Movers& movers, const PairPack& p, int at, const Pack (&f
   }
 }
 
-/// The impulse j of the pair moves by `omega` times the way to the one that goes with its end-of-step
-/// gap, all others held; its friction likewise, then to the nearest within the Coulomb cone.
-inline Pack visit(double dt, double omega, const Movers& movers, PairPack& p, RubPack* rub, int at) {
+/// The impulse j of the pair becomes the one that goes with its end-of-step gap, all others held; its friction
+/// likewise, then the nearest within the Coulomb cone.
+inline Pack visit(double dt, const Movers& movers, PairPack& p, RubPack* rub, int at) {
   Pack factor[4];
   const Triple u = relative(movers, p, at, factor), normal = load3(p.normal, at);
   const Pack before = Pack::load(p.impulse + at), layer = Pack::load(p.layer + at), w = Pack::load(p.w + at), zero(0.0);
@@ -70,10 +70,9 @@ inline Pack visit(double dt, double omega, const Movers& movers, PairPack& p, Ru
   const Pack now = Pack::load(p.gap + at) + Pack(dt) * vn;  // the end gap as things stand
   const Pack g = now - Pack(dt) * w * before;          // without this pair
   const Mask movable = w > zero;
-  if (!any(movable & (select(g < layer, layer, before) > zero))) return zero;
+  if (!any(movable & ((g < layer) | (absolute(before) > zero)))) return zero;
   Pack h;
-  const Pack aim = end_impulse(g, layer, Pack::load(p.stiffness + at), w, dt, h);
-  const Pack j = select(movable, larger(before + Pack(omega) * (aim - before), zero), zero);
+  const Pack j = select(movable, end_impulse(g, layer, Pack::load(p.stiffness + at), w, dt, h), zero);
   Pack change = select(movable, absolute(h - now), zero);
   j.store(p.impulse + at);
   Triple impulse = (j - before) * normal;
@@ -83,7 +82,7 @@ inline Pack visit(double dt, double omega, const Movers& movers, PairPack& p, Ru
     const Pack rub_w = Pack::load(rub->w + at), most = Pack::load(rub->friction + at) * select(j > zero, Pack::load(rub->own + at) * j + Pack::load(rub->before + at), zero);
     const Pack beta = select(j > zero, Pack::load(rub->beta + at), zero);
     const Triple free = slip - rub_w * (had_q + had_e) + (beta * rub_w) * steady;  // (1 + beta w) u without friction
-    Triple q = had_q - Pack(omega) * (had_q + Pack(1.0) / rub_w * free);
+    Triple q = Pack(-1.0) / rub_w * free;
     const Pack size = sqrt(dot(q, q));
     q = only(movable, select(size > most, most / size, Pack(1.0)) * q);
     const Triple end = Pack(1.0) / (Pack(1.0) + beta * rub_w) * (free + rub_w * q);
@@ -105,15 +104,15 @@ void start(const Movers& movers, const PairPack* packs, const RubPack* rubs, lon
     for (int k = 0; k < p.nodes; ++k)
       factor[k] = Pack::load(p.weight[k] + at) * Pack(lanes_from([&](int l) { return movers.v[4 * static_cast<long>(p.node[k][at + l]) + 3]; }));
     Triple impulse = Pack::load(p.impulse + at) * load3(p.normal, at);
-    if (rubs) impulse = impulse + load3(rubs[i].slip, at);
+    if (rubs) impulse = impulse + (load3(rubs[i].slip, at) + load3(rubs[i].radiated, at));
     push(movers, p, at, factor, impulse);
   });
 }
 
-double sweep(double dt, double omega, const Movers& movers, PairPack* packs, RubPack* rubs, long count) {
+double sweep(double dt, const Movers& movers, PairPack* packs, RubPack* rubs, long count) {
   Pack change(0.0);
-  if (rubs) each_part(count, [&](long i, int at) { change = larger(change, visit(dt, omega, movers, packs[i], rubs + i, at)); });
-  else each_part(count, [&](long i, int at) { change = larger(change, visit(dt, omega, movers, packs[i], nullptr, at)); });
+  if (rubs) each_part(count, [&](long i, int at) { change = larger(change, visit(dt, movers, packs[i], rubs + i, at)); });
+  else each_part(count, [&](long i, int at) { change = larger(change, visit(dt, movers, packs[i], nullptr, at)); });
   double most = 0;
   for (int l = 0; l < kWidth; ++l)
     if (!(change[l] <= most)) most = change[l];

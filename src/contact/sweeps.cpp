@@ -6,6 +6,8 @@
 #include <cmath>
 #include <mutex>
 
+#include "forming_sim/contact/impulse.h"
+
 namespace forming_sim {
 
 namespace {
@@ -14,11 +16,8 @@ constexpr int kBits = 64;              ///< colours of tiles, of pairs in a tile
 constexpr long kMostPairsOfATile = 2048, kLeastPairsOfATile = 256;  ///< many enough to fill the packs of some 20 colours, few enough for the cache
 constexpr long kTilesAimedAt = 16;     ///< where there are not pairs enough for as many full ones
 
-constexpr int kPlainSweeps = 3;        ///< before over-relaxation; pairs that share no node are done after two
-constexpr double kMostOmega = 1.9;
-
-/// The factor that is best where sweeps without it shrink the error by `rate` each (Young).
-double over_relaxation(double rate) { return std::min(kMostOmega, 2 / (1 + std::sqrt(1 - rate))); }
+constexpr int kPlainSweeps = 2;        ///< before any are mixed; pairs that share no node are done after two
+constexpr double kWorse = 2;           ///< a change that has grown by more is of other pairs than those that are mixed
 
 /// Calls each(n) for the nodes of a pair that can move.
 template <class Each> void each_mover(const ContactPair& pair, Each&& each) {
@@ -45,7 +44,7 @@ const PairKernels& pair_kernels_of(Isa isa) {
   return isa == Isa::avx512 ? avx512::pair_kernels() : isa == Isa::avx2 ? avx2::pair_kernels() : sse2::pair_kernels();
 }
 
-Sweeps::Sweeps(Team& team, const char* kernels) : team_(team), kernels_(pair_kernels_of(choose_isa(kernels))) {}
+Sweeps::Sweeps(Team& team, const char* kernels) : team_(team), kernels_(pair_kernels_of(choose_isa(kernels))), mixing_(team) {}
 
 // Every tile takes the first colour that none of its nodes has yet.
 void Sweeps::cut(std::size_t nodes, const LargeArray<ContactPair>& pairs) {
@@ -106,8 +105,14 @@ void Sweeps::pack(Tile& tile, const LargeArray<ContactPair>& pairs, const std::v
   for (long i = tile.first; i < tile.last; ++i) each_mover(pairs[i], [&](int n) { taken_[n] = 0; });
   long of_colour[kBits + 1] = {};  // the last: pairs left over
   bool any_rubs = false;
+  tile.still.clear();
   for (long i = tile.first; i < tile.last; ++i) {
     const ContactPair& pair = pairs[i];
+    if (!(pair.w > 0)) {
+      tile.still.push_back(i);
+      place_[i] = -static_cast<long>(tile.still.size());
+      continue;
+    }
     std::uint64_t taken = 0;
     each_mover(pair, [&](int n) { taken |= taken_[n]; });
     const int colour = first_free(taken);
@@ -128,6 +133,7 @@ void Sweeps::pack(Tile& tile, const LargeArray<ContactPair>& pairs, const std::v
   for (long p = 0; p < of_colour[kBits]; ++p) part_empty.push_back(packs++);  // a pack each
   for (long i = tile.first; i < tile.last; ++i) {
     const long colour = place_[i];
+    if (colour < 0) continue;
     place_[i] = next[colour];
     next[colour] += colour < kBits ? 1 : kLanes;
   }
@@ -138,6 +144,7 @@ void Sweeps::pack(Tile& tile, const LargeArray<ContactPair>& pairs, const std::v
   for (long p : part_empty) tile.packs[p] = no_pairs;
   for (PairPack& p : tile.packs) p.nodes = p.held = 0;
   for (long i = tile.first; i < tile.last; ++i) {
+    if (place_[i] < 0) continue;
     const ContactPair& pair = pairs[i];
     PairPack& p = tile.packs[place_[i] / kLanes];
     const int l = static_cast<int>(place_[i] % kLanes);
@@ -170,13 +177,22 @@ void Sweeps::pack(Tile& tile, const LargeArray<ContactPair>& pairs, const std::v
   }
 }
 
-double Sweeps::impulse(long i) const { return tiles_[i / tile_size_].packs[place_[i] / kLanes].impulse[place_[i] % kLanes]; }
+void Sweeps::end_still(double dt, const Workspace& work, const LargeArray<ContactPair>& pairs, Tile& tile) const {
+  tile.still_gap.clear();
+  for (const long i : tile.still) {
+    tile.still_gap.push_back(pairs[i].gap + dt * pairs[i].normal.dot(relative(pairs[i], work.v)));
+  }
+}
+
+double Sweeps::impulse(long i) const { return place_[i] < 0 ? 0 : tiles_[i / tile_size_].packs[place_[i] / kLanes].impulse[place_[i] % kLanes]; }
 Node Sweeps::slip(long i) const {
+  if (place_[i] < 0) return Node::Zero();
   const RubPack& r = tiles_[i / tile_size_].rubs[place_[i] / kLanes];
   const long l = place_[i] % kLanes;
   return Node(r.slip[0][l], r.slip[1][l], r.slip[2][l], 0) + radiated(i);
 }
 Node Sweeps::radiated(long i) const {
+  if (place_[i] < 0) return Node::Zero();
   const RubPack& r = tiles_[i / tile_size_].rubs[place_[i] / kLanes];
   const long l = place_[i] % kLanes;
   return Node(r.radiated[0][l], r.radiated[1][l], r.radiated[2][l], 0);
@@ -186,11 +202,63 @@ void Sweeps::take_back(long first, long last, LargeArray<ContactPair>& pairs, st
   for (long i = first; i < last; ++i) {
     ContactPair& pair = pairs[i];
     pair.impulse = impulse(i);
-    pair.end_gap = tiles_[i / tile_size_].packs[place_[i] / kLanes].end_gap[place_[i] % kLanes];
+    const Tile& tile = tiles_[i / tile_size_];
+    pair.end_gap = place_[i] < 0 ? tile.still_gap[-1 - place_[i]] : tile.packs[place_[i] / kLanes].end_gap[place_[i] % kLanes];
     if (pair.rub < 0) continue;
     rubs[pair.rub].slip = slip(i);
     rubs[pair.rub].radiated = radiated(i);
   }
+}
+
+template <class Each> void Sweeps::each_of_state(std::vector<TiePair>& ties, std::vector<DrivenTool>& driven, Each&& each) {
+  long place = 0;
+  const auto next = [&](double* numbers, long count) {
+    each(numbers, place, count);
+    place += count;
+  };
+  for (long t = 0; t < tile_count_; ++t) {
+    for (PairPack& pack : tiles_[t].packs) next(pack.impulse, kLanes);
+    for (RubPack& rub : tiles_[t].rubs) {
+      next(rub.slip[0], 3 * kLanes);
+      next(rub.radiated[0], 3 * kLanes);
+    }
+  }
+  for (TiePair& tie : ties) next(tie.impulse.data(), 3);
+  for (DrivenTool& tool : driven) next(&tool.push, 1);
+}
+
+void Sweeps::mix(bool anew, const Movers& movers, Workspace& work, std::vector<TiePair>& ties, std::vector<DrivenTool>& driven) {
+  state_.clear();
+  each_of_state(ties, driven, [&](const double* from, long, long count) { state_.insert(state_.end(), from, from + count); });
+  if (anew) {
+    weight_.clear();
+    const auto push = [&](const double* w, int rows) {
+      for (int i = 0; i < rows; ++i)
+        for (int l = 0; l < kLanes; ++l) weight_.push_back(std::sqrt(w[l]));
+    };
+    for (long t = 0; t < tile_count_; ++t) {
+      for (const PairPack& pack : tiles_[t].packs) push(pack.w, 1);
+      for (const RubPack& rub : tiles_[t].rubs) push(rub.w, 6);
+    }
+    for (const TiePair& tie : ties) {
+      const double mass = tie.mass.trace() / 3;
+      weight_.insert(weight_.end(), 3, mass > 0 ? 1 / std::sqrt(mass) : 0);
+    }
+    for (const DrivenTool& tool : driven) weight_.push_back(1 / std::sqrt(tool.inverse_mass));
+    mixing_.begin(state_, weight_);
+    return;
+  }
+  mixed_ = state_;
+  mixing_.mix(mixed_);
+  // What has been added goes to the velocities, as in the beginning.
+  each_of_state(ties, driven, [&](double* to, long place, long count) {
+    for (long i = 0; i < count; ++i) to[i] = mixed_[place + i] - state_[place + i];
+  });
+  each_tile([&](Tile& tile) { kernels_.start(movers, tile.packs.data(), tile.rub(), static_cast<long>(tile.packs.size())); });
+  for (const TiePair& tie : ties) push(tie, tie.impulse, work, work.v);
+  for (const DrivenTool& tool : driven)
+    for (const int i : tool.entries) work.v[i] += tool.push * tool.guide;
+  each_of_state(ties, driven, [&](double* to, long place, long count) { std::copy_n(mixed_.begin() + place, count, to); });
 }
 
 SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, const LargeArray<ContactPair>& pairs,
@@ -208,14 +276,16 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
   for (DrivenTool& tool : driven) push_driven(dt, true, work, ties, tool);
   SweepResult result;
   using Clock = std::chrono::steady_clock;
-  double omega = 1, before = 0;
+  double change = 0, before = 0;
   std::mutex one;
   for (;;) {
     const Clock::time_point begin = Clock::now();
-    double change = 0;
+    if (result.sweeps >= kPlainSweeps && result.sweeps < most / 2) mix(result.sweeps == kPlainSweeps || change > kWorse * before, movers, work, ties, driven);
+    before = change;
+    change = 0;
     for (TiePair& tie : ties) change = std::max(change, sweep_tie(dt, work, tie));
     each_tile([&](Tile& tile) {
-      const double most_of_tile = kernels_.sweep(dt, omega, movers, tile.packs.data(), tile.rub(), static_cast<long>(tile.packs.size()));
+      const double most_of_tile = kernels_.sweep(dt, movers, tile.packs.data(), tile.rub(), static_cast<long>(tile.packs.size()));
       const std::lock_guard<std::mutex> lock(one);
       if (!(most_of_tile <= change)) change = most_of_tile;
     });
@@ -225,12 +295,10 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
     }
     result.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
     ++result.sweeps;
-    if (result.sweeps == kPlainSweeps && change < before) omega = over_relaxation(change / before);
-    if (result.sweeps == most / 2) omega = 1;
-    before = change;
     if (change >= tolerance && result.sweeps < most) continue;
     std::atomic<bool> open{true};
     each_tile([&](Tile& tile) {
+      end_still(dt, work, pairs, tile);
       if (!kernels_.end_gaps(dt, movers, tile.packs.data(), static_cast<long>(tile.packs.size()))) open = false;
     });
     result.open = open;

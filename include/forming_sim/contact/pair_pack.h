@@ -38,7 +38,7 @@ struct PairKernels {
   void (*start)(const Movers& movers, const PairPack* packs, const RubPack* rubs, long count);
   /// A visit of `count` packs in their order: see sweeps.h. rubs: of the packs,
   /// one each; null: none rubs. Returns the largest change of a gap or of a slip distance, m.
-  double (*sweep)(double dt, double omega, const Movers& movers, PairPack* packs, RubPack* rubs, long count);
+  double (*sweep)(double dt, const Movers& movers, PairPack* packs, RubPack* rubs, long count);
   /// Sets end_gap. Returns whether every pair that can be moved ends with a gap > 0.
   bool (*end_gaps)(double dt, const Movers& movers, PairPack* packs, long count);
 };

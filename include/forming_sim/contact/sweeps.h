@@ -3,8 +3,7 @@
 // the one that goes with its end-of-step gap, all others held, and its friction
 // impulse by the nearest one within the Coulomb cone.
 //
-// Where the first sweeps show that they will be slow, the later ones are over-relaxed, by
-// the factor that is best for the rate at which they shrank; in the second half of the
+// Where two have not been enough, what the later ones leave is mixed (mixing.h); in the second half of the
 // allowed number they are plain again, which cannot fail to approach.
 //
 // The pairs are visited tile by tile: a tile is a run of pairs in the order of their keys,
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "forming_sim/contact/driven.h"
+#include "forming_sim/contact/mixing.h"
 #include "forming_sim/contact/pair_pack.h"
 #include "forming_sim/contact/ties.h"
 #include "forming_sim/parallel/team.h"
@@ -47,13 +47,20 @@ class Sweeps {
     std::vector<PairPack> packs;
     std::vector<RubPack> rubs;    ///< one per pack; empty: none of the pairs rubs
     std::vector<long> part_empty; ///< packs with lanes that are not in use
+    std::vector<long> still;      ///< pairs that nothing can move: they bear no impulse and are in no pack
+    std::vector<double> still_gap;  ///< at the end of the step, m
     const RubPack* rub() const { return rubs.empty() ? nullptr : rubs.data(); }
     RubPack* rub() { return rubs.empty() ? nullptr : rubs.data(); }
   };
   void cut(std::size_t nodes, const LargeArray<ContactPair>& pairs);
   void pack(Tile& tile, const LargeArray<ContactPair>& pairs, const std::vector<Rub>& rubs);
+  void end_still(double dt, const Workspace& work, const LargeArray<ContactPair>& pairs, Tile& tile) const;
   /// driven.cpp: u of a tool as the impulses stand, that of its entries with it; begins: m = 0, so that it is what they give. Returns the change of place, m.
   double push_driven(double dt, bool begins, Workspace& work, const std::vector<TiePair>& ties, DrivenTool& tool) const;
+  /// All that a sweep changes but for the velocities, which follow from it: calls each(numbers, place, count) for what lies together, with its place in `state_`.
+  template <class Each> void each_of_state(std::vector<TiePair>& ties, std::vector<DrivenTool>& driven, Each&& each);
+  /// Before a sweep: what those before it have left is mixed, or, if `anew`, is what is mixed from here on.
+  void mix(bool anew, const Movers& movers, Workspace& work, std::vector<TiePair>& ties, std::vector<DrivenTool>& driven);
   /// Of pair i, which rubs or not, as it stands.
   double impulse(long i) const;
   Node slip(long i) const;
@@ -68,8 +75,10 @@ class Sweeps {
   std::vector<long> order_;            ///< of the tiles, by colour
   std::vector<long> colour_ends_;      ///< places in order_
   std::vector<std::uint64_t> taken_;   ///< per node: colours of its tiles, then of its pairs in a tile; one bit each
-  std::vector<long> place_;            ///< per pair: its lane, counted through the packs of its tile
+  std::vector<long> place_;            ///< per pair: its lane, counted through the packs of its tile; -1 - place in `still`
   std::vector<const double*> projector_;
+  Mixing mixing_;
+  Mixing::Numbers state_, mixed_, weight_;
 };
 
 }  // namespace forming_sim
