@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace forming_sim {
@@ -9,7 +10,7 @@ namespace forming_sim {
 namespace {
 constexpr long kNumbersOfAChunk = 4096;   ///< whose products are summed in turn: the sums do not depend on the threads
 constexpr long kChunksOfAThread = 8;      ///< fewer are not worth another thread
-constexpr double kLeast = 1e-12;          ///< of the largest product: columns nearer to each other than that count as one
+constexpr double kLeast = 1e-12;          ///< columns, of length 1, whose squared distance is less count as one
 
 /// Those from `from` to `to`.
 auto part(Mixing::Numbers& of, long from, long to) { return Eigen::Map<Eigen::VectorXd, Eigen::Aligned16>(of.data() + from, to - from); }
@@ -86,13 +87,14 @@ void Mixing::solve(double* gamma) const {
   using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kColumns, kColumns>;
   using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kColumns, 1>;
   Square products(columns_, columns_);
-  Column aims(columns_);
+  Column aims(columns_), scale(columns_);  // to columns of length 1: the last ones may be far shorter than the first
+  for (int a = 0; a < columns_; ++a) scale[a] = products_[a][a] > 0 ? 1 / std::sqrt(products_[a][a]) : 0;
   for (int a = 0; a < columns_; ++a) {
-    for (int b = 0; b < columns_; ++b) products(a, b) = products_[a][b];
-    aims[a] = aims_[a];
+    for (int b = 0; b < columns_; ++b) products(a, b) = scale[a] * scale[b] * products_[a][b];
+    aims[a] = scale[a] * aims_[a];
   }
-  products.diagonal().array() += kLeast * products.trace();
-  const Column best = products.ldlt().solve(aims);
+  products.diagonal().array() += kLeast;
+  const Column best = scale.cwiseProduct(products.ldlt().solve(aims));
   if (best.allFinite()) std::copy(best.data(), best.data() + columns_, gamma);
 }
 

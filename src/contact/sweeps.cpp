@@ -280,7 +280,7 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
   std::mutex one;
   for (;;) {
     const Clock::time_point begin = Clock::now();
-    if (result.sweeps >= kPlainSweeps && result.sweeps < most / 2) mix(result.sweeps == kPlainSweeps || change > kWorse * before, movers, work, ties, driven);
+    if (result.sweeps >= kPlainSweeps && result.sweeps < most - most / 10) mix(result.sweeps == kPlainSweeps || change > kWorse * before, movers, work, ties, driven);
     before = change;
     change = 0;
     for (TiePair& tie : ties) change = std::max(change, sweep_tie(dt, work, tie));
