@@ -104,7 +104,7 @@ void start(const Movers& movers, const PairPack* packs, const RubPack* rubs, lon
     for (int k = 0; k < p.nodes; ++k)
       factor[k] = Pack::load(p.weight[k] + at) * Pack(lanes_from([&](int l) { return movers.v[4 * static_cast<long>(p.node[k][at + l]) + 3]; }));
     Triple impulse = Pack::load(p.impulse + at) * load3(p.normal, at);
-    if (rubs) impulse = impulse + (load3(rubs[i].slip, at) + load3(rubs[i].radiated, at));
+    if (rubs) impulse = impulse + load3(rubs[i].slip, at);
     push(movers, p, at, factor, impulse);
   });
 }

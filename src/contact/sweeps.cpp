@@ -17,6 +17,7 @@ constexpr long kMostPairsOfATile = 2048, kLeastPairsOfATile = 256;  ///< many en
 constexpr long kTilesAimedAt = 16;     ///< where there are not pairs enough for as many full ones
 
 constexpr int kPlainSweeps = 2;        ///< before any are mixed; pairs that share no node are done after two
+constexpr int kSweepsAMixture = 2;     ///< to mix each costs as much again as the sweep, and ends no sooner
 constexpr double kWorse = 2;           ///< a change that has grown by more is of other pairs than those that are mixed
 
 /// Calls each(n) for the nodes of a pair that can move.
@@ -210,55 +211,84 @@ void Sweeps::take_back(long first, long last, LargeArray<ContactPair>& pairs, st
   }
 }
 
-template <class Each> void Sweeps::each_of_state(std::vector<TiePair>& ties, std::vector<DrivenTool>& driven, Each&& each) {
-  long place = 0;
-  const auto next = [&](double* numbers, long count) {
-    each(numbers, place, count);
-    place += count;
-  };
-  for (long t = 0; t < tile_count_; ++t) {
-    for (PairPack& pack : tiles_[t].packs) next(pack.impulse, kLanes);
-    for (RubPack& rub : tiles_[t].rubs) {
-      next(rub.slip[0], 3 * kLanes);
-      next(rub.radiated[0], 3 * kLanes);
-    }
+int Sweeps::numbers_of(long i, const ContactPair& pair, double* (&at)[kNumbers]) {
+  Tile& tile = tiles_[i / tile_size_];
+  const long pack = place_[i] / kLanes, lane = place_[i] % kLanes;
+  at[0] = &tile.packs[pack].impulse[lane];
+  if (pair.rub < 0) return 1;
+  for (int k = 0; k < 3; ++k) {
+    at[1 + k] = &tile.rubs[pack].slip[k][lane];
+    at[4 + k] = &tile.rubs[pack].radiated[k][lane];
   }
-  for (TiePair& tie : ties) next(tie.impulse.data(), 3);
-  for (DrivenTool& tool : driven) next(&tool.push, 1);
+  return kNumbers;
 }
 
-void Sweeps::mix(bool anew, const Movers& movers, Workspace& work, std::vector<TiePair>& ties, std::vector<DrivenTool>& driven) {
-  state_.clear();
-  each_of_state(ties, driven, [&](const double* from, long, long count) { state_.insert(state_.end(), from, from + count); });
-  if (anew) {
-    weight_.clear();
-    const auto push = [&](const double* w, int rows) {
-      for (int i = 0; i < rows; ++i)
-        for (int l = 0; l < kLanes; ++l) weight_.push_back(std::sqrt(w[l]));
-    };
-    for (long t = 0; t < tile_count_; ++t) {
-      for (const PairPack& pack : tiles_[t].packs) push(pack.w, 1);
-      for (const RubPack& rub : tiles_[t].rubs) push(rub.w, 6);
+void Sweeps::read_state(const LargeArray<ContactPair>& pairs, const std::vector<TiePair>& ties, const std::vector<DrivenTool>& driven) {
+  state_.resize(weight_.size());
+  each_tile([&](Tile& tile) {
+    long place = tile.place;
+    for (const long i : tile.pressed) {
+      double* at[kNumbers];
+      const int count = numbers_of(i, pairs[i], at);
+      for (int k = 0; k < count; ++k) state_[place++] = *at[k];
     }
-    for (const TiePair& tie : ties) {
-      const double mass = tie.mass.trace() / 3;
-      weight_.insert(weight_.end(), 3, mass > 0 ? 1 / std::sqrt(mass) : 0);
+  });
+  auto next = state_.end() - static_cast<long>(3 * ties.size() + driven.size());
+  for (const TiePair& tie : ties) next = std::copy_n(tie.impulse.data(), 3, next);
+  for (const DrivenTool& tool : driven) *next++ = tool.push;
+}
+
+void Sweeps::begin_mixing(const LargeArray<ContactPair>& pairs, const std::vector<TiePair>& ties, const std::vector<DrivenTool>& driven) {
+  weight_.clear();
+  for (long t = 0; t < tile_count_; ++t) {
+    Tile& tile = tiles_[t];
+    tile.place = static_cast<long>(weight_.size());
+    tile.pressed.clear();
+    for (long i = tile.first; i < tile.last; ++i) {
+      if (!(impulse(i) > 0)) continue;
+      tile.pressed.push_back(i);
+      weight_.push_back(std::sqrt(pairs[i].w));
+      if (pairs[i].rub >= 0) weight_.insert(weight_.end(), kNumbers - 1, std::sqrt(tile.rubs[place_[i] / kLanes].w[place_[i] % kLanes]));
     }
-    for (const DrivenTool& tool : driven) weight_.push_back(1 / std::sqrt(tool.inverse_mass));
-    mixing_.begin(state_, weight_);
-    return;
   }
+  for (const TiePair& tie : ties) {
+    const double mass = tie.mass.trace() / 3;
+    weight_.insert(weight_.end(), 3, mass > 0 ? 1 / std::sqrt(mass) : 0);
+  }
+  for (const DrivenTool& tool : driven) weight_.push_back(1 / std::sqrt(tool.inverse_mass));
+  read_state(pairs, ties, driven);
+  mixing_.begin(state_, weight_);
+}
+
+void Sweeps::mix(Workspace& work, const LargeArray<ContactPair>& pairs, std::vector<TiePair>& ties, std::vector<DrivenTool>& driven) {
   mixed_ = state_;
   mixing_.mix(mixed_);
-  // What has been added goes to the velocities, as in the beginning.
-  each_of_state(ties, driven, [&](double* to, long place, long count) {
-    for (long i = 0; i < count; ++i) to[i] = mixed_[place + i] - state_[place + i];
+  each_tile([&](Tile& tile) {
+    long place = tile.place;
+    for (const long i : tile.pressed) {
+      double* at[kNumbers];
+      const int count = numbers_of(i, pairs[i], at);
+      double more[kNumbers] = {};
+      for (int k = 0; k < count; ++k, ++place) {
+        more[k] = mixed_[place] - state_[place];
+        *at[k] = mixed_[place];
+      }
+      push(pairs[i], more[0] * pairs[i].normal + Node(more[1] + more[4], more[2] + more[5], more[3] + more[6], 0), work, work.v);
+    }
   });
-  each_tile([&](Tile& tile) { kernels_.start(movers, tile.packs.data(), tile.rub(), static_cast<long>(tile.packs.size())); });
-  for (const TiePair& tie : ties) push(tie, tie.impulse, work, work.v);
-  for (const DrivenTool& tool : driven)
-    for (const int i : tool.entries) work.v[i] += tool.push * tool.guide;
-  each_of_state(ties, driven, [&](double* to, long place, long count) { std::copy_n(mixed_.begin() + place, count, to); });
+  long place = static_cast<long>(mixed_.size() - 3 * ties.size() - driven.size());
+  for (TiePair& tie : ties) {
+    const Node more(mixed_[place] - state_[place], mixed_[place + 1] - state_[place + 1], mixed_[place + 2] - state_[place + 2], 0);
+    tie.impulse += more;
+    push(tie, more, work, work.v);
+    place += 3;
+  }
+  for (DrivenTool& tool : driven) {
+    const double more = mixed_[place] - state_[place];
+    tool.push += more;
+    for (const int i : tool.entries) work.v[i] += more * tool.guide;
+    ++place;
+  }
 }
 
 SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, const LargeArray<ContactPair>& pairs,
@@ -277,10 +307,20 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
   SweepResult result;
   using Clock = std::chrono::steady_clock;
   double change = 0, before = 0;
+  int begun = 0;  // after so many sweeps
   std::mutex one;
   for (;;) {
     const Clock::time_point begin = Clock::now();
-    if (result.sweeps >= kPlainSweeps && result.sweeps < most - most / 10) mix(result.sweeps == kPlainSweeps || change > kWorse * before, movers, work, ties, driven);
+    if (result.sweeps >= kPlainSweeps && result.sweeps < most - most / 10) {
+      if (result.sweeps == kPlainSweeps || change > kWorse * before) {
+        begin_mixing(pairs, ties, driven);
+        begun = result.sweeps;
+      } else {
+        read_state(pairs, ties, driven);
+        mixing_.see(state_);
+        if ((result.sweeps - begun) % kSweepsAMixture == 0) mix(work, pairs, ties, driven);
+      }
+    }
     before = change;
     change = 0;
     for (TiePair& tie : ties) change = std::max(change, sweep_tie(dt, work, tie));

@@ -213,7 +213,7 @@ TEST(ContactSweeps, PairsThatNothingMoves) {
 TEST(ContactSweeps, ThreadsChangeNoBit) {
   Team two(2);
   Heap a(60000, 40000, false, 8), b(60000, 40000, false, 8);
-  a.solve(nullptr, nullptr, 0, 14);  // mixed from the third on to the seventh
+  a.solve(nullptr, nullptr, 0, 14);  // mixed from the fourth on
   b.solve(&two, nullptr, 0, 14);
   for (size_t i = 0; i < a.pairs.size(); ++i) {
     ASSERT_EQ(a.pairs[i].impulse, b.pairs[i].impulse) << "pair " << i;

@@ -3,8 +3,8 @@
 // the one that goes with its end-of-step gap, all others held, and its friction
 // impulse by the nearest one within the Coulomb cone.
 //
-// Where two have not been enough, what the later ones leave is mixed (mixing.h); in the second half of the
-// allowed number they are plain again, which cannot fail to approach.
+// Where two have not been enough, what every second one leaves is mixed with what those before it have left (mixing.h); the
+// last tenth of the allowed number is plain again.
 //
 // The pairs are visited tile by tile: a tile is a run of pairs in the order of their keys,
 // which lie near each other, so that their nodes stay in cache. Within a tile pairs have colours: those of
@@ -49,6 +49,8 @@ class Sweeps {
     std::vector<long> part_empty; ///< packs with lanes that are not in use
     std::vector<long> still;      ///< pairs that nothing can move: they bear no impulse and are in no pack
     std::vector<double> still_gap;  ///< at the end of the step, m
+    std::vector<long> pressed;    ///< pairs that bear an impulse where mixing begins
+    long place;                   ///< of their first number in the state that is mixed
     const RubPack* rub() const { return rubs.empty() ? nullptr : rubs.data(); }
     RubPack* rub() { return rubs.empty() ? nullptr : rubs.data(); }
   };
@@ -57,10 +59,13 @@ class Sweeps {
   void end_still(double dt, const Workspace& work, const LargeArray<ContactPair>& pairs, Tile& tile) const;
   /// driven.cpp: u of a tool as the impulses stand, that of its entries with it; begins: m = 0, so that it is what they give. Returns the change of place, m.
   double push_driven(double dt, bool begins, Workspace& work, const std::vector<TiePair>& ties, DrivenTool& tool) const;
-  /// All that a sweep changes but for the velocities, which follow from it: calls each(numbers, place, count) for what lies together, with its place in `state_`.
-  template <class Each> void each_of_state(std::vector<TiePair>& ties, std::vector<DrivenTool>& driven, Each&& each);
-  /// Before a sweep: what those before it have left is mixed, or, if `anew`, is what is mixed from here on.
-  void mix(bool anew, const Movers& movers, Workspace& work, std::vector<TiePair>& ties, std::vector<DrivenTool>& driven);
+  /// Of mixing.h: the state is what pairs, ties and tools that forces drive bear; the velocities follow it.
+  void read_state(const LargeArray<ContactPair>& pairs, const std::vector<TiePair>& ties, const std::vector<DrivenTool>& driven);
+  void begin_mixing(const LargeArray<ContactPair>& pairs, const std::vector<TiePair>& ties, const std::vector<DrivenTool>& driven);
+  void mix(Workspace& work, const LargeArray<ContactPair>& pairs, std::vector<TiePair>& ties, std::vector<DrivenTool>& driven);
+  static constexpr int kNumbers = 7;
+  /// Where what pair i bears lies: its impulse, slip, radiated. Returns how many numbers that is.
+  int numbers_of(long i, const ContactPair& pair, double* (&at)[kNumbers]);
   /// Of pair i, which rubs or not, as it stands.
   double impulse(long i) const;
   Node slip(long i) const;
