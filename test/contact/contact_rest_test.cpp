@@ -79,16 +79,17 @@ TEST(ContactRest, AShakenBlockAndOneAtRest) {
     most = std::max(most, kinetic(world));
   }
   EXPECT_LT(most, scale);
-  // Contact takes energy from the swing of the block and never gives any: the most of each quarter falls.
+  // Contact takes energy from the swing of the block and never gives any: the mean of each quarter falls. (The largest of a
+  // quarter need not: it depends on how the swings of several frequencies happen to meet.)
   double quarter[4] = {0, 0, 0, 0}, creep = 0;
   double x = 0;
   for (int i = 0; i < still; ++i) {
     world.step(contact, dt, i % 1000 == 0);
-    quarter[4 * i / still] = std::max(quarter[4 * i / still], kinetic(world));
+    quarter[4 * i / still] += kinetic(world) * 4 / still;
     if (i == still / 4) x = world.x[2][0];
     if (i > still / 4) creep = std::max(creep, std::abs(world.x[2][0] - x));
   }
-  std::cout << "  energy at most " << most << " J, in the quarters of the rest " << quarter[0] << " " << quarter[1] << " " << quarter[2] << " " << quarter[3] << " J; moved by " << creep << " m\n";
+  std::cout << "  energy at most " << most << " J, its mean in the quarters of the rest " << quarter[0] << " " << quarter[1] << " " << quarter[2] << " " << quarter[3] << " J; moved by " << creep << " m\n";
   for (int q = 1; q < 4; ++q) EXPECT_LT(quarter[q], quarter[q - 1]);
   EXPECT_LT(creep, 1e-7);
   EXPECT_EQ(world.crossings, 0);
