@@ -180,9 +180,7 @@ void Sweeps::pack(Tile& tile, const LargeArray<ContactPair>& pairs, const std::v
 
 void Sweeps::end_still(double dt, const Workspace& work, const LargeArray<ContactPair>& pairs, Tile& tile) const {
   tile.still_gap.clear();
-  for (const long i : tile.still) {
-    tile.still_gap.push_back(pairs[i].gap + dt * pairs[i].normal.dot(relative(pairs[i], work.v)));
-  }
+  for (const long i : tile.still) tile.still_gap.push_back(pairs[i].gap + dt * pairs[i].normal.dot(relative(pairs[i], work.v)));
 }
 
 double Sweeps::impulse(long i) const { return place_[i] < 0 ? 0 : tiles_[i / tile_size_].packs[place_[i] / kLanes].impulse[place_[i] % kLanes]; }
