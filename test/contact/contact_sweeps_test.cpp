@@ -126,7 +126,7 @@ void expect_impulses_made_the_velocities(Heap& heap, int sweeps) {
 }
 
 TEST(ContactSweeps, ImpulsesAreWhatTheVelocitiesGot) {
-  for (const int sweeps : {3, 12, 13}) {  // before any are mixed, in the midst of it, after it
+  for (const int sweeps : {3, 12, 13}) {  // before any are mixed, and after some were
     Heap heap(400, 150, false, 7);
     expect_impulses_made_the_velocities(heap, sweeps);
   }
