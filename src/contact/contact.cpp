@@ -49,7 +49,7 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
   m.body_shifts = part_bodies(m.layer, setup, m.features, x, m.warnings);
   const Sides sides = find_sides(m.layer, m.features, x, at_start);
   m.sides = sides.of_facet;
-  set_back(m.layer, sides, setup, m.features, m.tools, m.warnings);
+  set_back(kOutside * m.layer, sides, setup, m.features, m.tools, m.warnings);
   check_start(m.layer, m.sides, setup, x, at_start, m.features, m.tools, m.warnings);
   m.tools.place_all(m.features, at_start, false, place);  // set back
   if (setup.dimension == 3) find_level_parts(m.features);

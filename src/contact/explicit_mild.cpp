@@ -93,12 +93,13 @@ ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x
   if (list.size() > 0) {
     const std::vector<PlanePose> planes = tools.planes(motion);
     gather(x, v, v_star, dt, motion, planes);
+    const Range range{reach, 0, travel, layer};
     // ---- pairs; a plane repels from both its sides, as a surface does
     if (config.pairing == "node_node") {
-      add_plane_pairs(features, work, planes, reach, list, near.pairs);
+      add_plane_pairs(features, work, planes, range, list, near.pairs);
       pair_nearest_nodes(reach, travel, list, features, work, near.pairs);
     } else {
-      narrow_phase(constants(), nullptr, planes, true, {reach, 0, travel}, team, list, near);
+      narrow_phase(constants(), nullptr, planes, true, range, team, list, near);
     }
     const auto left_out = [&](ContactPair& pair) {
       if (pair.gap < 0) {

@@ -108,7 +108,7 @@ ContactStep Contact::Impl::advance_geometric(double dt, NodeField& x, NodeField&
         if (pair.nodes > 0 && pair.gap < layer) put_back(pair);
       }
     LargeArray<ContactPair> on_planes;
-    add_plane_pairs(features, work, planes, layer, list, on_planes);
+    add_plane_pairs(features, work, planes, {layer, 0, travel, layer}, list, on_planes);
     for (ContactPair& pair : on_planes) {
       work.x[pair.node[1]] = work.x[pair.node[0]] - pair.gap * pair.normal;
       if (pair.gap < layer) put_back(pair);

@@ -230,7 +230,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
       if (list.size() > 0) {
         gather(x, v, v_star, dt, motion, planes);
         const Layers layers(records, tried, work, dt, previous_dt, layer, ceiling);
-        narrow_phase(constants(), &layers, planes, all, {reach, bound, travel}, team, list, near);
+        narrow_phase(constants(), &layers, planes, all, {reach, bound, travel, thickest}, team, list, near);
         layers.hand_over(near.born, near.pairs);
         if (waves.any()) delay.recall(work, near.pairs, near.rubs);
         laps.done(&ContactTimes::narrow);
@@ -252,6 +252,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
     const int touch = swept.open ? first_touch(dt) : -1;
     laps.done(&ContactTimes::check);
     if (swept.open && touch < 0) {
+      step.settled = swept.settled;
       step.tool_push.assign(motion.size(), 0.0);
       for (const DrivenTool& tool : driven) step.tool_push[tool.tool] = tool.push;
       moved_by(way);

@@ -36,7 +36,7 @@ class Phase {
   void vertices(NearList& list, long first, long last) {
     for (long i = first; i < last; ++i) {
       NearList::VertexGroup& g = list.groups[i];
-      if (g.wake > awake_) continue;
+      if (g.wake > awake_ || (g.at_rest && stands(list, g))) continue;
       if (candidates_.size() >= kFacetsAtOnce) meet_facets(list);
       for (int e = g.first; e < g.last; ++e)
         if (list.facets[e].wake <= awake_) candidates_.push_back({static_cast<int>(i), e});
@@ -50,7 +50,8 @@ class Phase {
     int awake[kEdgesAtOnce], count = 0;
     for (long i = first; i < last; ++i) {
       awake[count] = static_cast<int>(i);
-      count += list.watched[i].wake <= awake_;
+      const NearList::EdgePair& e = list.watched[i];
+      count += e.wake <= awake_ && !(e.at_rest && stands(e));
       if (count == kEdgesAtOnce) meet_edges(list, awake, count), count = 0;
     }
     meet_edges(list, awake, count);
@@ -112,6 +113,7 @@ class Phase {
       const int group = candidates_[i].group;
       NearList::VertexGroup& g = list.groups[group];
       hits_.clear();
+      bool clear = true;  // of all layers
       for (; i < count && candidates_[i].group == group; ++i) {
         NearList::FacetEntry& e = list.facets[candidates_[i].entry];
         const double distance = std::sqrt(faces_[i / kLanes].squared[i % kLanes]);
@@ -126,8 +128,10 @@ class Phase {
         hit.entry = candidates_[i].entry;
         hit.candidate = i;
         hit.feature = feature_of(hit.closest, e.facet);
+        clear = clear && is_clear(distance);
         watch_touch(candidates_[i].entry, group, distance);
       }
+      g.at_rest = clear && stands(list, g);
       if (hits_.empty()) {
         g.wake = std::numeric_limits<double>::infinity();
         for (int e = g.first; e < g.last; ++e) g.wake = std::min(g.wake, list.facets[e].wake);
@@ -156,9 +160,23 @@ class Phase {
       const EdgePack& pack = packs[i / kLanes];
       const int l = i % kLanes;
       const double distance = pack.inside[l] != 0 ? cross(list, awake[i], pack, l) : pass(list, awake[i]);
-      if (distance > range_.reach) list.watched[awake[i]].wake = range_.travel + distance;
+      NearList::EdgePair& e = list.watched[awake[i]];
+      if (distance > range_.reach) e.wake = range_.travel + distance;
+      e.at_rest = is_clear(distance) && stands(e);
     }
   }
+
+  /// Far enough from the edge of all layers for rounding not to matter.
+  bool is_clear(double distance) const { return distance > range_.thickest * (1 + 1e-12); }
+  bool stands(const int* nodes, int count) const {
+    return std::all_of(nodes, nodes + count, [&](int i) { return work_.stands[i] != 0; });
+  }
+  bool stands(const NearList& list, const NearList::VertexGroup& g) const {
+    if (work_.stands[g.node] == 0) return false;
+    const auto first = list.facets.begin() + g.first, last = list.facets.begin() + g.last;
+    return std::all_of(first, last, [&](const NearList::FacetEntry& e) { return stands(e.node, f_.corners()); });
+  }
+  bool stands(const NearList::EdgePair& e) const { return stands(e.node, 4); }
 
   void watch_touch(int entry, int group, double distance) {
     if (0.999 * distance <= range_.closing) out_.close.emplace_back(entry, group, distance);
@@ -315,12 +333,12 @@ void put_in_order(LargeArray<ContactPair>& pairs) {
 // Of a point x and its foot f on the plane, which go to x1 and f1: along the normal n1 with which the
 // step ends, (x - f) . n1 + (v_x - v_f) . n1 dt = (x1 - f1) . n1 is the gap at the end itself, as f1
 // lies on the plane, however far both slide and the plane turns.
-void add_plane_pairs(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double reach,
+void add_plane_pairs(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, const Range& range,
                      const NearList& list, LargeArray<ContactPair>& pairs) {
   for (const NearList::PlanePair& p : list.planes) {
     const PlanePose& plane = planes[p.tool];
     const double gap = dot3(work.x[p.node] - plane.point, plane.normal) * dot3(plane.normal, plane.end_normal);
-    if (gap > reach) continue;
+    if (gap > range.reach || (gap > range.thickest && work.stands[p.node] != 0 && work.stands[p.foot] != 0)) continue;
     pairs.emplace_back(PairKey::make(PairKey::plane, p.vertex, 0, p.tool), features.vertex_surface[p.vertex], features.bodies + p.tool, gap, false, plane.end_normal);
     pairs.back().link({p.node, p.foot}, {1, -1});
   }
@@ -368,7 +386,7 @@ void narrow_phase(const PairConstants& constants, const Layers* layers, const st
                   NearList& list, Narrow& result) {
   result.clear();
   Phase on_planes(constants, layers, all, range, result);
-  add_plane_pairs(constants.features, constants.work, planes, range.reach, list, result.pairs);
+  add_plane_pairs(constants.features, constants.work, planes, range, list, result.pairs);
   on_planes.finish_planes();
   std::vector<LargeArray<ContactPair>> corners(team.size());
   const auto same_vertex = [&](long i) { return list.groups[i].vertex == list.groups[i - 1].vertex; };

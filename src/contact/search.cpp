@@ -93,11 +93,14 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
   travel = used = 0;
   ++builds;
   inertia = 1;
+  work.fixed.clear();
+  work.stands.assign(work.vertex.size(), 0);
   for (int i = 0; i < work.body_entries; ++i) {
     work.share[i].inverse_mass = inverse_mass[work.vertex[i]];
     const int h = held_of[work.vertex[i]];
     work.share[i].held = h >= 0;
     work.projector[i] = h >= 0 ? &held[h].projector : nullptr;
+    if (work.share[i].inverse_mass == 0 || (h >= 0 && held[h].projector.topLeftCorner(features.dimension, features.dimension).isZero(0))) work.fixed.push_back(i);
   }
   tie_pairs.clear();
   for (const NearList::TieEntry& entry : list.ties) {
@@ -123,12 +126,14 @@ void Contact::Impl::gather(const NodeField& x, const NodeField& v, const NodeFie
       work.before[i] = v[n];
     }
   });
+  for (const int i : work.fixed) work.stands[i] = work.v[i] == Node::Zero();
   // Where a point of a tool is and how it moves, from its place in the tool's frame.
   const auto place_on_tool = [&](size_t entry, int tool, const Vec3& p) {
     const ToolMotion& m = motion[tool];
     const Vec3 now = pose0(m, p);
     work.x[entry] = node(now);
     work.v[entry] = node((pose1(m, p) - now) / dt);
+    work.stands[entry] = m.inverse_mass == 0 && work.v[entry] == Node::Zero();
     work.before[entry] = previous_dt > 0 ? node((now - pose0(previous_motion[tool], p)) / previous_dt) : work.v[entry];
   };
   size_t feet = list.planes.size();

@@ -130,7 +130,7 @@ class Start {
     for (int turn = 0; turn < 200; ++turn) {
       double worst = 0;
       for (const StartGap& g : gaps) {
-        const double missing = layer_ - (g.gap - dot3(g.away, t));
+        const double missing = kOutside * layer_ - (g.gap - dot3(g.away, t));
         if (missing <= 0) continue;
         t -= missing * g.away;
         worst = std::max(worst, missing);

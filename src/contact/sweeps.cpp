@@ -333,7 +333,8 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
     }
     result.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
     ++result.sweeps;
-    if (change >= tolerance && result.sweeps < most) continue;
+    result.settled = change < tolerance;
+    if (!result.settled && result.sweeps < most) continue;
     std::atomic<bool> open{true};
     each_tile([&](Tile& tile) {
       end_still(dt, work, pairs, tile);

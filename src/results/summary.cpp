@@ -177,6 +177,7 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
   const double element_steps = static_cast<double>(stepped) * static_cast<double>(simulation.steps());
   const StepLimit smallest = simulation.smallest_step();
   const ContactStatus contact = simulation.contact_status();
+  const auto swept = static_cast<double>(contact.swept_steps);
 
   Json j = head(scene, code, message);
   j["per_metre_of_width"] = model.per_width();
@@ -197,6 +198,8 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
                   {"halvings", contact.halvings},
                   {"min_gap_over_h0", number(contact.min_gap_over_layer)},
                   {"h0_m", number(contact.layer)},
+                  {"sweeps_per_step", number(ratio(static_cast<double>(contact.sweeps), swept))},
+                  {"share_at_max_sweeps", number(ratio(static_cast<double>(contact.unsettled_steps), swept))},
                   {"explicit_stable_dt_s", contact.explicit_stable_dt > 0 ? number(contact.explicit_stable_dt) : Json(nullptr)}};
   j["plastic_strain"] = maximum(now.plastic_strain, model);
   Peak strain = record.surface_strain, thinning = record.thinning;

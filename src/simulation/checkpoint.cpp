@@ -11,7 +11,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f660000000bu;
+constexpr std::uint64_t kLayout = 0x6d726f660000000cu;
 
 template <class T> std::size_t mark_of(const T* values, std::size_t count) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(values), count * sizeof(T)});
@@ -43,7 +43,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   for (double* value : {&time, &dt, &previous_dt, &previous_kick, &work, &damping, &settled_away, &friction, &contact_dissipated, &contact_potential,
                         &initial, &most, &min_gap, &explicit_stable_dt, &first_dt, &first_element_dt, &smallest.dt, &next_crossing_check, &wall, &observed})
     a.number(*value);
-  for (long* value : {&steps, &halvings, &active_pairs, &crossings, &longer_steps}) a.number(*value);
+  for (long* value : {&steps, &halvings, &sweeps, &swept_steps, &unsettled_steps, &active_pairs, &crossings, &longer_steps}) a.number(*value);
   a.raw(control);
   watch.exchange(a);
   if (plan.time_step.limit == "global") global.exchange(a, static_cast<std::size_t>(elements.blocks()) * kLanes);

@@ -118,6 +118,9 @@ ContactStatus Simulation::contact_status() const {
   const Impl& s = *impl_;
   ContactStatus c;
   c.halvings = s.halvings;
+  c.sweeps = s.sweeps;
+  c.swept_steps = s.swept_steps;
+  c.unsettled_steps = s.unsettled_steps;
   c.crossings = s.crossings;
   c.min_gap_over_layer = s.min_gap;
   c.active_pairs = s.active_pairs;

@@ -70,7 +70,7 @@ struct Simulation::Impl {
 
   // the ledger's running sums, J
   double work = 0, damping = 0, settled_away = 0, friction = 0, contact_dissipated = 0, contact_potential = 0, initial = 0, most = 0;
-  long halvings = 0;
+  long halvings = 0, sweeps = 0, swept_steps = 0, unsettled_steps = 0;
   double min_gap = 1;
   double explicit_stable_dt = 0;
   bool overstepped = false;         ///< a step was longer than the explicit contact is stable, and it has been told

@@ -72,6 +72,9 @@ void Simulation::Impl::book(const ContactStep& done) {
   contact_dissipated += done.dissipated;
   contact_potential = done.potential;
   halvings += done.halvings;
+  sweeps += done.sweeps;
+  swept_steps += done.sweeps > 0;
+  unsettled_steps += !done.settled;
   active_pairs = done.active;
   min_gap = std::min(min_gap, done.min_gap_over_layer);
   if (done.stable_dt > 0 && (explicit_stable_dt == 0 || done.stable_dt < explicit_stable_dt)) explicit_stable_dt = done.stable_dt;

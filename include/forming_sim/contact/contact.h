@@ -78,6 +78,7 @@ struct ContactStep {
   double dt = 0;                  ///< the step taken; the asked one over 2^halvings
   int halvings = 0;
   int sweeps = 0;
+  bool settled = true;            ///< in the step taken they came to their end, not to max_sweeps
   long active = 0;                ///< pairs that carried an impulse
   double min_gap_over_layer = 1;  ///< smallest end-of-step gap / h0, at most 1
   double layer = 0;               ///< thickest layer in use, m: h0, or more where the closing is fast

@@ -22,6 +22,7 @@ struct NearList {
     int first, last;           ///< of `facets`
     int near_first, near_last; ///< of `neighbours`
     double wake;               ///< the least of its facets
+    bool at_rest = false;      ///< out of all layers, with all that stands when last looked at: need not be looked at while it still does
   };
   struct EdgePair {
     int first, second;         ///< edges
@@ -29,6 +30,7 @@ struct NearList {
     int node[8];               ///< ends of the first and of the second; third corners of the first two facets at either, where there is none an end of the edge
     int listed;                ///< index in `edges`
     double wake;               ///< as of facets; counts where the pair is watched
+    bool at_rest = false;      ///< as of groups
   };
   struct PlanePair {
     int vertex, node, foot;    ///< foot: place in the workspace of the plane's nearest point

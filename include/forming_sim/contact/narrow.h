@@ -21,6 +21,7 @@ struct Range {
   double reach;    ///< pairs nearer than this are found, m
   double closing;  ///< bound on how much nearer any two features come in the step, m
   double travel;   ///< bound on all relative motion since the list was built, m
+  double thickest; ///< of all layers, m
 };
 
 /// A listed vertex-facet or edge-edge pair near enough to be met in this step.
@@ -44,7 +45,8 @@ struct Narrow {
 };
 
 /// All pairs nearer than `reach`. Entries that were farther than reach + the
-/// distance travelled since they were last looked at are skipped.
+/// distance travelled since they were last looked at are skipped. So are those that are at rest: where the nodes that a
+/// clamp holds lie between tools that do not move, out of their layers, nothing happens.
 /// Where one of the two features is not the nearest of its own surface (another
 /// corner or facet of it lies nearer to the other's point) the layer is half as
 /// thick: such a pair pushes askew, and is needed only where nothing else has
@@ -55,9 +57,9 @@ struct Narrow {
 void narrow_phase(const PairConstants& constants, const Layers* layers, const std::vector<PlanePose>& planes, bool all, const Range& range, Team& team,
                   NearList& list, Narrow& result);
 
-/// Adds the pairs of vertices with the planes that they are nearer to than `reach`, or behind;
+/// Adds the pairs of vertices with the planes that they are nearer to than `reach`, or behind, but for those at rest;
 /// geometry and key only.
-void add_plane_pairs(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, double reach,
+void add_plane_pairs(const Features& features, const Workspace& work, const std::vector<PlanePose>& planes, const Range& range,
                      const NearList& list, LargeArray<ContactPair>& pairs);
 
 /// In the order of their keys, each once.

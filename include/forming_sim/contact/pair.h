@@ -111,6 +111,8 @@ struct Workspace {
   NodeField steady;            ///< of bodies v_s and phi (shear_waves.h), of tools the velocity; empty where no waves leave
   std::vector<Share> share;
   std::vector<const Mat3*> projector;  ///< of held nodes, else null
+  std::vector<int> fixed;      ///< entries of bodies that contact cannot move, rising
+  std::vector<char> stands;    ///< of every entry: it does not move in this step, and contact cannot move it
 
   /// Calls visit(entry, b) for the nodes of a pair that are of bodies.
   template <class Visit> void each_of_bodies(const Link& pair, Visit&& visit) const {

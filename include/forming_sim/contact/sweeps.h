@@ -24,6 +24,7 @@ namespace forming_sim {
 
 struct SweepResult {
   int sweeps = 0;
+  bool settled = true;    ///< nothing changed by more than the tolerance in the last one
   bool open = true;       ///< every pair that can be moved ends with a gap > 0
   double seconds = 0;     ///< that the sweeps took, without what comes before and after them
 };

@@ -75,6 +75,9 @@ struct SurfaceStrain {
 
 struct ContactStatus {
   long halvings = 0;      ///< steps halved by the continuous check so far
+  long sweeps = 0;        ///< contact.method implicit: in all steps so far
+  long swept_steps = 0;   ///< with any
+  long unsettled_steps = 0;  ///< that ended at contact.max_sweeps, with forces that still changed
   long crossings = 0;     ///< found by the independent check of all pairs, 200 times in a run and at the end of each stage; must be 0
   double min_gap_over_layer = 1;  ///< smallest gap / h0 so far; 1 where nothing ever touched
   double layer = 0;       ///< h0, m
