@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "forming_sim/tensor/repeat.h"
+
 namespace forming_sim {
 
 namespace {
@@ -23,19 +25,23 @@ std::size_t stride_of(std::size_t count, std::size_t most) {
   return std::max<std::size_t>(stride, 1);
 }
 
-Mat3 cross_matrix(const Vec3& r) {
-  Mat3 R;
-  R << 0, -r[2], r[1], r[2], 0, -r[0], -r[1], r[0], 0;
-  return R;
-}
+// The modes: along y alone; along x, y and about z; along all and about all. B of each is the unit vector `along` or turns about that through r.
+constexpr int kTurn = 3;  ///< what is added to the axis of a turn
+template <int modes> constexpr int kMode[6] = {0, 1, 2, kTurn, kTurn + 1, kTurn + 2};
+template <> constexpr int kMode<1>[1] = {1};
+template <> constexpr int kMode<3>[3] = {0, 1, kTurn + 2};
 
-/// Velocities at r of the modes: along y alone; along x, y and about z; along all and about all.
-template <int modes> Eigen::Matrix<double, 3, modes> velocities_at(const Vec3& r) {
-  Eigen::Matrix<double, 3, modes> B;
-  if constexpr (modes == 1) B << 0, 1, 0;
-  else if constexpr (modes == 3) B << 1, 0, -r[1], 0, 1, r[0], 0, 0, 0;
-  else B << Mat3::Identity(), -cross_matrix(r);
-  return B;
+/// H B of a mode at r.
+Vec3 held_velocity(int mode, const Mat3& H, const Vec3& r) {
+  if (mode < kTurn) return H.col(mode);
+  const int i = (mode - kTurn + 1) % 3, j = (mode - kTurn + 2) % 3;
+  return H.col(j) * r[i] - H.col(i) * r[j];
+}
+/// B . u of a mode at r.
+double along_mode(int mode, const Vec3& r, const Vec3& u) {
+  if (mode < kTurn) return u[mode];
+  const int i = (mode - kTurn + 1) % 3, j = (mode - kTurn + 2) % 3;
+  return r[i] * u[j] - r[j] * u[i];
 }
 }  // namespace
 
@@ -122,12 +128,13 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
   Vector g = Vector::Zero();
   double told2 = 0;
   for (const Hold& h : holds) {
-    const Eigen::Matrix<double, 3, modes> B = velocities_at<modes>(vec3(h.x - c));
-    const Eigen::Matrix<double, modes, 3> BH = B.transpose() * h.across;
-    const Vec3 v = vec3(h.v);
-    G += BH * B;
-    g += BH * v;
-    told2 += v.dot(h.across * v);
+    const Vec3 r = vec3(h.x - c), v = vec3(h.v), Hv = h.across * v;
+    repeat<modes>([&](auto k) {
+      const Vec3 HB = held_velocity(kMode<modes>[k], h.across, r);
+      repeat<modes>([&](auto l) { G(int{l}, int{k}) += along_mode(kMode<modes>[l], r, HB); });
+      g[int{k}] += along_mode(kMode<modes>[k], r, Hv);
+    });
+    told2 += v.dot(Hv);
   }
   if (mass > 0) motion.own = rigid(c, Vector((M + kHold * mass * G).ldlt().solve(Mp)));
   if (told2 == 0) return motion;

@@ -54,7 +54,8 @@ void ShearWaves::follow(double dt, double last_dt, const std::vector<double>& in
   const auto place_before = [&](int n) -> Node { return x[n] - dt * after[n] - 0.5 * last_dt * before[n]; };
   constexpr int kNone = std::numeric_limits<int>::max();
   int of = -1;  // the body whose motion is known
-  BodyMotion was, is;
+  ChangeOfMotion whole;
+  double part = 0;  // of what is steady, that the step changes
   next_.clear();
   for (const Rubbing& r : rubs_) place_[r.node] = -1;
   std::size_t i = 0, p = 0;
@@ -78,12 +79,12 @@ void ShearWaves::follow(double dt, double last_dt, const std::vector<double>& in
         held_before.push_back({place_before(h->node), h->told_before / size * along, across});
         held_after.push_back({place_after(h->node), h->told / size * along, across});
       }
-      was = moving_[b].motion(inverse_mass, before, place_before, std::move(held_before));
-      is = moving_[b].motion(inverse_mass, after, place_after, std::move(held_after));
+      whole = ChangeOfMotion(moving_[b].motion(inverse_mass, before, place_before, std::move(held_before)), moving_[b].motion(inverse_mass, after, place_after, std::move(held_after)));
+      part = dt / (body.time + dt);
       of = b;
     }
-    const double part = dt / (body.time + dt), was_phi = r.v[3], phi = was_phi + part * ((rubbed != nullptr) - was_phi);
-    r.change = change_of_velocity(was, place_before(n), is, place_after(n));
+    const double was_phi = r.v[3], phi = was_phi + part * ((rubbed != nullptr) - was_phi);
+    r.change = whole.at(place_before(n), place_after(n));
     r.change[3] = 0;
     r.v += r.change;
     const Node w = after[n] - r.v;

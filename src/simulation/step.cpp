@@ -110,14 +110,14 @@ void Simulation::Impl::book(const ContactStep& done) {
 
 void Simulation::Impl::mean_contact_force(double kick) {
   const std::vector<double>& area = contact->nodal_area();
-  for (int n : touchable) node_impulse[n] = 0;
   contact->add_normal_impulses(node_impulse);
-  double most_now = 0;
+  const double over_kick = 1 / kick, nothing = 1e-12 * contact->stiffness();
+  pressed = false;
   for (int n : touchable) {
-    contact_force[n] += (node_impulse[n] / kick - contact_force[n]) / kForceMeanSteps;
-    most_now = std::max(most_now, std::abs(contact_force[n]) / area[n]);
+    contact_force[n] += (node_impulse[n] * over_kick - contact_force[n]) * (1 / kForceMeanSteps);
+    node_impulse[n] = 0;
+    pressed = pressed || std::abs(contact_force[n]) > nothing * area[n];
   }
-  pressed = most_now > 1e-12 * contact->stiffness();
   if (!pressed)
     for (int n : touchable) contact_force[n] = 0;
 }

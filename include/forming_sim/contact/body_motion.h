@@ -30,15 +30,22 @@ struct WholeMotion {
 };
 
 struct BodyMotion {
-  WholeMotion own, told;
-  double agreed = 0;  ///< 1: the holds are those of a rigid motion, 0: of none
+  WholeMotion own, told;  ///< about the same c
+  double agreed = 0;      ///< 1: the holds are those of a rigid motion, 0: of none
 
-  Node at(const Node& x) const { return own.at(x) + agreed * told.at(x); }
+  /// own + part told.
+  WholeMotion with(double part) const { return {own.c, own.v + part * told.v, own.w + part * told.w}; }
+  Node at(const Node& x) const { return with(agreed).at(x); }
 };
-/// Of a point of the body that was at `from`, and is at `to`.
-inline Node change_of_velocity(const BodyMotion& was, const Node& from, const BodyMotion& is, const Node& to) {
-  return is.own.at(to) - was.own.at(from) + is.agreed * (is.told.at(to) - was.told.at(from));
-}
+/// From one motion of a body to the next; told motion counts by how far the holds agree in the latter.
+struct ChangeOfMotion {
+  WholeMotion was, is;
+
+  ChangeOfMotion() = default;
+  ChangeOfMotion(const BodyMotion& before, const BodyMotion& after) : was(before.with(after.agreed)), is(after.with(after.agreed)) {}
+  /// Change of velocity of a point of the body that was at `from`, and is at `to`.
+  Node at(const Node& from, const Node& to) const { return is.at(to) - was.at(from); }
+};
 
 /// A point whose velocity is told in some directions.
 struct Hold {
