@@ -120,6 +120,7 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
   for (const Hold& h : holds) size2 = std::max(size2, vec3(h.x - c).squaredNorm());
   for (int i = ways; i < modes; ++i) M(i, i) += kLine * mass * size2;
   BodyMotion motion;
+  motion.own.c = motion.told.c = c;
   if (holds.empty()) {
     motion.own = rigid(c, mass > 0 ? Vector(M.ldlt().solve(Mp)) : Vector::Zero());
     return motion;

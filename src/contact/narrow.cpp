@@ -113,7 +113,6 @@ class Phase {
       const int group = candidates_[i].group;
       NearList::VertexGroup& g = list.groups[group];
       hits_.clear();
-      bool clear = true;  // of all layers
       for (; i < count && candidates_[i].group == group; ++i) {
         NearList::FacetEntry& e = list.facets[candidates_[i].entry];
         const double distance = std::sqrt(faces_[i / kLanes].squared[i % kLanes]);
@@ -128,10 +127,9 @@ class Phase {
         hit.entry = candidates_[i].entry;
         hit.candidate = i;
         hit.feature = feature_of(hit.closest, e.facet);
-        clear = clear && is_clear(distance);
         watch_touch(candidates_[i].entry, group, distance);
       }
-      g.at_rest = clear && stands(list, g);
+      g.at_rest = !hits_.empty() && std::all_of(hits_.begin(), hits_.end(), [&](const Hit& hit) { return is_clear(hit.distance); }) && stands(list, g);
       if (hits_.empty()) {
         g.wake = std::numeric_limits<double>::infinity();
         for (int e = g.first; e < g.last; ++e) g.wake = std::min(g.wake, list.facets[e].wake);

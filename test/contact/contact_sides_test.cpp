@@ -36,7 +36,7 @@ double apart(const World& a, const World& b) {
 }
 
 void expect_the_same(const Mesh& tool, const Mesh& outline) {
-  for (double lift : {0., 20 * h0}) {
+  for (double lift : {0., 10 * h0}) {
     std::string wanted_warnings, warnings;
     const World wanted = pressed(outline, lift, wanted_warnings), found = pressed(tool, lift, warnings);
     EXPECT_GT(wanted.exchanged, 0);

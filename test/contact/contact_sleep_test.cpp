@@ -116,3 +116,105 @@ TEST(ContactSearch, WithoutTheCountOfTheWayPairsAreMissed) {
   narrow_phase({scene.features, work, 1, .02}, nullptr, scene.planes, true, {reach, .9 * reach, 0}, one, list, near);
   EXPECT_LT(near.pairs.size(), now.pairs.size());
 }
+
+namespace {
+
+/// The left part of a strip lies clamped between a die and a pad, its right end beats on the die. creep: velocity with which the clamp is told to move, m/s.
+World clamped(double creep, const std::function<Vec3(double)>& die) {
+  World world;
+  world.config.layer = 1e-3;
+  world.add_strip(Vec3(0, 1, 0), 20, 2, .05, .05, 2700, 5e9);
+  world.add_tool("die", contact_test::polyline({Vec3(-.2, 1, 0), Vec3(.8, 1, 0)}), .1, die);
+  world.add_tool("pad", contact_test::polyline({Vec3(.35, 1.1, 0), Vec3(-.2, 1.1, 0)}), .1, [](double) { return Vec3::Zero(); });
+  for (int n = 0; n < static_cast<int>(world.x.size()); ++n) {
+    const double along = world.x[n][0] - .31;
+    if (along < 0) world.held.push_back({n, Mat3::Zero()});
+    else world.v[n] = Node(0, -30 * along, 0, 0);
+  }
+  world.held_velocity.assign(world.held.size(), Node(0, creep, 0, 0));
+  return world;
+}
+
+}  // namespace
+
+// Some nodes stand, and in each seventh step none: no pair is missed but those at rest.
+TEST(ContactSearch, OnlyWhatStandsOutOfItsLayerIsPassedOver) {
+  for (const int dimension : {2, 3}) {
+    Scene scene(dimension);
+    const double reach = .08, layer = .02, radius = .3, farthest = .002;
+    Workspace work, work_now;
+    NearList list = scene.list(radius, work);
+    Narrow near, now;
+    Team one(1);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> number(-1, 1);
+    const auto stands = [&](int n) { return scene.features.rigid(n) || scene.world.x[n][0] < 0; };
+    long passed = 0, passed_edges = 0, met = 0;
+    int step = 0;
+    for (double travel = 0; travel + reach <= radius; travel += farthest, ++step) {
+      const bool all_move = step % 7 == 6;
+      work.stands.resize(work.vertex.size());
+      for (std::size_t i = 0; i < work.vertex.size(); ++i) work.stands[i] = !all_move && stands(work.vertex[i]);
+      narrow_phase({scene.features, work, 1, layer}, nullptr, scene.planes, true, {reach, 0, travel, layer}, one, list, near);
+      NearList fresh = scene.list(reach, work_now);
+      narrow_phase({scene.features, work_now, 1, layer}, nullptr, scene.planes, true, {reach, 0, 0}, one, fresh, now);
+      std::size_t i = 0;
+      for (const ContactPair& pair : now.pairs) {
+        if (i < near.pairs.size() && near.pairs[i].key == pair.key) {
+          EXPECT_EQ(near.pairs[i].gap, pair.gap);
+          ++i, ++met;
+          continue;
+        }
+        EXPECT_FALSE(all_move) << "step " << step;
+        EXPECT_GT(pair.gap, layer) << "step " << step;
+        for (int k = 0; k < pair.nodes; ++k) EXPECT_TRUE(stands(work_now.vertex[pair.node[k]])) << "step " << step;
+        ++passed;
+        passed_edges += pair.key.kind() == PairKey::edge_edge;
+      }
+      EXPECT_EQ(i, near.pairs.size()) << "step " << step;
+      const Node down = dimension == 2 ? Node(.2, -.3, 0, 0) : Node(.2, .1, -.3, 0);
+      for (int n = 0; n < scene.features.body_nodes; ++n)
+        if (all_move || !stands(n)) scene.world.x[n] += farthest * (down + .3 * Node(number(random), number(random), dimension == 3 ? number(random) : 0, 0));
+      scene.gather(work);
+    }
+    EXPECT_GT(met, 10 * step);
+    EXPECT_GT(passed, 3 * step);
+    if (dimension == 3) {
+      EXPECT_GT(passed_edges, step);
+    }
+  }
+}
+
+// A clamp that creeps by less than a place can tell does not stand: all of its pairs are looked at, and no bit is another.
+TEST(ContactSearch, WhatStandsChangesNothing) {
+  const auto rest = [](double) { return Vec3::Zero(); };
+  World standing = clamped(0, rest), creeping = clamped(1e-300, rest);
+  Contact of_standing = standing.make(), of_creeping = creeping.make();
+  long active = 0;
+  for (int i = 0; i < 1500; ++i) {
+    standing.step(of_standing, 2e-6, i % 100 == 0);
+    creeping.step(of_creeping, 2e-6, false);
+    active += standing.last.active;
+    ASSERT_EQ(standing.last.potential, creeping.last.potential) << "step " << i;
+    ASSERT_EQ(standing.last.dissipated, creeping.last.dissipated) << "step " << i;
+    for (int t = 0; t < 2; ++t) ASSERT_EQ(standing.last.tool_impulse[t], creeping.last.tool_impulse[t]) << "step " << i;
+  }
+  EXPECT_GT(active, 100);
+  EXPECT_EQ(standing.crossings, 0);
+  for (std::size_t n = 0; n < standing.x.size(); ++n) EXPECT_EQ(standing.x[n], creeping.x[n]);
+}
+
+// A die that has stood for long comes up under the clamp.
+TEST(ContactSearch, AToolThatStartsAgainIsSeenByWhatIsClamped) {
+  World world = clamped(0, [](double t) { return Vec3(0, 5 * std::max(0., t - 1e-3), 0); });
+  Contact contact = world.make();
+  std::string told;
+  try {
+    for (int i = 0; i < 1000; ++i) world.step(contact, 2e-6, false);
+  } catch (const Error& error) {
+    told = error.what();
+  }
+  EXPECT_NE(told.find("tool die runs over node"), std::string::npos) << told;
+  EXPECT_NE(told.find("of body body0"), std::string::npos) << told;
+  EXPECT_NEAR(world.time, 1.2e-3, 1e-5);  // the layer of 1 mm at 5 m/s
+}

@@ -110,6 +110,27 @@ TEST(RunScene, TellsToolsThatTouchedNothing) {
   EXPECT_EQ(told, 1);
 }
 
+// Two sweeps are too few for the forces to come to their end, a hundred are not; nothing is said where nothing is near.
+TEST(RunScene, TellsHowFarTheSweepsCame) {
+  const auto contact_of = [](int max_sweeps, bool punch) {
+    const TemporaryDirectory directory;
+    Scene scene = small_scene();
+    scene.contact.max_sweeps = max_sweeps;
+    if (!punch) scene.tools.clear();
+    scene.stages.resize(1);
+    run_scene(scene, directory.path(), 1, "", kNever);
+    return read_json(directory.file("summary.json"))["contact"];
+  };
+  const json few = contact_of(2, true), enough = contact_of(100, true), none = contact_of(100, false);
+  EXPECT_GT(few["share_at_max_sweeps"].get<double>(), 0);
+  EXPECT_LE(few["share_at_max_sweeps"].get<double>(), 1);
+  EXPECT_LE(few["sweeps_per_step"].get<double>(), 2);
+  EXPECT_EQ(enough["share_at_max_sweeps"], 0);
+  EXPECT_GT(enough["sweeps_per_step"], few["sweeps_per_step"]);
+  EXPECT_TRUE(none["sweeps_per_step"].is_null());
+  EXPECT_TRUE(none["share_at_max_sweeps"].is_null());
+}
+
 // A one-point cell is shown as two triangles, and stepped as one element.
 TEST(RunScene, TellsCellsFromElements) {
   const TemporaryDirectory directory;

@@ -7,6 +7,7 @@
 // likewise. So a vertex exactly over a shared edge has one pair, and one in a
 // groove has a pair with each wall. Two edges meet where their closest points
 // lie inside both and they are not parallel.
+#include <limits>
 #include <vector>
 
 #include "forming_sim/contact/constants.h"
@@ -21,7 +22,7 @@ struct Range {
   double reach;    ///< pairs nearer than this are found, m
   double closing;  ///< bound on how much nearer any two features come in the step, m
   double travel;   ///< bound on all relative motion since the list was built, m
-  double thickest; ///< of all layers, m
+  double thickest = std::numeric_limits<double>::infinity();  ///< of all layers, m; while it is not known nothing counts as at rest
 };
 
 /// A listed vertex-facet or edge-edge pair near enough to be met in this step.
