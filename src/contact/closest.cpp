@@ -5,25 +5,14 @@
 namespace forming_sim {
 
 ClosestEdges closest_on_edges(const Node& a0, const Node& a1, const Node& b0, const Node& b1) {
-  const CrossingEdges<double> crossing = crossing_edges(between(b0, a0), between(a0, a1), between(b0, b1));
+  const Vector<double, 3> r = between(b0, a0), u = between(a0, a1), v = between(b0, b1);
+  const CrossingEdges<double> crossing = crossing_edges(r, u, v);
   if (crossing.inside) {
     const Node apart(crossing.apart[0], crossing.apart[1], crossing.apart[2], 0);
     return {crossing.s, crossing.t, apart, dot3(apart, apart), true};
   }
-  const Node u = a1 - a0, v = b1 - b0, r = a0 - b0;
-  ClosestEdges e;
-  // Otherwise an end of one of them is closest.
-  e.squared = -1;
-  const auto offer = [&](double s, double t) {
-    const Node d = r + s * u - t * v;
-    const double squared = dot3(d, d);
-    if (e.squared < 0 || squared < e.squared) e = {s, t, d, squared, false};
-  };
-  offer(0, closest_on_segment(a0, b0, b1));
-  offer(1, closest_on_segment(a1, b0, b1));
-  offer(closest_on_segment(b0, a0, a1), 0);
-  offer(closest_on_segment(b1, a0, a1), 1);
-  return e;
+  const EndOnEdge<double> end = end_on_edge(r, u, v);
+  return {end.s, end.t, Node(end.apart[0], end.apart[1], end.apart[2], 0), end.squared, false};
 }
 
 const ClosestKernels& closest_kernels_of(Isa isa) {

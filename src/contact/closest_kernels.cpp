@@ -85,7 +85,7 @@ inline void edge(const double* places, const double* shares, double wedge, EdgeP
   e.s.store(p.s + at);
   e.t.store(p.t + at);
   const Pack distance = sqrt(dot(e.apart, e.apart));
-  distance.store(p.distance + at);
+  select(e.inside, distance, sqrt(end_on_edge<Pack>(a - b, u, v).squared)).store(p.distance + at);
   const Place normal = (Pack(1.0) / distance) * e.apart, back = Pack(-1.0) * e.apart;
   for (int k = 0; k < 3; ++k) normal[k].store(p.normal[k] + at);
   select(e.inside, Pack(1.0), Pack(0.0)).store(p.inside + at);

@@ -157,9 +157,11 @@ class Phase {
     for (int i = 0; i < count; ++i) {
       const EdgePack& pack = packs[i / kLanes];
       const int l = i % kLanes;
-      const double distance = pack.inside[l] != 0 ? cross(list, awake[i], pack, l) : pass(list, awake[i]);
+      const double distance = pack.distance[l];
       NearList::EdgePair& e = list.watched[awake[i]];
       if (distance > range_.reach) e.wake = range_.travel + distance;
+      else watch_touch(awake[i], -1, distance);
+      if (pack.inside[l] != 0) cross(e, pack, l);  // else vertices see the end that is closest
       e.at_rest = is_clear(distance) && stands(e);
     }
   }
@@ -180,21 +182,10 @@ class Phase {
     if (0.999 * distance <= range_.closing) out_.close.emplace_back(entry, group, distance);
   }
 
-  // Closest at an end of one of them: vertices see that. Returns the distance.
-  double pass(const NearList& list, int index) {
-    const NearList::EdgePair& e = list.watched[index];
-    const double distance = std::sqrt(closest_on_edges(work_.x[e.node[0]], work_.x[e.node[1]], work_.x[e.node[2]], work_.x[e.node[3]]).squared);
-    watch_touch(index, -1, distance);
-    return distance;
-  }
-
-  double cross(const NearList& list, int index, const EdgePack& pack, int l) {
-    const NearList::EdgePair& e = list.watched[index];
+  void cross(const NearList::EdgePair& e, const EdgePack& pack, int l) {
     const double distance = pack.distance[l];
     const bool askew = pack.outside[l] == 0;
-    if (distance > range_.reach) return distance;
-    watch_touch(index, -1, distance);
-    if (!(distance > 0) || !offered(askew, distance)) return distance;
+    if (distance > range_.reach || !(distance > 0) || !offered(askew, distance)) return;
     const double s = pack.s[l], t = pack.t[l];
     out_.pairs.emplace_back(PairKey::make(PairKey::edge_edge, e.first, 0, e.second), e.own, e.surface, distance, askew,
                             Node(pack.normal[0][l], pack.normal[1][l], pack.normal[2][l], 0));
@@ -202,7 +193,6 @@ class Phase {
     pair.link({e.node[0], e.node[1], e.node[2], e.node[3]}, {1 - s, s, t - 1, -t});
     take(pack.shares, l, pair);
     finish();
-    return distance;
   }
 
   std::uint64_t feature_of(const Closest& c, int facet) const {

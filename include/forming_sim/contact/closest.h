@@ -26,9 +26,6 @@ inline Node cross3(const Node& a, const Node& b) {
 
 inline Vector<double, 3> between(const Node& from, const Node& to) { return {{to[0] - from[0], to[1] - from[1], to[2] - from[2]}}; }
 
-/// Parameter in [0, 1] of the point of segment ab closest to p; 0 where a = b.
-inline double closest_on_segment(const Node& p, const Node& a, const Node& b) { return along_segment(between(a, p), between(a, b)); }
-
 /// On a segment of the plane, as OverSegment has it.
 inline void lie_on_segment(double s, const Node& apart, Closest& c) {
   c.weight[0] = 1 - s;

@@ -25,8 +25,9 @@ struct alignas(64) FacePack {
 struct alignas(64) EdgePack {
   const int* node[kLanes];                      ///< eight of each pair, where the list has them: NearList::EdgePair::node
   double s[kLanes], t[kLanes];                  ///< found
-  double distance[kLanes], normal[3][kLanes];   ///< found: m; from the second to the first, length 1
-  double inside[kLanes];                        ///< found: 1 where the closest points are inside both; else the rest means nothing
+  double distance[kLanes];                      ///< found, m
+  double inside[kLanes];                        ///< found: 1 where the closest points are inside both; else all but the distance means nothing
+  double normal[3][kLanes];                     ///< found: from the second to the first, length 1
   double outside[kLanes];                       ///< found: 1 where each, seen from the facets of the other, lies outside their slabs
   SharesPack shares;                            ///< found
 };

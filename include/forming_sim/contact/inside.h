@@ -102,4 +102,31 @@ template <class T> CrossingEdges<T> crossing_edges(const Vector<T, 3>& r, const 
   return e;
 }
 
+/// Of the same that do not cross: one of the closest points is an end.
+template <class T> struct EndOnEdge {
+  T s, t;
+  Vector<T, 3> apart;   ///< likewise
+  T squared;            ///< distance squared, m^2
+};
+template <class T> EndOnEdge<T> end_on_edge(const Vector<T, 3>& r, const Vector<T, 3>& u, const Vector<T, 3>& v) {
+  const auto at = [&](const T& s, const T& t) {
+    EndOnEdge<T> e{s, t, r + s * u - t * v, T(0.0)};
+    e.squared = dot(e.apart, e.apart);
+    return e;
+  };
+  const T zero(0.0), one(1.0);
+  EndOnEdge<T> best = at(zero, along_segment(r, v));
+  const auto offer = [&](const EndOnEdge<T>& other) {
+    const auto nearer = best.squared > other.squared;
+    best.s = select(nearer, other.s, best.s);
+    best.t = select(nearer, other.t, best.t);
+    for (int i = 0; i < 3; ++i) best.apart[i] = select(nearer, other.apart[i], best.apart[i]);
+    best.squared = select(nearer, other.squared, best.squared);
+  };
+  offer(at(one, along_segment(r + u, v)));
+  offer(at(along_segment(-r, u), zero));
+  offer(at(along_segment(v - r, u), one));
+  return best;
+}
+
 }  // namespace forming_sim
