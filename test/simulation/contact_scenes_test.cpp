@@ -243,19 +243,4 @@ TEST(ContactScenes, ASharpGrooveGivesNothing) {
     }
 }
 
-TEST(ContactScenes, OneThreadAndTwoGiveTheSameBits) {
-  for (int dimension : {2, 3}) {
-    Blocks blocks(dimension, dimension == 2 ? 20 : 6, dimension == 2 ? 23 : 7, .1, 300, 1e-4, 2e-4);
-    blocks.plan.contact.friction = .2;
-    Simulation one(blocks.plan, blocks.model, 1), two(blocks.plan, blocks.model, 2);
-    while (one.step()) {
-    }
-    while (two.step()) {
-    }
-    ASSERT_EQ(one.steps(), two.steps());
-    EXPECT_GT(one.energies().friction, 0);
-    for (std::size_t i = 0; i < one.positions().size(); ++i) ASSERT_TRUE(one.positions()[i] == two.positions()[i] && one.velocities()[i] == two.velocities()[i]) << i;
-  }
-}
-
 }  // namespace forming_sim
