@@ -35,7 +35,7 @@ class Laps {
 };
 }  // namespace
 
-// Do the features of a close pair touch on their way? moved: the way of every node, m.
+// Do the features of a close pair touch on their way? moved: the square of the way of every node, m2.
 bool Contact::Impl::touches(double dt, const ClosePair& close) const {
   int n[4], count = 4, split = 2;
   if (close.group >= 0) {
@@ -49,7 +49,7 @@ bool Contact::Impl::touches(double dt, const ClosePair& close) const {
   }
   double most[2] = {0, 0};
   for (int k = 0; k < count; ++k) most[k >= split] = std::max(most[k >= split], moved[n[k]]);
-  if (most[0] + most[1] < 0.999 * close.distance) return false;
+  if (std::sqrt(most[0]) + std::sqrt(most[1]) < 0.999 * close.distance) return false;
   Node x[4], d[4];
   for (int k = 0; k < count; ++k) {
     d[k] = dt * work.v[n[k]];
@@ -62,13 +62,13 @@ bool Contact::Impl::touches(double dt, const ClosePair& close) const {
 // The first close pair that touches on the way, -1: none.
 int Contact::Impl::first_touch(double dt) {
   moved.resize(work.v.size());
-  double farthest[2] = {0, 0};  // of nodes of bodies, of tools
+  double farthest[2] = {0, 0};  // of nodes of bodies, of tools; squares
   for (size_t i = 0; i < moved.size(); ++i) {
-    moved[i] = dt * std::sqrt(dot3(work.v[i], work.v[i]));
+    moved[i] = dt * dt * dot3(work.v[i], work.v[i]);
     double& most = farthest[static_cast<int>(i) >= work.body_entries];
     most = std::max(most, moved[i]);
   }
-  const double far_apart = farthest[0] + std::max(farthest[0], farthest[1]);  // no pair closes by more
+  const double far_apart = std::sqrt(farthest[0]) + std::sqrt(std::max(farthest[0], farthest[1]));  // no pair closes by more
   constexpr long kNone = std::numeric_limits<long>::max();
   std::atomic<long> found{kNone};
   team.share(static_cast<long>(near.close.size()), kPairsOfAThread, [&](long first, long last) {
