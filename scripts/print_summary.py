@@ -50,7 +50,7 @@ def main():
         ("energy balance", f"{number(energy['balance_error'], 100)} % of the work is unaccounted for"),
         ("contact", f"{s['contact']['crossings']} crossings, {s['contact']['halvings']} halved steps, smallest gap {number(s['contact']['min_gap_over_h0'])} h0"),
     ]
-    if s["contact"]["sweeps_per_step"] is not None:
+    if s["contact"].get("sweeps_per_step") is not None:
         rows.append(("contact forces", f"{number(s['contact']['sweeps_per_step'])} sweeps a step, {number(s['contact']['share_at_max_sweeps'], 100)} % of the steps ended at contact.max_sweeps"))
     width = max(len(name) for name, _ in rows)
     for name, text in rows:

@@ -241,13 +241,13 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
         laps.done(&ContactTimes::lanes);
         times.lanes -= swept.seconds;
         times.sweeps += swept.seconds;
+        step.sweeps += swept.sweeps;
         for (int i = 0; i < work.body_entries; ++i) most = std::max(most, dot3(work.v[i], work.v[i]));
       }
       for (const DrivenTool& tool : driven) tool_way = std::max(tool_way, std::abs(tool.speed + tool.push) * dt);
       way = std::max(bound / 2, std::max(predicted, both * std::sqrt(most) * dt) + tool_way);
       if (way <= bound) break;
     }
-    step.sweeps += swept.sweeps;
     check_unmovable(time + dt);
     const int touch = swept.open ? first_touch(dt) : -1;
     laps.done(&ContactTimes::check);

@@ -36,7 +36,7 @@ class Phase {
   void vertices(NearList& list, long first, long last) {
     for (long i = first; i < last; ++i) {
       NearList::VertexGroup& g = list.groups[i];
-      if (g.wake > awake_ || (g.at_rest && stands(list, g))) continue;
+      if (g.wake > awake_ || (is_clear(g.rest) && stands(list, g))) continue;
       if (candidates_.size() >= kFacetsAtOnce) meet_facets(list);
       for (int e = g.first; e < g.last; ++e)
         if (list.facets[e].wake <= awake_) candidates_.push_back({static_cast<int>(i), e});
@@ -51,7 +51,7 @@ class Phase {
     for (long i = first; i < last; ++i) {
       awake[count] = static_cast<int>(i);
       const NearList::EdgePair& e = list.watched[i];
-      count += e.wake <= awake_ && !(e.at_rest && stands(e));
+      count += e.wake <= awake_ && !(is_clear(e.rest) && stands(e));
       if (count == kEdgesAtOnce) meet_edges(list, awake, count), count = 0;
     }
     meet_edges(list, awake, count);
@@ -129,12 +129,15 @@ class Phase {
         hit.feature = feature_of(hit.closest, e.facet);
         watch_touch(candidates_[i].entry, group, distance);
       }
-      g.at_rest = !hits_.empty() && std::all_of(hits_.begin(), hits_.end(), [&](const Hit& hit) { return is_clear(hit.distance); }) && stands(list, g);
       if (hits_.empty()) {
+        g.rest = 0;
         g.wake = std::numeric_limits<double>::infinity();
         for (int e = g.first; e < g.last; ++e) g.wake = std::min(g.wake, list.facets[e].wake);
         continue;
       }
+      const auto nearest = std::min_element(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) { return a.distance < b.distance; });
+      g.rest = is_clear(nearest->distance) && stands(list, g) ? nearest->distance : 0;
+      if (g.rest > 0) continue;  // none of its pairs is one, see add()
       if (g.vertex != vertex_) finish_vertex();
       vertex_ = g.vertex;
       choose(list, g);
@@ -161,12 +164,12 @@ class Phase {
       NearList::EdgePair& e = list.watched[awake[i]];
       if (distance > range_.reach) e.wake = range_.travel + distance;
       else watch_touch(awake[i], -1, distance);
-      if (pack.inside[l] != 0) cross(e, pack, l);  // else vertices see the end that is closest
-      e.at_rest = is_clear(distance) && stands(e);
+      e.rest = is_clear(distance) && stands(e) ? distance : 0;
+      if (pack.inside[l] != 0 && e.rest == 0) cross(e, pack, l);  // of others vertices see the end that is closest
     }
   }
 
-  /// Far enough from the edge of all layers for rounding not to matter.
+  /// Outside of all layers.
   bool is_clear(double distance) const { return distance > range_.thickest * (1 + 1e-12); }
   bool stands(const int* nodes, int count) const {
     return std::all_of(nodes, nodes + count, [&](int i) { return work_.stands[i] != 0; });
@@ -261,16 +264,15 @@ class Phase {
     if (c.feature == Closest::face) {
       if (f_.dimension == 2) pair.link({g.node, e.node[0], e.node[1]}, {1, -c.weight[0], -c.weight[1]});
       else pair.link({g.node, e.node[0], e.node[1], e.node[2]}, {1, -c.weight[0], -c.weight[1], -c.weight[2]});
-      take(faces_[hit.candidate / kLanes].shares, static_cast<int>(hit.candidate % kLanes), pair);
-      return;
-    }
-    if (corners) {
+    } else if (corners) {
       pair.link({turned ? other : g.node, turned ? g.node : other}, {1, -1});
     } else {
       const int i = c.which == 2 ? 0 : c.which, j = c.which == 2 ? 2 : c.which + 1;
       pair.link({g.node, e.node[i], e.node[j]}, {1, -c.weight[i], -c.weight[j]});
     }
-    take(pair);
+    if (is_clear(gap) && stands(pair.node, pair.nodes)) pairs.pop_back();
+    else if (c.feature == Closest::face) take(faces_[hit.candidate / kLanes].shares, static_cast<int>(hit.candidate % kLanes), pair);
+    else take(pair);
   }
 
   // What the nodes make of the pair, as lanes have found it, or here.

@@ -108,7 +108,7 @@ class Start {
       double worst = 0;
       for (const StartGap& g : gaps) {
         Node &a = t[f_.vertex_surface[g.vertex]], &b = t[g.surface], way = g.away;
-        const double missing = layer_ - (g.gap + dot3(g.away, a - b));
+        const double missing = kOutside * layer_ - (g.gap + dot3(g.away, a - b));
         if (missing <= 0) continue;
         if (setup_.axisymmetric) {
           if (std::abs(way[1]) < kAlongAxis) return {};

@@ -23,6 +23,7 @@ Hdf5Handle access_list() {
   cache.flash_incr_mode = H5C_flash_incr__off;
   cache.decr_mode = H5C_decr__off;
   H5Pset_mdc_config(list.id(), &cache);
+  H5Pset_libver_bounds(list.id(), H5F_LIBVER_V18, H5F_LIBVER_LATEST);  // what HDF5 1.8 reads: headers of half the size of those before
   // A file that is being written can be looked at meanwhile.
   H5Pset_file_locking(list.id(), false, true);
   return list;

@@ -16,13 +16,14 @@ template <> hid_t native<std::int64_t>() { return H5T_NATIVE_INT64; }
 template <> hid_t native<std::uint8_t>() { return H5T_NATIVE_UINT8; }
 
 constexpr std::uint64_t kChunkBytes = 1u << 20;
+constexpr std::uint64_t kPackedBytes = 1u << 16;  ///< less gains little by packing, takes an index for its only chunk, and four times as long
 
 /// Chunks of whole rows of about a megabyte.
 void set_storage(hid_t list, const std::vector<std::uint64_t>& shape, std::size_t size, Storage storage) {
   std::uint64_t row = size;
   for (std::size_t axis = 1; axis < shape.size(); ++axis) row *= shape[axis];
   const bool empty = std::find(shape.begin(), shape.end(), 0u) != shape.end();
-  if (storage == Storage::plain || empty || shape.empty()) return;
+  if (storage == Storage::plain || empty || shape.empty() || (storage == Storage::packed && shape[0] * row < kPackedBytes)) return;
   std::vector<hsize_t> chunk(shape.begin(), shape.end());
   chunk[0] = std::clamp<hsize_t>(kChunkBytes / row, 1, shape[0]);
   H5Pset_chunk(list, static_cast<int>(chunk.size()), chunk.data());
@@ -32,6 +33,13 @@ void set_storage(hid_t list, const std::vector<std::uint64_t>& shape, std::size_
     H5Pset_shuffle(list);
     H5Pset_deflate(list, 1);
   }
+}
+
+/// The fields of a frame fit into the header of their group, without an index.
+Hdf5Handle compact_links() {
+  Hdf5Handle list(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_link_phase_change(list.id(), 64, 48);
+  return list;
 }
 
 Hdf5Handle text_type(std::size_t length) {
@@ -195,7 +203,7 @@ Hdf5Group Hdf5Group::group(const std::string& name) const {
 }
 
 Hdf5Group Hdf5Group::create(const std::string& name) {
-  Hdf5Handle group(H5Gcreate2(handle_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  Hdf5Handle group(H5Gcreate2(handle_.id(), name.c_str(), H5P_DEFAULT, compact_links().id(), H5P_DEFAULT), H5Gclose);
   if (!group.valid()) fail("create group", name);
   return Hdf5Group(std::move(group), label_ + "/" + name);
 }

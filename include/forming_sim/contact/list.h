@@ -22,7 +22,7 @@ struct NearList {
     int first, last;           ///< of `facets`
     int near_first, near_last; ///< of `neighbours`
     double wake;               ///< the least of its facets
-    bool at_rest = false;      ///< out of all layers, with all that stands when last looked at: need not be looked at while it still does
+    double rest = 0;           ///< least distance when it was last looked at, if all of it stood then, m: need not be looked at while it still stands, out of all layers
   };
   struct EdgePair {
     int first, second;         ///< edges
@@ -30,7 +30,7 @@ struct NearList {
     int node[8];               ///< ends of the first and of the second; third corners of the first two facets at either, where there is none an end of the edge
     int listed;                ///< index in `edges`
     double wake;               ///< as of facets; counts where the pair is watched
-    bool at_rest = false;      ///< as of groups
+    double rest = 0;           ///< as of groups; counts where the pair is watched
   };
   struct PlanePair {
     int vertex, node, foot;    ///< foot: place in the workspace of the plane's nearest point

@@ -46,8 +46,8 @@ struct Narrow {
 };
 
 /// All pairs nearer than `reach`. Entries that were farther than reach + the
-/// distance travelled since they were last looked at are skipped. So are those that are at rest: where the nodes that a
-/// clamp holds lie between tools that do not move, out of their layers, nothing happens.
+/// distance travelled since they were last looked at are skipped. What is at rest is no pair: where nodes that are held lie at
+/// tools that do not move, or at each other, out of their layers, nothing happens. It need not be looked at to know that.
 /// Where one of the two features is not the nearest of its own surface (another
 /// corner or facet of it lies nearer to the other's point) the layer is half as
 /// thick: such a pair pushes askew, and is needed only where nothing else has

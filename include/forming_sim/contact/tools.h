@@ -32,7 +32,7 @@ Sides find_sides(double layer, const Features& features, const NodeField& x, con
 Node facet_normal(int dimension, const Node& a, const Node& b, const Node& c);
 
 /// Of h0: how far from bodies tools are put. On the edge of its layer rounding would decide whether a tool is in it.
-constexpr double kOutside = 1 + 1e-9;
+constexpr double kOutside = 1 + 1e-6;
 
 /// Moves the tools' vertices (features.place) and planes by `layer` away from
 /// the bodies, so that every facet moves by `layer` along its normal.

@@ -30,7 +30,7 @@ class Hdf5Handle {
 /// How a dataset lies in the file.
 enum class Storage {
   plain,    ///< as it is
-  packed,   ///< bytes shuffled, deflated at level 1
+  packed,   ///< bytes shuffled, deflated at level 1, where there are many
   checked   ///< with a Fletcher-32 checksum a chunk, verified on reading
 };
 

@@ -15,7 +15,7 @@
 //            raised_step {to_s, added_mass_kg, fraction, bodies [{name, added_mass_kg}],
 //                         most {node, added_mass_kg, position}}}   null without time_step.raise_to
 //   contact {crossings, halvings, min_gap_over_h0, h0_m, sweeps_per_step, share_at_max_sweeps, explicit_stable_dt_s}
-//                   of the steps with sweeps; null without any
+//                   per_step, share: of the steps with sweeps; null without any
 //   plastic_strain {max, where}                      at the end (it never decreases)
 //   surface_strain {max, where, at_end_of_forming {max, where}, at_end {max, where}}
 //                   max: over all rows of the history; forming ends with the last form stage
