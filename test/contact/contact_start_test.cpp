@@ -3,6 +3,7 @@
 
 #include "contact/point_bodies.h"
 #include "contact/wedges.h"
+#include "forming_sim/contact/tools.h"
 
 using contact_test::polyline;
 using contact_test::sheet;
@@ -225,7 +226,7 @@ TEST(ContactStart, BlocksWithSidesInLineThatOverlapALittleAreParted) {
       EXPECT_EQ(world.crossings, 0);
       EXPECT_NEAR(world.last.min_gap_over_layer, 1, 1e-6);
       const Vec3 apart = contact.body_shifts()[1] - contact.body_shifts()[0];
-      EXPECT_NEAR(apart[dimension - 1], (1 + overlap) * h0, 1e-6 * h0);
+      EXPECT_NEAR(apart[dimension - 1], (kOutside + overlap) * h0, 1e-6 * h0);
       EXPECT_NEAR(apart.norm(), apart[dimension - 1], 1e-6 * h0);
     }
 }

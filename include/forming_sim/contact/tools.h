@@ -31,7 +31,7 @@ Sides find_sides(double layer, const Features& features, const NodeField& x, con
 /// Unit normal of the triangle abc (2D: of the segment ab, to its right); zero for one without area.
 Node facet_normal(int dimension, const Node& a, const Node& b, const Node& c);
 
-/// Of h0: how far from bodies tools are put. On the edge of its layer rounding would decide whether a tool is in it.
+/// Of h0: how far apart is put what touches. On the edge of a layer rounding would decide what is in it.
 constexpr double kOutside = 1 + 1e-6;
 
 /// Moves the tools' vertices (features.place) and planes by `layer` away from
