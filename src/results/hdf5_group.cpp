@@ -16,7 +16,7 @@ template <> hid_t native<std::int64_t>() { return H5T_NATIVE_INT64; }
 template <> hid_t native<std::uint8_t>() { return H5T_NATIVE_UINT8; }
 
 constexpr std::uint64_t kChunkBytes = 1u << 20;
-constexpr std::uint64_t kPackedBytes = 1u << 16;  ///< less gains little by packing, takes an index for its only chunk, and four times as long
+constexpr std::uint64_t kPackedBytes = 1u << 16;  ///< of less the index of a chunk is as large as what packing saves, and packing most of the time that writing takes
 
 /// Chunks of whole rows of about a megabyte.
 void set_storage(hid_t list, const std::vector<std::uint64_t>& shape, std::size_t size, Storage storage) {

@@ -54,6 +54,14 @@ template <class T> OverSegment<T> over_segment(const Vector<T, 2>& r, const Vect
   return o;
 }
 
+/// Keeps of `apart` and `squared` those of the nearer one; returns where that is the other.
+template <class Point> auto keep_nearer(Point& best, const Point& other) {
+  const auto nearer = best.squared > other.squared;
+  for (int i = 0; i < 3; ++i) best.apart[i] = select(nearer, other.apart[i], best.apart[i]);
+  best.squared = select(nearer, other.squared, best.squared);
+  return nearer;
+}
+
 /// Of a point and the border of a triangle: on the side between the corners i and j, i < j, the point x_i + s (x_j - x_i).
 template <class T> struct OnBorder {
   T side;              ///< k of the side between the corners k and (k+1) mod 3
@@ -73,11 +81,9 @@ template <class T> OnBorder<T> on_border(const Vector<T, 3>& r, const Vector<T, 
   };
   OnBorder<T> best = on_side(0, r, u);
   const auto offer = [&](const OnBorder<T>& other) {
-    const auto nearer = best.squared > other.squared;
+    const auto nearer = keep_nearer(best, other);
     best.side = select(nearer, other.side, best.side);
     best.s = select(nearer, other.s, best.s);
-    for (int i = 0; i < 3; ++i) best.apart[i] = select(nearer, other.apart[i], best.apart[i]);
-    best.squared = select(nearer, other.squared, best.squared);
   };
   offer(on_side(1, r - u, v - u));
   offer(on_side(2, r, v));
@@ -117,11 +123,9 @@ template <class T> EndOnEdge<T> end_on_edge(const Vector<T, 3>& r, const Vector<
   const T zero(0.0), one(1.0);
   EndOnEdge<T> best = at(zero, along_segment(r, v));
   const auto offer = [&](const EndOnEdge<T>& other) {
-    const auto nearer = best.squared > other.squared;
+    const auto nearer = keep_nearer(best, other);
     best.s = select(nearer, other.s, best.s);
     best.t = select(nearer, other.t, best.t);
-    for (int i = 0; i < 3; ++i) best.apart[i] = select(nearer, other.apart[i], best.apart[i]);
-    best.squared = select(nearer, other.squared, best.squared);
   };
   offer(at(one, along_segment(r + u, v)));
   offer(at(along_segment(-r, u), zero));
