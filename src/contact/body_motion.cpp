@@ -25,7 +25,7 @@ std::size_t stride_of(std::size_t count, std::size_t most) {
   return std::max<std::size_t>(stride, 1);
 }
 
-// The modes: along y alone; along x, y and about z; along all and about all. B of each is the unit vector `along` or turns about that through r.
+// The modes: along y alone; along x, y and about z; along all and about all. B at r is the unit vector e of the axis, or of a turn e x r.
 constexpr int kTurn = 3;  ///< what is added to the axis of a turn
 template <int modes> constexpr int kMode[6] = {0, 1, 2, kTurn, kTurn + 1, kTurn + 2};
 template <> constexpr int kMode<1>[1] = {1};
