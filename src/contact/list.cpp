@@ -72,6 +72,7 @@ class Builder {
     work.v = work.before = work.mean = work.x;
     work.share.assign(used.size(), Share());
     work.projector.assign(used.size(), nullptr);
+    work.stands.assign(used.size(), 0);
     for (int i = 0; i < work.body_entries; ++i) {
       work.share[i].area = f_.area[used[i]];
       work.share[i].of_body = 1;

@@ -18,6 +18,12 @@ constexpr double kWedge = 1e-3;
 
 bool rising(const ContactPair& a, const ContactPair& b) { return a.key < b.key; }
 
+/// Outside of all layers.
+bool is_clear(const Range& range, double distance) { return distance > range.thickest * (1 + 1e-12); }
+bool all_stand(const Workspace& work, const int* nodes, int count) {
+  return std::all_of(nodes, nodes + count, [&](int i) { return work.stands[i] != 0; });
+}
+
 const ClosestKernels& widest_kernels() {
   static const ClosestKernels& kernels = closest_kernels_of(choose_isa());
   return kernels;
@@ -36,7 +42,7 @@ class Phase {
   void vertices(NearList& list, long first, long last) {
     for (long i = first; i < last; ++i) {
       NearList::VertexGroup& g = list.groups[i];
-      if (g.wake > awake_ || (is_clear(g.rest) && stands(list, g))) continue;
+      if (g.wake > awake_ || (is_clear(range_, g.rest) && stands(list, g))) continue;
       if (candidates_.size() >= kFacetsAtOnce) meet_facets(list);
       for (int e = g.first; e < g.last; ++e)
         if (list.facets[e].wake <= awake_) candidates_.push_back({static_cast<int>(i), e});
@@ -51,7 +57,7 @@ class Phase {
     for (long i = first; i < last; ++i) {
       awake[count] = static_cast<int>(i);
       const NearList::EdgePair& e = list.watched[i];
-      count += e.wake <= awake_ && !(is_clear(e.rest) && stands(e));
+      count += e.wake <= awake_ && !(is_clear(range_, e.rest) && stands(e));
       if (count == kEdgesAtOnce) meet_edges(list, awake, count), count = 0;
     }
     meet_edges(list, awake, count);
@@ -129,15 +135,19 @@ class Phase {
         hit.feature = feature_of(hit.closest, e.facet);
         watch_touch(candidates_[i].entry, group, distance);
       }
+      g.rest = 0;
       if (hits_.empty()) {
-        g.rest = 0;
         g.wake = std::numeric_limits<double>::infinity();
         for (int e = g.first; e < g.last; ++e) g.wake = std::min(g.wake, list.facets[e].wake);
         continue;
       }
-      const auto nearest = std::min_element(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) { return a.distance < b.distance; });
-      g.rest = is_clear(nearest->distance) && stands(list, g) ? nearest->distance : 0;
-      if (g.rest > 0) continue;  // none of its pairs is one, see add()
+      if (stands(list, g)) {
+        const double least = std::min_element(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) { return a.distance < b.distance; })->distance;
+        if (is_clear(range_, least)) {
+          g.rest = least;
+          continue;  // none of its pairs is one, see add()
+        }
+      }
       if (g.vertex != vertex_) finish_vertex();
       vertex_ = g.vertex;
       choose(list, g);
@@ -164,22 +174,17 @@ class Phase {
       NearList::EdgePair& e = list.watched[awake[i]];
       if (distance > range_.reach) e.wake = range_.travel + distance;
       else watch_touch(awake[i], -1, distance);
-      e.rest = is_clear(distance) && stands(e) ? distance : 0;
+      e.rest = is_clear(range_, distance) && stands(e) ? distance : 0;
       if (pack.inside[l] != 0 && e.rest == 0) cross(e, pack, l);  // of others vertices see the end that is closest
     }
   }
 
-  /// Outside of all layers.
-  bool is_clear(double distance) const { return distance > range_.thickest * (1 + 1e-12); }
-  bool stands(const int* nodes, int count) const {
-    return std::all_of(nodes, nodes + count, [&](int i) { return work_.stands[i] != 0; });
-  }
   bool stands(const NearList& list, const NearList::VertexGroup& g) const {
     if (work_.stands[g.node] == 0) return false;
     const auto first = list.facets.begin() + g.first, last = list.facets.begin() + g.last;
-    return std::all_of(first, last, [&](const NearList::FacetEntry& e) { return stands(e.node, f_.corners()); });
+    return std::all_of(first, last, [&](const NearList::FacetEntry& e) { return all_stand(work_, e.node, f_.corners()); });
   }
-  bool stands(const NearList::EdgePair& e) const { return stands(e.node, 4); }
+  bool stands(const NearList::EdgePair& e) const { return all_stand(work_, e.node, 4); }
 
   void watch_touch(int entry, int group, double distance) {
     if (0.999 * distance <= range_.closing) out_.close.emplace_back(entry, group, distance);
@@ -270,7 +275,7 @@ class Phase {
       const int i = c.which == 2 ? 0 : c.which, j = c.which == 2 ? 2 : c.which + 1;
       pair.link({g.node, e.node[i], e.node[j]}, {1, -c.weight[i], -c.weight[j]});
     }
-    if (is_clear(gap) && stands(pair.node, pair.nodes)) pairs.pop_back();
+    if (is_clear(range_, gap) && all_stand(work_, pair.node, pair.nodes)) pairs.pop_back();
     else if (c.feature == Closest::face) take(faces_[hit.candidate / kLanes].shares, static_cast<int>(hit.candidate % kLanes), pair);
     else take(pair);
   }
@@ -328,7 +333,8 @@ void add_plane_pairs(const Features& features, const Workspace& work, const std:
   for (const NearList::PlanePair& p : list.planes) {
     const PlanePose& plane = planes[p.tool];
     const double gap = dot3(work.x[p.node] - plane.point, plane.normal) * dot3(plane.normal, plane.end_normal);
-    if (gap > range.reach || (gap > range.thickest && work.stands[p.node] != 0 && work.stands[p.foot] != 0)) continue;
+    const int nodes[2] = {p.node, p.foot};
+    if (gap > range.reach || (is_clear(range, gap) && all_stand(work, nodes, 2))) continue;
     pairs.emplace_back(PairKey::make(PairKey::plane, p.vertex, 0, p.tool), features.vertex_surface[p.vertex], features.bodies + p.tool, gap, false, plane.end_normal);
     pairs.back().link({p.node, p.foot}, {1, -1});
   }

@@ -94,7 +94,6 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
   ++builds;
   inertia = 1;
   work.fixed.clear();
-  work.stands.assign(work.vertex.size(), 0);
   for (int i = 0; i < work.body_entries; ++i) {
     work.share[i].inverse_mass = inverse_mass[work.vertex[i]];
     const int h = held_of[work.vertex[i]];

@@ -153,16 +153,14 @@ TEST(ContactSearch, OnlyWhatStandsOutOfItsLayerIsPassedOver) {
     int step = 0;
     for (double travel = 0; travel + reach <= radius; travel += farthest, ++step) {
       const bool all_move = step % 7 == 6;
-      work.stands.resize(work.vertex.size());
       for (std::size_t i = 0; i < work.vertex.size(); ++i) work.stands[i] = !all_move && stands(work.vertex[i]);
       narrow_phase({scene.features, work, 1, layer}, nullptr, scene.planes, true, {reach, 0, travel, layer}, one, list, near);
       NearList fresh = scene.list(reach, work_now);
       narrow_phase({scene.features, work_now, 1, layer}, nullptr, scene.planes, true, {reach, 0, 0}, one, fresh, now);
       // A list that has looked at nothing yet finds the same.
-      work_now.stands.resize(work_now.vertex.size());
-      for (std::size_t i = 0; i < work_now.vertex.size(); ++i) work_now.stands[i] = !all_move && stands(work_now.vertex[i]);
       Narrow same;
       NearList new_one = scene.list(reach, work_now);
+      for (std::size_t i = 0; i < work_now.vertex.size(); ++i) work_now.stands[i] = !all_move && stands(work_now.vertex[i]);
       narrow_phase({scene.features, work_now, 1, layer}, nullptr, scene.planes, true, {reach, 0, 0, layer}, one, new_one, same);
       ASSERT_EQ(same.pairs.size(), near.pairs.size()) << "step " << step;
       for (std::size_t i = 0; i < same.pairs.size(); ++i) EXPECT_EQ(same.pairs[i].key, near.pairs[i].key) << "step " << step;
