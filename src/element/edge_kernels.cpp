@@ -106,17 +106,17 @@ template <int D, bool Ring> [[gnu::flatten]] void forces_of_any_law(const CellGr
   at.close(g);
 }
 
-template <int D, bool Ring> void observe_pack(const CellGroup& g, const NodalView& view, long pack, double* stress, double* ratio, double* energy) {
+template <int D, bool Ring> void observe_pack(const CellGroup& g, const NodalView& view, long pack, long place, double* stress, double* ratio, double* energy) {
   Edges<Pack, D, Ring> e = edges_of_point<D, Ring>(g, view, pack);
   find_reciprocal(e);
   double* memory = memory_of_point(g, pack);
   const Pack V0 = initial_volume(g, memory), J = e.volume / V0;
-  add_to_block(energy, pack, sum_of_first(V0 * point_energy(g.solid, e, J, memory), lanes_in_use(g, pack)));
+  add_to_block(energy, place, sum_of_first(V0 * point_energy(g.solid, e, J, memory), lanes_in_use(g, pack)));
   if (!stress) return;
   const Vector<Pack, D>* at_rest = nullptr;
   const Symmetric<Pack, D> S = point_step(g.solid, e, at_rest, J, memory, Keep::no).S;
-  for (int i = 0; i < 6; ++i) (i < Symmetric<Pack, D>::size ? S[i] : Pack(0.0)).store(lanes_of(stress, 6, pack) + i * kLanes);
-  J.store(lanes_of(ratio, 1, pack));
+  for (int i = 0; i < 6; ++i) (i < Symmetric<Pack, D>::size ? S[i] : Pack(0.0)).store(lanes_of(stress, 6, place) + i * kLanes);
+  J.store(lanes_of(ratio, 1, place));
 }
 
 /// omega_e^2 of element/time_step.h.
@@ -169,7 +169,7 @@ void forces(const CellGroup& g, const NodalView& view, int first, int last) {
 }
 void observe(const CellGroup& g, const NodalView& view, int first, int last, double* stress, double* ratio, double* energy) {
   with_dimension(g, [&](auto D, auto ring) {
-    each_pack(first, last, [&](long pack) { observe_pack<D, ring>(g, view, pack, stress, ratio, energy); });
+    each_pack(first, last, [&](long pack) { observe_pack<D, ring>(g, view, pack, pack - first * kPacks, stress, ratio, energy); });
   });
 }
 void rates(const CellGroup& g, const NodalView& view, int first, int last, double* omega2) {

@@ -89,10 +89,12 @@ std::vector<double> Elements::plastic_strain() const {
   return p;
 }
 
-void Elements::observe_group(const Group& g, const NodalView& view, double* stress, double* ratio, double* energy) const {
+void Elements::observe_blocks(const Group& g, long first_block, long last_block, const NodalView& view, double* stress, double* ratio, double* energy) const {
   const auto observe = g.at_edges ? kernels_.edge.observe : g.nodal() ? kernels_.nodal.observe : kernels_.observe;
-  team_->share(g.blocks, blocks_of_a_thread(g), [&](long first, long last) {
-    observe(g, view, static_cast<int>(first), static_cast<int>(last), stress, ratio, energy);
+  const long lanes = static_cast<long>(g.cell_simplices) * kLanes;
+  team_->share(last_block - first_block, blocks_of_a_thread(g), [&](long first, long last) {
+    observe(g, view, static_cast<int>(first_block + first), static_cast<int>(first_block + last), stress ? stress + first * lanes * 6 : nullptr,
+            ratio ? ratio + first * lanes : nullptr, energy + first);
   });
 }
 
@@ -102,7 +104,7 @@ double Elements::stored_energy(const NodeField& x, const NodeField* v, double si
   double sum = 0;
   for (const Group& g : groups_) {
     std::vector<double> energy(g.blocks);
-    observe_group(g, view, nullptr, nullptr, energy.data());
+    observe_blocks(g, 0, g.blocks, view, nullptr, nullptr, energy.data());
     for (double e : energy) sum += e;
   }
   for (std::size_t n = 0; n < pressure_.size(); ++n)  // the volumetric energy of nodal pressures belongs to the nodes
@@ -121,7 +123,7 @@ ElementFields Elements::observe(const NodeField& x) const {
     const std::size_t simplices = static_cast<std::size_t>(g.blocks) * g.cell_simplices;
     std::vector<Lane> stress(simplices * 6), ratio(simplices);
     std::vector<double> energy(g.blocks);
-    observe_group(g, view, stress.data()->value, ratio.data()->value, energy.data());
+    observe_blocks(g, 0, g.blocks, view, stress.data()->value, ratio.data()->value, energy.data());
     for (int cell = 0; cell < g.cells; ++cell) {
       const int l = cell % kLanes;
       const std::size_t block = static_cast<std::size_t>(cell / kLanes) * g.cell_simplices;
@@ -142,6 +144,32 @@ ElementFields Elements::observe(const NodeField& x) const {
       for (int c = 0; c < 6; ++c) fields.stress[g.element(i)][c] += means[i * 6 + c];
   }
   return fields;
+}
+
+std::vector<Sym> Elements::stress_of(const std::vector<int>& elements, const NodeField& x) const {
+  std::vector<Sym> stress(elements.size());
+  // With pressures in the nodes an element has a share in those of its neighbours; and where an element in a block is asked for, all are found.
+  if (any_nodal_ || elements.size() * kLanes >= simplices_.size()) {
+    const std::vector<Sym> all = observe(x).stress;
+    std::transform(elements.begin(), elements.end(), stress.begin(), [&](int e) { return all[e]; });
+    return stress;
+  }
+  const NodalView view{x.data()->data(), nullptr, nullptr, nullptr, 0, 0};
+  std::vector<Lane> S, ratio;
+  const Group* group = nullptr;
+  int block = -1;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const Location where = locate(elements[i]);
+    const Group& g = groups_[where.group];
+    if (&g != group || where.cell / kLanes != block) {
+      group = &g, block = where.cell / kLanes;
+      S.resize(static_cast<std::size_t>(g.cell_simplices) * 6), ratio.resize(g.cell_simplices);
+      double energy;
+      observe_blocks(g, block, block + 1, view, S.data()->value, ratio.data()->value, &energy);
+    }
+    for (int c = 0; c < 6; ++c) stress[i][c] = S[where.simplex % g.cell_simplices * 6 + c][where.cell % kLanes];
+  }
+  return stress;
 }
 
 void Elements::append_state(std::vector<double>& to) const {

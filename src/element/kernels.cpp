@@ -277,8 +277,9 @@ template <class Cell>
   rates.damping.store(out.damping.value + first_lane(pack));
 }
 
+/// place: where the outputs of the pack are among theirs.
 template <class Cell>
-void observe_pack(const CellGroup& g, const NodalView& view, long pack, double* stress, double* ratio,
+void observe_pack(const CellGroup& g, const NodalView& view, long pack, long place, double* stress, double* ratio,
                   double* energy) {
   constexpr int D = kD<Cell>;
   const double* constants = constants_of<Cell>(g, pack);
@@ -322,13 +323,13 @@ void observe_pack(const CellGroup& g, const NodalView& view, long pack, double* 
     if (!stress) continue;
     const Vector<Pack, D>* at_rest = nullptr;
     const PointResponse<Pack, D> point = point_step(g.solid, e, at_rest, law_J, memory, Keep::no);
-    double* to = lanes_of(stress, Cell::simplices * 6, pack) + s * 6 * kLanes;
+    double* to = lanes_of(stress, Cell::simplices * 6, place) + s * 6 * kLanes;
     for (int i = 0; i < 6; ++i) {
       Pack component = i < Symmetric<Pack, D>::size ? point.S[i] : Pack(0.0);
       if (i < 3) component += p[s];
       component.store(to + i * kLanes);
     }
-    J[s].store(lanes_of(ratio, Cell::simplices, pack) + s * kLanes);
+    J[s].store(lanes_of(ratio, Cell::simplices, place) + s * kLanes);
   }
   if (classical) {
     stored += energy_of_classical_pressures<Cell>(V, p, g.solid.K, own);
@@ -336,7 +337,7 @@ void observe_pack(const CellGroup& g, const NodalView& view, long pack, double* 
     const Pack strain = cell_V / cell_V0 - Pack(1.0);
     stored += Pack(0.5 * g.solid.K * (1 - own)) * cell_V0 * strain * strain;
   }
-  add_to_block(energy, pack, sum_of_first(stored, lanes_in_use(g, pack)));
+  add_to_block(energy, place, sum_of_first(stored, lanes_in_use(g, pack)));
 }
 
 template <class Cell, Made made> void forces_of_packs(const CellGroup& g, const NodalView& view, int first, int last) {
@@ -367,7 +368,7 @@ void rates(const CellGroup& g, const NodalView& view, int first, int last, Block
 void observe(const CellGroup& g, const NodalView& view, int first, int last, double* stress, double* ratio,
              double* energy) {
   with_cell(g, [&](auto cell) {
-    each_pack(first, last, [&](long pack) { observe_pack<decltype(cell)>(g, view, pack, stress, ratio, energy); });
+    each_pack(first, last, [&](long pack) { observe_pack<decltype(cell)>(g, view, pack, pack - first * kPacks, stress, ratio, energy); });
   });
 }
 

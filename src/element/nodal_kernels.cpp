@@ -72,7 +72,7 @@ template <class Cell> [[gnu::flatten]] void forces_of_pack(const CellGroup& g, c
   for (int a = 0; a < Cell::nodes; ++a) add_vectors(f[a], slots + a * kLanes, g.sums);
 }
 
-template <class Cell> void observe_pack(const CellGroup& g, const NodalView& view, long pack, double* stress, double* ratio, double* energy) {
+template <class Cell> void observe_pack(const CellGroup& g, const NodalView& view, long pack, long place, double* stress, double* ratio, double* energy) {
   Vector<Pack, kD<Cell>> x[Cell::nodes];
   gather_ways<Cell>(nodes_of<Cell>(g, pack), view.x, x);
   Pack p[Cell::simplices], J[Cell::simplices], stored(0.0);
@@ -80,11 +80,11 @@ template <class Cell> void observe_pack(const CellGroup& g, const NodalView& vie
   for (int s = 0; s < Cell::simplices; ++s) {
     stored += Pack(kGuard * g.solid.K) * initial_volume(g, memory_of<Cell>(g, pack, s)) * guard_energy(J[s]);
     if (!stress) continue;
-    double* to = lanes_of(stress, Cell::simplices * 6, pack) + s * 6 * kLanes;
+    double* to = lanes_of(stress, Cell::simplices * 6, place) + s * 6 * kLanes;
     for (int i = 0; i < 6; ++i) (i < 3 ? p[s] : Pack(0.0)).store(to + i * kLanes);
-    J[s].store(lanes_of(ratio, Cell::simplices, pack) + s * kLanes);
+    J[s].store(lanes_of(ratio, Cell::simplices, place) + s * kLanes);
   }
-  add_to_block(energy, pack, sum_of_first(stored, lanes_in_use(g, pack)));
+  add_to_block(energy, place, sum_of_first(stored, lanes_in_use(g, pack)));
 }
 
 /// Calls `work` with the cell type of simplices; one-point cells have pressures of their own.
@@ -106,7 +106,7 @@ void forces(const CellGroup& g, const NodalView& view, int first, int last) {
 }
 void observe(const CellGroup& g, const NodalView& view, int first, int last, double* stress, double* ratio, double* energy) {
   with_simplices(g, [&](auto cell) {
-    each_pack(first, last, [&](long pack) { observe_pack<decltype(cell)>(g, view, pack, stress, ratio, energy); });
+    each_pack(first, last, [&](long pack) { observe_pack<decltype(cell)>(g, view, pack, pack - first * kPacks, stress, ratio, energy); });
   });
 }
 

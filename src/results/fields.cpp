@@ -1,8 +1,9 @@
 #include "forming_sim/results/fields.h"
 
+#include <algorithm>
+
 #include "forming_sim/results/snapshot.h"
 #include "forming_sim/results/text_file.h"
-#include "forming_sim/results/xdmf.h"
 
 namespace forming_sim {
 
@@ -14,12 +15,14 @@ void Fields::on_start(const Simulation& simulation) {
     file_ = ResultFile::resume(path, header, simulation.steps());
     if (file_) {
       if (!file_->frames().empty()) last_step_ = file_->frames().back().step;
+      xdmf_.emplace(file_->header(), "result.h5");
       write_xdmf();
       return;
     }
     record_.notes.push_back("result.h5 begins at the checkpoint: the directory held no result of the earlier part");
   }
   file_.emplace(path, std::move(header));
+  xdmf_.emplace(file_->header(), "result.h5");
   write(simulation);
 }
 
@@ -30,9 +33,12 @@ void Fields::on_step(const Simulation& simulation) {
 void Fields::on_stage_end(const Simulation& simulation, int) { write(simulation); }
 
 void Fields::on_end(const Simulation& simulation, Code code, const std::string&) {
-  if (!file_ || code == Code::output_error) return;
-  write(simulation, code == Code::cancelled);
-  if (frames_in_xdmf_ != file_->frames().size()) write_xdmf();
+  if (!file_) return;
+  if (code != Code::output_error) {
+    write(simulation, code == Code::cancelled);
+    if (xdmf_->frames() != file_->frames().size()) write_xdmf();
+  }
+  file_->finish();
 }
 
 void Fields::write(const Simulation& simulation, bool interrupted) {
@@ -41,14 +47,15 @@ void Fields::write(const Simulation& simulation, bool interrupted) {
   Frame frame = take_frame(simulation, gauge_.at(simulation));
   frame.interrupted = interrupted;
   file_->write(frame);
-  // With very many frames not after each: the text grows with every one of them.
-  const std::size_t frames = file_->frames().size();
-  if (frames <= 100 || frames >= frames_in_xdmf_ + frames_in_xdmf_ / 100) write_xdmf();
+  if (Clock::now() >= xdmf_due_) write_xdmf();
 }
 
+// All of it is written each time. So it is no more than a second behind, and takes no more than a hundredth of the time of a run.
 void Fields::write_xdmf() {
-  replace_file(in_directory(directory_, "result.xdmf"), xdmf_text(file_->header(), file_->frames(), "result.h5"));
-  frames_in_xdmf_ = file_->frames().size();
+  const Clock::time_point start = Clock::now();
+  replace_file(in_directory(directory_, "result.xdmf"), xdmf_->text(file_->frames()));
+  const Clock::time_point end = Clock::now();
+  xdmf_due_ = end + std::max<Clock::duration>(std::chrono::seconds(1), 100 * (end - start));
 }
 
 }  // namespace forming_sim

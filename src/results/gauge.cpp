@@ -72,10 +72,9 @@ const Measures& Gauge::at(const Simulation& simulation) {
     measures_.thinning = greatest_thinning(simulation, measures_.thinning_of_nodes);
   }
   measures_.probes.clear();
-  const std::vector<Sym> stress = probes_.empty() ? std::vector<Sym>() : simulation.stress();
   for (const Probe& probe : probes_)
     measures_.probes.push_back(measure(probe, simulation.model(), simulation.elements(),
-                                       simulation.positions(), simulation.velocities(), stress));
+                                       simulation.positions(), simulation.velocities(), simulation.stress(probe.elements)));
   return measures_;
 }
 

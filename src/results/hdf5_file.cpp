@@ -13,17 +13,41 @@ static_assert(sizeof(hid_t) == sizeof(std::int64_t), "HDF5 1.10 or newer");
 
 /// Metadata reaches the file in flush() only, so that what is there between two
 /// flushes is a whole file.
+void keep_metadata(H5AC_cache_config_t& cache) {
+  cache.evictions_enabled = false;
+  cache.set_initial_size = true;
+  cache.initial_size = cache.max_size;
+  cache.incr_mode = H5C_incr__off;
+  cache.flash_incr_mode = H5C_flash_incr__off;
+  cache.decr_mode = H5C_decr__off;
+}
+
+/// A flush goes through all metadata in memory; what is in the file need not stay there. file: just flushed.
+bool forget_metadata(hid_t file) {
+  constexpr std::size_t kStays = 64 << 10;  // bytes, of what was used last
+  H5AC_cache_config_t cache;
+  cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  if (H5Fget_mdc_config(file, &cache) < 0) return false;
+  cache.evictions_enabled = true;
+  cache.set_initial_size = true;
+  cache.initial_size = cache.min_size = kStays;
+  if (H5Fset_mdc_config(file, &cache) < 0) return false;
+  if (H5Lexists(file, "any", H5P_DEFAULT) < 0) return false;  // room is made when something is looked at
+  keep_metadata(cache);
+  return H5Fset_mdc_config(file, &cache) >= 0;
+}
+
 Hdf5Handle access_list() {
   Hdf5Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5AC_cache_config_t cache;
   cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
   H5Pget_mdc_config(list.id(), &cache);
-  cache.evictions_enabled = false;
-  cache.incr_mode = H5C_incr__off;
-  cache.flash_incr_mode = H5C_flash_incr__off;
-  cache.decr_mode = H5C_decr__off;
+  keep_metadata(cache);
   H5Pset_mdc_config(list.id(), &cache);
   H5Pset_libver_bounds(list.id(), H5F_LIBVER_V18, H5F_LIBVER_LATEST);  // what HDF5 1.8 reads: headers of half the size of those before
+  // Blocks for small things to come would be cut off again by every flush, and with them what results/disk.h allots.
+  H5Pset_meta_block_size(list.id(), 0);
+  H5Pset_small_data_block_size(list.id(), 0);
   // A file that is being written can be looked at meanwhile.
   H5Pset_file_locking(list.id(), false, true);
   return list;
@@ -53,7 +77,7 @@ Hdf5Group Hdf5File::root() const {
 }
 
 void Hdf5File::flush() {
-  if (H5Fflush(handle_.id(), H5F_SCOPE_LOCAL) < 0) throw_hdf5_error("write", path_);
+  if (H5Fflush(handle_.id(), H5F_SCOPE_LOCAL) < 0 || !forget_metadata(handle_.id())) throw_hdf5_error("write", path_);
 }
 
 void Hdf5File::close() {

@@ -81,10 +81,10 @@ ProbeValue measure(const Probe& probe, const Model& model, const std::vector<std
   value.position /= static_cast<double>(probe.nodes.size());
   value.velocity /= static_cast<double>(probe.nodes.size());
   double volume = 0;
-  for (int e : probe.elements) {
-    const double share = simplex_volume(model, elements[e], positions);
+  for (std::size_t i = 0; i < probe.elements.size(); ++i) {
+    const double share = simplex_volume(model, elements[probe.elements[i]], positions);
     volume += share;
-    value.stress += share * stress[e];
+    value.stress += share * stress[i];
   }
   if (volume > 0) value.stress /= volume;
   return value;

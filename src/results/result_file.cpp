@@ -111,6 +111,8 @@ void ResultFile::write(const Frame& frame) {
   last_poses_ = frame.tools;
 }
 
+void ResultFile::finish() { give_back(path_); }
+
 void ResultFile::write_tool(Hdf5Group& tools, const Frame& frame, std::size_t index) {
   const FrameTool& pose = frame.tools[index];
   const std::string name = std::to_string(index);

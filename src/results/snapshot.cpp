@@ -51,7 +51,6 @@ Frame take_frame(const Simulation& simulation, const Measures& measures) {
   frame.velocities = simulation.velocities();
   const auto single = [](const std::vector<double>& values) { return std::vector<float>(values.begin(), values.end()); };
   frame.plastic_strain = single(simulation.plastic_strain());
-  frame.volume_ratio = single(simulation.volume_ratio());
   for (const SurfaceStrain& strain : simulation.surface_strain()) {
     frame.surface_strain.push_back(static_cast<float>(strain.major));
     frame.surface_strain_minor.push_back(static_cast<float>(strain.minor));
@@ -61,7 +60,9 @@ Frame take_frame(const Simulation& simulation, const Measures& measures) {
   frame.contact_pressure = single(simulation.contact_pressure());
   frame.contact_gap = single(simulation.contact_gap());
   frame.contact_slip = single(simulation.contact_slip());
-  for (const Sym& stress : simulation.stress()) {
+  const ElementFields fields = simulation.element_fields();
+  frame.volume_ratio = single(fields.volume_ratio);
+  for (const Sym& stress : fields.stress) {
     std::array<float, 6> row;
     for (int k = 0; k < 6; ++k) row[k] = static_cast<float>(stress[k]);
     frame.stress.push_back(row);

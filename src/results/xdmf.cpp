@@ -29,22 +29,14 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
+/// Writes frames one below the other.
 class Writer {
  public:
   Writer(const ResultHeader& header, const std::string& h5_name) : header_(header), h5_(escaped(h5_name)) {
     out_.precision(17);
   }
+  std::string text() const { return out_.str(); }
 
-  std::string text(const std::vector<FrameEntry>& frames) {
-    out_ << "<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
-         << "<Grid Name=\"" << escaped(header_.scene_name)
-         << "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-    for (const FrameEntry& frame : frames) write(frame);
-    out_ << "</Grid>\n</Domain>\n</Xdmf>\n";
-    return out_.str();
-  }
-
- private:
   void write(const FrameEntry& frame) {
     out_ << "<Grid Name=\"" << frame.name << "\" GridType=\"Collection\" CollectionType=\"Spatial\">\n"
          << "<Time Value=\"" << frame.time << "\"/>\n";
@@ -74,6 +66,7 @@ class Writer {
     out_ << "</Grid>\n";
   }
 
+ private:
   void tool(std::size_t index, const std::string& frame_path) {
     const ToolShape& shape = header_.tools[index];
     const std::string number = std::to_string(index);
@@ -118,8 +111,12 @@ class Writer {
 
 }  // namespace
 
-std::string xdmf_text(const ResultHeader& header, const std::vector<FrameEntry>& frames, const std::string& h5_name) {
-  return Writer(header, h5_name).text(frames);
+std::string Xdmf::text(const std::vector<FrameEntry>& frames) {
+  Writer writer(header_, h5_name_);
+  for (; written_ < frames.size(); ++written_) writer.write(frames[written_]);
+  grids_ += writer.text();
+  return "<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf Version=\"2.0\">\n<Domain>\n<Grid Name=\"" + escaped(header_.scene_name) +
+         "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n" + grids_ + "</Grid>\n</Domain>\n</Xdmf>\n";
 }
 
 }  // namespace forming_sim

@@ -133,8 +133,10 @@ ContactStatus Simulation::contact_status() const {
 }
 
 std::vector<double> Simulation::plastic_strain() const { return impl_->elements.plastic_strain(); }
-std::vector<Sym> Simulation::stress() const { return impl_->elements.observe(impl_->x).stress; }
-std::vector<double> Simulation::volume_ratio() const { return impl_->elements.observe(impl_->x).volume_ratio; }
+std::vector<Sym> Simulation::stress(const std::vector<int>& elements) const { return impl_->elements.stress_of(elements, impl_->x); }
+ElementFields Simulation::element_fields() const { return impl_->elements.observe(impl_->x); }
+std::vector<Sym> Simulation::stress() const { return element_fields().stress; }
+std::vector<double> Simulation::volume_ratio() const { return element_fields().volume_ratio; }
 
 std::vector<double> Simulation::contact_pressure() const {
   const Impl& s = *impl_;

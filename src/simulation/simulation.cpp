@@ -70,13 +70,13 @@ bool Simulation::step() {
   s.take_step();
   if (s.watches_ledger() && s.watch.due(s.steps)) s.look_at_ledger(energies().residual());
   const bool over = s.stage_over();
-  const Clock::time_point stepped = Clock::now();
-  s.wall += std::chrono::duration<double>(stepped - start).count();
   if (over || s.stages.progress(s.time) >= s.next_crossing_check) s.check_crossings();
   if (over) {
     s.elements.check_upright(s.x);
     s.check_ledger(energies().residual(), balance_error());
   }
+  const Clock::time_point stepped = Clock::now();
+  s.wall += std::chrono::duration<double>(stepped - start).count();
   for (Observer* o : s.observers) o->on_step(*this);
   if (over) {
     const int ended = s.stages.index();

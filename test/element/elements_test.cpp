@@ -98,6 +98,22 @@ TEST_P(EveryKind, PatchTest) {
     }
 }
 
+TEST_P(EveryKind, StressOfFewIsThatOfAll) {
+  const BodyModel b = body(true);
+  NodeField x = positions_of(b.mesh);
+  Elements elements({b}, dimension(), x, {}, 1);
+  shake(x, dimension(), 0.05, 8);
+  forces_at(elements, x);  // flows
+  const std::vector<Sym> all = elements.observe(x).stress;
+  const int last = static_cast<int>(all.size()) - 1;
+  ASSERT_GT(last, 32);
+  for (const std::vector<int>& few : {std::vector<int>{last, 0, last / 2 + 1, last / 2}, std::vector<int>{last}, std::vector<int>()}) {
+    const std::vector<Sym> found = elements.stress_of(few, x);
+    ASSERT_EQ(found.size(), few.size());
+    for (std::size_t i = 0; i < few.size(); ++i) EXPECT_EQ(found[i], all[few[i]]);
+  }
+}
+
 TEST_P(EveryKind, TheStableStepIsABoundAndNotATimidOne) {
   const BodyModel b = body();
   NodeField x = positions_of(b.mesh);

@@ -1,7 +1,9 @@
 // result.h5: what is written is read, up to the last complete frame, and what
 // cannot be written is said.
 #include <gtest/gtest.h>
+#include <hdf5.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -145,6 +147,36 @@ TEST(ResultFileDeathTest, AFullDiskIsAnErrorThatNamesFileAndReason) {
     for (std::size_t i = 0; i < reader.frames().size(); ++i)
       expect_frame(reader.frame(i), reader.header(), static_cast<int>(i));
   }
+}
+
+// Else every frame takes longer than the one before: a flush goes through all that is kept.
+TEST(ResultFile, KeepsNoMoreInMemoryWithMoreFrames) {
+  const TemporaryDirectory directory;
+  const ResultHeader header = example_header(2);
+  ResultFile file(directory.file("result.h5"), header);
+  hid_t id = -1;
+  ASSERT_EQ(H5Fget_obj_ids(H5F_OBJ_ALL, H5F_OBJ_FILE, 1, &id), 1);
+  std::size_t bytes = 0;
+  for (int i = 0; i < 200; ++i) {
+    file.write(example_frame(header, i));
+    H5Fget_mdc_size(id, nullptr, nullptr, &bytes, nullptr);
+    ASSERT_LT(bytes, 80000u) << i;
+  }
+  EXPECT_GT(bytes, 1000u);
+}
+
+// What is allotted for a frame and not used is not in the file, and does not stay behind it.
+TEST(ResultFile, TakesNoMoreOfTheDiskThanItIsLong) {
+  const TemporaryDirectory directory;
+  const ResultHeader header = example_header(40);
+  ResultFile file(directory.file("result.h5"), header);
+  for (int i = 0; i < 3; ++i) file.write(example_frame(header, i));
+  file.finish();
+  struct stat now;
+  ASSERT_EQ(stat(directory.file("result.h5").c_str(), &now), 0);
+  EXPECT_LT(now.st_blocks * 512, now.st_size + 2 * now.st_blksize);
+  file.write(example_frame(header, 3));
+  EXPECT_EQ(ResultReader(directory.file("result.h5")).frames().size(), 4u);
 }
 
 TEST(ResultFile, CannotBeCreatedInADirectoryThatIsNotThere) {

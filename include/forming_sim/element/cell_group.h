@@ -103,7 +103,7 @@ struct Kernels {
   /// The bounds of element/time_step.h, [block].
   void (*rates)(const CellGroup&, const NodalView&, int first, int last, BlockRates* out);
   /// Cauchy stress [block][simplex][6][lane], V/V0 [block][simplex][lane] and stored
-  /// deviatoric plus volumetric energy [block], without changing the memory. Without `stress` the energy alone.
+  /// deviatoric plus volumetric energy [block], of block `first` first, without changing the memory. Without `stress` the energy alone.
   void (*observe)(const CellGroup&, const NodalView&, int first, int last, double* stress, double* ratio,
                   double* energy);
   NodalKernels nodal;

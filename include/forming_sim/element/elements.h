@@ -101,6 +101,8 @@ class Elements {
   double viscous_work() const;   ///< dissipated so far by bulk viscosity, J
   std::vector<double> plastic_strain() const;
   ElementFields observe(const NodeField& x) const;
+  /// Of these elements alone, in their order.
+  std::vector<Sym> stress_of(const std::vector<int>& elements, const NodeField& x) const;
   /// J. v, since: the nodes have come here with these velocities in this time, s, since the memory was kept, for Law::classical;
   /// without them its stresses are those of the memory.
   double stored_energy(const NodeField& x, const NodeField* v = nullptr, double since = 0) const;
@@ -124,8 +126,8 @@ class Elements {
   void report_edge_inversion(const NodeField& x) const;
   void check_axis(const NodeField& x) const;
   void nodal_pressure(const NodalView& view) const;
-  /// What the kernels observe of a group; stress and ratio: null where the energy is asked for alone.
-  void observe_group(const Group& g, const NodalView& view, double* stress, double* ratio, double* energy) const;
+  /// What the kernels observe of these blocks; stress and ratio: null where the energy is asked for alone.
+  void observe_blocks(const Group& g, long first_block, long last_block, const NodalView& view, double* stress, double* ratio, double* energy) const;
   /// A group of the points at the edges of the body's simplices whose pressures are in the nodes.
   void put_points_at_edges(const BodyModel& body, const NodeField& X);
   /// Of every simplex of g, in the order of its cells, the means over its edges of value[point][components].

@@ -6,8 +6,10 @@
 namespace forming_sim {
 
 /// Allots room for `bytes` beyond the end of an existing file, so that writing them
-/// cannot fail half way. The file may be cut back to what is in it afterwards.
+/// cannot fail half way; the file keeps its size. What is not used stays for the next call.
 /// Does nothing where the file system cannot allot. Throws Error(output_error).
 void allot(const std::string& path, std::uint64_t bytes);
+/// Frees what was allotted to the file and is beyond its end.
+void give_back(const std::string& path);
 
 }  // namespace forming_sim

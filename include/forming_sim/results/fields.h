@@ -1,6 +1,7 @@
 #pragma once
 // result.h5 and result.xdmf of a run: a frame at the start, at every output
 // interval, at the end of every stage, and where the run ended.
+#include <chrono>
 #include <optional>
 #include <string>
 
@@ -8,6 +9,7 @@
 #include "forming_sim/results/result_file.h"
 #include "forming_sim/results/run_record.h"
 #include "forming_sim/results/schedule.h"
+#include "forming_sim/results/xdmf.h"
 #include "forming_sim/simulation/observer.h"
 
 namespace forming_sim {
@@ -24,6 +26,7 @@ class Fields : public Observer {
   void on_end(const Simulation& simulation, Code code, const std::string& message) override;
 
  private:
+  using Clock = std::chrono::steady_clock;
   void write(const Simulation& simulation, bool interrupted = false);
   void write_xdmf();
   const Scene& scene_;
@@ -34,7 +37,8 @@ class Fields : public Observer {
   RunRecord& record_;
   std::optional<ResultFile> file_;
   long last_step_ = -1;
-  std::size_t frames_in_xdmf_ = 0;
+  std::optional<Xdmf> xdmf_;
+  Clock::time_point xdmf_due_;
 };
 
 }  // namespace forming_sim

@@ -28,6 +28,7 @@ struct ProbeValue {
 std::vector<Probe> find_probes(const std::vector<ProbeConfig>& configs, const Model& model,
                                const std::vector<std::array<int, 4>>& elements);
 
+/// stress: of the probe's elements, in their order.
 ProbeValue measure(const Probe& probe, const Model& model, const std::vector<std::array<int, 4>>& elements,
                    const NodeField& positions, const NodeField& velocities, const std::vector<Sym>& stress);
 

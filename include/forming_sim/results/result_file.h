@@ -40,6 +40,8 @@ class ResultFile {
 
   /// Throws Error(output_error); the frames before stay readable, also on a full disk.
   void write(const Frame& frame);
+  /// After the last frame: frees room on the disk that was kept for more.
+  void finish();
   const std::vector<FrameEntry>& frames() const { return frames_; }
   const ResultHeader& header() const { return header_; }
 

@@ -56,8 +56,8 @@ class Simulation {
   double dt() const;                 ///< of the last step; before the first, of that to come
   int stage() const;                 ///< index of the running stage; number of stages at the end
   double progress() const;           ///< 0..1, by simulated time; a settle stage counts by its limit
-  double wall_time() const;          ///< s spent stepping, observers excluded
-  double observed_time() const;      ///< s that observers and checks took between the steps
+  double wall_time() const;          ///< s spent stepping and checking, observers excluded
+  double observed_time() const;      ///< s that observers took between the steps
   const NodeField& initial_positions() const;
   const NodeField& positions() const;
   const NodeField& velocities() const;   ///< at the half step before time()
@@ -79,7 +79,9 @@ class Simulation {
 
   // ---- fields per element, computed when asked
   std::vector<double> plastic_strain() const;
+  ElementFields element_fields() const;         ///< the two below at the cost of one
   std::vector<Sym> stress() const;              ///< Cauchy, Pa
+  std::vector<Sym> stress(const std::vector<int>& elements) const;  ///< of these alone, in their order
   std::vector<double> volume_ratio() const;     ///< V / V0
   /// Of each surface facet (same order as surface()): the stretch of the facet itself, hence on the surface.
   std::vector<SurfaceStrain> surface_strain() const;
