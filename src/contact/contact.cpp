@@ -96,9 +96,20 @@ void Contact::Impl::end(double dt, const Move& move, NodeField& x, NodeField& v,
 
 void Contact::Impl::follow_steady_motion(double dt, const std::vector<ToolMotion>& motion, const NodeField& x, const NodeField& before, const NodeField& v) {
   if (!waves.any()) return;
-  rubbed_entries.assign(work.body_entries, RubbedNode());
+  const auto rubs = [](const ContactPair& pair) { return pair.rub >= 0 && pair.impulse != 0; };
+  place_pressed.assign(work.body_entries, -1);
+  for (const ContactPair& pair : near.pairs)
+    if (rubs(pair)) work.each_of_bodies(pair, [&](int i, double) { place_pressed[i] = 0; });
+  pressed.clear();
+  for (int i = 0; i < work.body_entries; ++i) {
+    if (place_pressed[i] < 0) continue;
+    place_pressed[i] = static_cast<int>(pressed.size());
+    pressed.emplace_back();
+    pressed.back().node = work.vertex[i];
+    pressed.back().area = features.area[work.vertex[i]];
+  }
   for (const ContactPair& pair : near.pairs) {
-    if (pair.rub < 0 || pair.impulse == 0) continue;
+    if (!rubs(pair)) continue;
     const int tool = pair.tool(features.bodies);
     const bool by_tool = tool >= 0 && motion[tool].inverse_mass == 0;
     double speed_before = 0, speed = 0;
@@ -117,8 +128,7 @@ void Contact::Impl::follow_steady_motion(double dt, const std::vector<ToolMotion
       }
     }
     work.each_of_bodies(pair, [&](int i, double b) {
-      RubbedNode& rubbed = rubbed_entries[i];
-      rubbed.node = work.vertex[i];
+      RubbedNode& rubbed = pressed[place_pressed[i]];
       rubbed.normal += b * pair.impulse * pair.normal;
       rubbed.radiated += b * near.rubs[pair.rub].radiated;
       if (!by_tool) return;
@@ -126,12 +136,6 @@ void Contact::Impl::follow_steady_motion(double dt, const std::vector<ToolMotion
       rubbed.told_before += b * pair.impulse * speed_before;
       rubbed.told += b * pair.impulse * speed;
     });
-  }
-  pressed.clear();
-  for (RubbedNode& rubbed : rubbed_entries) {
-    if (rubbed.node < 0) continue;
-    rubbed.area = features.area[rubbed.node];
-    pressed.push_back(rubbed);
   }
   delay.follow(work, near.pairs, near.rubs, x.size(), waves);
   waves.follow(dt, previous_dt > 0 ? previous_dt : dt, inverse_mass, x, before, v, pressed);

@@ -73,7 +73,8 @@ struct Contact::Impl {
   PairRecords tried;  ///< pairs of the last attempt at this step that failed
   std::vector<double> moved;
   std::vector<double> sum, weighted, total;  ///< per entry of the workspace
-  std::vector<RubbedNode> rubbed_entries, pressed;
+  std::vector<RubbedNode> pressed;
+  std::vector<int> place_pressed;  ///< of an entry in `pressed`, -1: nothing rubs there
 
   // search.cpp
   double fastest(const NodeField& v) const;

@@ -82,10 +82,23 @@ double move(double dt, const double* v, const double* then, long first, long las
   return most;
 }
 
+long compare(const double* x, long first, long last, double* seen, char* moved) {
+  long count = 0;
+  for (long n = first; n < last; ++n) {
+    const Quad now = record(x, n);
+    const auto differs = now != record(seen, n);  // all bits of each number that does
+    const int any = static_cast<int>((differs[0] | differs[1]) | (differs[2] | differs[3])) & 1;
+    record(seen, n) = now;
+    moved[n] = static_cast<char>(any);
+    count += any;
+  }
+  return count;
+}
+
 }  // namespace
 
 const NodeKernels& node_kernels() {
-  static const NodeKernels k{sum, kick, move};
+  static const NodeKernels k{sum, kick, move, compare};
   return k;
 }
 

@@ -1,6 +1,7 @@
 #include "forming_sim/element/nodes.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "forming_sim/element/cell_group.h"
 #include "forming_sim/element/node_kernels.h"
@@ -64,6 +65,12 @@ double kick_and_move_nodes(Team& team, const Kick& kick, const NodeField& v_befo
     }
     return most;
   });
+}
+
+long compare_nodes(Team& team, const NodeField& x, NodeField& seen, std::vector<char>& moved) {
+  std::atomic<long> count{0};
+  team.share(static_cast<long>(x.size()), kNodesOfAThread, [&](long first, long last) { count += kernels().compare(numbers(x), first, last, numbers(seen), moved.data()); });
+  return count;
 }
 
 }  // namespace forming_sim

@@ -1,6 +1,6 @@
 #include "forming_sim/element/stillness.h"
 
-#include <algorithm>
+#include "forming_sim/element/nodes.h"
 
 namespace forming_sim {
 
@@ -16,16 +16,10 @@ void Stillness::look(const NodeField& x, Team& team) {
   const bool compare = seen_last_, keep = compare || calls_++ % kLook == 0;
   any_ = seen_last_ = false;
   if (!keep) return;
-  const long count = static_cast<long>(x.size());
   seen_.resize(x.size());
   moved_.resize(x.size());
-  team.share(count, kNodesOfAThread, [&](long first, long last) {
-    for (long n = first; n < last; ++n) {
-      moved_[n] = !(seen_[n] == x[n]);
-      seen_[n] = x[n];
-    }
-  });
-  if (compare) any_ = static_cast<double>(std::count(moved_.begin(), moved_.end(), 1)) < kMoving * static_cast<double>(count);
+  const long movers = compare_nodes(team, x, seen_, moved_);
+  if (compare) any_ = static_cast<double>(movers) < kMoving * static_cast<double>(x.size());
   seen_last_ = any_ || !compare;
 }
 

@@ -105,6 +105,7 @@ BoundarySet::Group BoundarySet::merge(const std::vector<int>& members,
   Group group;
   for (int b : members) {
     if (motions_[b].turns()) group.turns = true;
+    if (!motions_[b].times().empty()) group.driven = true;
     int motion = b;
     for (int other : members)
       if (other < motion && boundaries[other].config.kind == "velocity" && same_motion(boundaries[other].config, boundaries[b].config)) motion = other;

@@ -8,7 +8,6 @@
 #include "forming_sim/results/start.h"
 #include "forming_sim/results/summary.h"
 #include "forming_sim/results/text_file.h"
-#include "forming_sim/scene/build.h"
 #include "forming_sim/scene/validate.h"
 
 namespace forming_sim {
@@ -23,10 +22,7 @@ Outcome run_valid(const Scene& scene, const std::string& directory, int threads,
     checkpoint = load_checkpoint(resume_file);
     require_same_run(*checkpoint, scene, resume_file);
   }
-  if (!built) {
-    built = std::make_unique<Simulation>(build_plan(scene), build_model(scene), threads);
-    check_length(*built);
-  }
+  if (!built) built = build_run(scene, threads);
   Simulation& simulation = *built;
   if (checkpoint) simulation.restore(checkpoint->state);
   RunFiles files = open_run_files(simulation, scene, directory, checkpoint ? &*checkpoint : nullptr);

@@ -1,12 +1,15 @@
 #include "forming_sim/results/start.h"
 
 #include "forming_sim/config/words.h"
+#include "forming_sim/results/probe.h"
 #include "forming_sim/scene/stage_times.h"
 #include "forming_sim/scene/build.h"
 #include "forming_sim/scene/validate.h"
 
 namespace forming_sim {
+namespace {
 
+/// Throws SceneError where the run would take more than 1e12 steps.
 void check_length(const Simulation& simulation) {
   constexpr double most = 1e12;  // years, for the smallest of scenes
   const double time = longest_time(simulation.plan().stages), dt = simulation.dt();
@@ -16,14 +19,24 @@ void check_length(const Simulation& simulation) {
                      "or a modulus or density of other units"}});
 }
 
+}  // namespace
+
+std::unique_ptr<Simulation> build_run(const Scene& scene, int threads) {
+  auto simulation = std::make_unique<Simulation>(build_plan(scene), build_model(scene), threads);
+  check_length(*simulation);
+  std::vector<int> asked;
+  for (const Probe& probe : find_probes(scene.output.probes, simulation->model(), simulation->elements()))
+    asked.insert(asked.end(), probe.nodes.begin(), probe.nodes.end());
+  simulation->keep_reactions(asked);
+  return simulation;
+}
+
 StartCheck check_start(const Scene& scene, std::vector<Fault> known, int threads) {
   StartCheck found{validate(scene, std::move(known)), {}, nullptr};
   if (!found.faults.empty()) return found;
   try {
-    auto simulation = std::make_unique<Simulation>(build_plan(scene), build_model(scene), threads);
-    check_length(*simulation);
-    found.notes = simulation->warnings();
-    found.simulation = std::move(simulation);
+    found.simulation = build_run(scene, threads);
+    found.notes = found.simulation->warnings();
   } catch (const SceneError& error) {
     found.faults = error.faults();
   } catch (const Error& error) {

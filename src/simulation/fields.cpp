@@ -29,6 +29,16 @@ const NodeField& Simulation::velocities() const { return impl_->v; }
 double Simulation::first_dt() const { return impl_->first_dt; }
 const std::vector<ToolStatus>& Simulation::tools() const { return impl_->tools; }
 bool Simulation::once_held(int node) const { return std::binary_search(impl_->once_held.begin(), impl_->once_held.end(), node); }
+void Simulation::keep_reactions(const std::vector<int>& nodes) {
+  Impl& s = *impl_;
+  s.kept.assign(s.once_held.size(), false);
+  for (int node : nodes) {
+    const auto place = std::lower_bound(s.once_held.begin(), s.once_held.end(), node);
+    if (place != s.once_held.end() && *place == node) s.kept[place - s.once_held.begin()] = true;
+  }
+  s.choose_booked();
+}
+int Simulation::reactions_kept() const { return static_cast<int>(std::count(impl_->kept.begin(), impl_->kept.end(), true)); }
 Reaction Simulation::reaction(const std::vector<int>& nodes) const {
   Reaction sum;
   for (int node : nodes) {

@@ -36,7 +36,11 @@ struct Simulation::Impl {
   std::size_t holding = 0;          ///< how many of all do
   std::vector<int> once_held;       ///< nodes that a boundary holds or has held, increasing
   std::vector<Reaction> reactions;  ///< of once_held, since the start
-  std::vector<Vec3> held_impulse;   ///< of contact on them along what holds them, in a step, N s
+  std::vector<char> kept;           ///< of once_held: its reaction is asked for
+  struct Booked { int held, once; };
+  std::vector<Booked> booked;       ///< places in boundaries.nodes() and once_held of those that are driven or asked for, once -1: not asked
+  bool any_kept = false;            ///< of those
+  std::vector<Vec3> held_impulse;   ///< of contact on boundaries.nodes() along what holds them, in a step, N s
   PressureSet pressures;
   DeadLoadSet dead_loads;
   StageRunner stages;
@@ -91,6 +95,8 @@ struct Simulation::Impl {
   /// Leaves those boundaries that hold in the running stage.
   void release_boundaries();
   void tell_contact_what_is_held();
+  /// Which of the held nodes book_reactions() looks at.
+  void choose_booked();
   /// Gives those that a force drives a mass where the scene says none. Throws SceneError for one too light.
   void give_tools_mass();
   /// Where the tools stand, and where they will after a step of this dt; what forces drive, where it would without contact.

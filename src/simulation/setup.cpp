@@ -131,6 +131,8 @@ void Simulation::Impl::set_up_loads() {
   holding = held.size();
   once_held = boundaries.nodes();
   reactions.resize(once_held.size());
+  kept.assign(once_held.size(), true);
+  choose_booked();
   physical_mass = elements.nodal_mass();
   for (double& m : physical_mass) m /= plan.time_step.mass_scaling;
 }
@@ -220,9 +222,22 @@ void Simulation::Impl::release_boundaries() {
   if (held.size() == holding) return;
   holding = held.size();
   boundaries = BoundarySet(held, model.dimension);
+  choose_booked();
   if (contact) tell_contact_what_is_held();
   global.forget();  // what is let go swings faster than what is held
   control.hurry();
+}
+
+// The nodes of both lists increase. What stands does no work.
+void Simulation::Impl::choose_booked() {
+  booked.clear();
+  any_kept = false;
+  int once = 0;
+  for (int k = 0; k < static_cast<int>(boundaries.nodes().size()); ++k) {
+    while (once_held[once] != boundaries.nodes()[k]) ++once;
+    if (boundaries.drives(k) || kept[once]) booked.push_back({k, kept[once] ? once : -1});
+    any_kept = any_kept || kept[once];
+  }
 }
 
 void Simulation::Impl::tell_contact_what_is_held() {

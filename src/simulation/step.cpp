@@ -145,25 +145,22 @@ void Simulation::Impl::book_loads() {
 // What holds or drives a node answers the forces of the elements, the loads and contact along its fixed directions, and does work.
 void Simulation::Impl::book_reactions(double kick) {
   const std::vector<double>& mass = elements.nodal_mass();
-  const std::vector<int>& nodes = boundaries.nodes();
   const NodalForces f = forces();
-  if (contact && !nodes.empty()) {
-    held_impulse.assign(nodes.size(), Vec3::Zero());
+  const bool pressed_by_contact = contact && any_kept;
+  if (pressed_by_contact) {
+    held_impulse.assign(boundaries.nodes().size(), Vec3::Zero());
     contact->add_held_impulses(held_impulse);
-  } else {
-    held_impulse.clear();
   }
-  double done = 0;    // against contact it is in ContactStep::held_work
-  std::size_t r = 0;  // both lists increase
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const int i = nodes[k];
-    while (once_held[r] != i) ++r;
-    const Node impulse = boundaries.reaction_impulse(static_cast<int>(k), force_on(i, f), mass[i], v_before[i], v[i], kick);
-    done += 0.5 * impulse.dot(v_before[i] + v[i]);
+  double done = 0;  // against contact it is in ContactStep::held_work
+  for (const Booked& b : booked) {
+    const int i = boundaries.nodes()[b.held];
+    const Node impulse = boundaries.reaction_impulse(b.held, force_on(i, f), mass[i], v_before[i], v[i], kick);
+    if (boundaries.drives(b.held)) done += 0.5 * impulse.dot(v_before[i] + v[i]);
+    if (b.once < 0) continue;
     Vec3 felt = vec3(impulse);
-    if (!held_impulse.empty()) felt -= held_impulse[k];
-    reactions[r].impulse += felt;
-    reactions[r].angular += vec3(x[i]).cross(felt);
+    if (pressed_by_contact) felt -= held_impulse[b.held];
+    reactions[b.once].impulse += felt;
+    reactions[b.once].angular += vec3(x[i]).cross(felt);
   }
   work += done;
 }

@@ -34,6 +34,17 @@ TEST(Plan, WhyTheStepIsNotTakenFromTheWholeMesh) {
   EXPECT_NE(plan_text(*run.start()).find("step         by node; not by global: the law of body block is classical\n"), std::string::npos);
 }
 
+TEST(Plan, ReactionsOfThoseThatAreAskedFor) {
+  OneBody run(body_of(generate_blank(strip_of(.1, .01, 10, 2)), aluminium()), 1e-3);
+  EXPECT_EQ(plan_text(*run.start()).find("reactions"), std::string::npos);
+  pull_right(run, {0, 1e-3}, {Vec3::Zero(), Vec3::UnitX()});  // holds the left end
+  auto sim = run.start();
+  sim->keep_reactions(run.model.bodies[0].mesh.sets.at("left"));
+  EXPECT_NE(plan_text(*sim).find("reactions of 3 held nodes, for probes"), std::string::npos);
+  sim->keep_reactions({});
+  EXPECT_NE(line_with(plan_text(*sim), "not there").find("reactions of held nodes"), std::string::npos);
+}
+
 TEST(Plan, BytesAreThoseOfTheArrays) {
   const OneBody run(body_of(generate_blank(strip_of(.1, .01, 16, 2)), aluminium()), 1e-3);
   const std::vector<GroupPlan> groups = run.start()->groups();

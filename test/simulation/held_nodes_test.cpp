@@ -79,6 +79,34 @@ TEST(HeldNodes, MomentumChangesByReactionsToolsAndWeight) {
   EXPECT_LT(m.error(), 1e-10);
 }
 
+// What nobody asks for is not kept, and leaves the run and its ledger as they are: of what is driven the work is known all the same.
+TEST(HeldNodes, ReactionsAreKeptOfTheNodesThatAreAskedForAlone) {
+  OneBody run = pressed_plate();
+  pull_right(run, {0, 3e-4}, {Vec3(0, 0, 0), Vec3(1, 0, 0)});
+  run.plan.bodies[0].boundaries.back().axes = {"x"};
+  const auto& sets = run.model.bodies[0].mesh.sets;
+  const std::vector<int>&left = sets.at("left"), &top = sets.at("top");
+  auto all = run.start(), some = run.start(), none = run.start();
+  some->keep_reactions(left);
+  none->keep_reactions({});
+  EXPECT_EQ(none->reactions_kept(), 0);
+  EXPECT_EQ(some->reactions_kept(), static_cast<int>(left.size()));
+  EXPECT_GT(all->reactions_kept(), some->reactions_kept());
+  while (all->step()) {}
+  while (some->step()) {}
+  while (none->step()) {}
+  EXPECT_GT(all->energies().work, 0);
+  EXPECT_GT(all->reaction(left).impulse.norm(), 0);
+  EXPECT_EQ(some->reaction(left).impulse, all->reaction(left).impulse);
+  EXPECT_EQ(some->reaction(left).angular, all->reaction(left).angular);
+  EXPECT_FALSE(some->reaction(top).impulse.isApprox(all->reaction(top).impulse));
+  EXPECT_EQ(none->reaction(top).impulse, Vec3(Vec3::Zero()));
+  for (const auto* other : {some.get(), none.get()}) {
+    EXPECT_EQ(other->energies().work, all->energies().work);
+    EXPECT_EQ(other->positions(), all->positions());
+  }
+}
+
 // A bar that turns at both ends as one is a rigid bar: the reactions are those of its angular momentum.
 TEST(HeldNodes, EndsThatTurnTogetherTurnTheBar) {
   OneBody run(body_of(generate_blank(plate_of(0.02, 0.01, 0.004, 6, 3, 2)), aluminium()), 2e-3);

@@ -39,7 +39,7 @@ struct WaveBody {
 
 /// What a step did to a vertex of a surface that rubs.
 struct RubbedNode {
-  int node = -1;
+  int node;
   double area = 0;                  ///< m2
   Node normal = Node::Zero();       ///< impulse across the surface, N s
   Node radiated = Node::Zero();     ///< e, N s

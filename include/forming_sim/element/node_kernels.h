@@ -13,6 +13,8 @@ struct NodeKernels {
   void (*kick)(double keep, double push, const double* v, const NodalForces& forces, const double* mass, long first, long last, double* to);
   /// x += dt v; the largest |v - then|^2, 0 without `then`.
   double (*move)(double dt, const double* v, const double* then, long first, long last, double* x);
+  /// moved = is x other than seen, seen = x; of how many nodes it is. moved: one number a node.
+  long (*compare)(const double* x, long first, long last, double* seen, char* moved);
 };
 
 const NodeKernels& node_kernels_of(Isa isa);

@@ -37,4 +37,7 @@ double move_nodes(Team& team, double dt, const NodeField& v, const NodeField* th
 double kick_and_move_nodes(Team& team, const Kick& kick, const NodeField& v_before, const NodalForces& forces, const std::vector<double>& mass,
                            const std::function<void(long first, long last)>& hold, double dt, const NodeField* then, NodeField& v, NodeField& x);
 
+/// moved = does x differ from seen, node by node; seen = x. Returns how many do.
+long compare_nodes(Team& team, const NodeField& x, NodeField& seen, std::vector<char>& moved);
+
 }  // namespace forming_sim

@@ -38,6 +38,8 @@ class BoundarySet {
   /// P of nodes()[k]: identity minus its fixed directions, symmetric, P P = P.
   /// The inverse mass that contact sees is P / m.
   const Mat3& projector(int k) const { return groups_[group_[k]].projector; }
+  /// A boundary prescribes a motion of nodes()[k]; else it stands along its fixed directions.
+  bool drives(int k) const { return groups_[group_[k]].driven; }
 
   /// u of nodes()[k], which is at x at the time t: the prescribed velocity of the step to t + dt,
   /// zero along free directions.
@@ -86,6 +88,7 @@ class BoundarySet {
     std::vector<Direction> directions;
     std::vector<Beyond> beyond;
     bool turns = false;  ///< u differs from node to node
+    bool driven = false; ///< u may be other than 0
   };
   Group merge(const std::vector<int>& members, const std::vector<ResolvedBoundary>& boundaries, int dimension) const;
   /// Throws where the boundaries of a group prescribe different velocities of a node.

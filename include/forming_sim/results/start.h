@@ -20,7 +20,8 @@ struct StartCheck {
 /// known: faults of reading the scene.
 StartCheck check_start(const Scene& scene, std::vector<Fault> known, int threads);
 
-/// Throws SceneError where the run would take more than 1e12 steps.
-void check_length(const Simulation& simulation);
+/// The run of a valid scene at its start; reactions are kept of the nodes of its probes. Throws SceneError, also where the
+/// run would take more than 1e12 steps.
+std::unique_ptr<Simulation> build_run(const Scene& scene, int threads);
 
 }  // namespace forming_sim

@@ -72,8 +72,11 @@ class Simulation {
   double balance_error() const;      ///< |residual| now over the largest work + initial so far, and no less than the energy of a strain of 1e-12
   ContactStatus contact_status() const;
   const std::vector<ToolStatus>& tools() const;
-  /// Sum over those of the nodes that boundaries hold or drive, or have; axisymmetric: what goes along the axis.
+  /// Sum over those of the nodes that boundaries hold or drive, or have, and that keep_reactions() names; axisymmetric: what goes along the axis.
   Reaction reaction(const std::vector<int>& nodes) const;
+  /// The reactions of these nodes alone are kept from now on: those that nobody asks for cost time in every step. Before it is called, all are.
+  void keep_reactions(const std::vector<int>& nodes);
+  int reactions_kept() const;        ///< of so many nodes
   bool once_held(int node) const;    ///< a boundary holds or drives it, in part or in all directions, or has
   const std::vector<std::string>& warnings() const;  ///< "tool die was backed off by 1.2e-6 m"
 
