@@ -31,14 +31,8 @@ template <int modes> constexpr int kMode[6] = {0, 1, 2, kTurn, kTurn + 1, kTurn 
 template <> constexpr int kMode<1>[1] = {1};
 template <> constexpr int kMode<3>[3] = {0, 1, kTurn + 2};
 
-/// H B of a mode at r.
-Vec3 held_velocity(int mode, const Mat3& H, const Vec3& r) {
-  if (mode < kTurn) return H.col(mode);
-  const int i = (mode - kTurn + 1) % 3, j = (mode - kTurn + 2) % 3;
-  return H.col(j) * r[i] - H.col(i) * r[j];
-}
 /// B . u of a mode at r.
-double along_mode(int mode, const Vec3& r, const Vec3& u) {
+double along_mode(int mode, const Node& r, const Node& u) {
   if (mode < kTurn) return u[mode];
   const int i = (mode - kTurn + 1) % 3, j = (mode - kTurn + 2) % 3;
   return r[i] * u[j] - r[j] * u[i];
@@ -54,11 +48,17 @@ void MovingBody::hold(const std::vector<HeldNode>& held) {
   for (const HeldNode& h : held)
     if (h.node >= first_node_ && h.node < first_node_ + nodes_) own.push_back(&h);
   held_.clear();
-  for (std::size_t i = 0, stride = stride_of(own.size(), kHeldAsked); i < own.size(); i += stride) held_.push_back(*own[i]);
+  held_points_ = 0;
+  for (std::size_t i = 0, stride = stride_of(own.size(), kHeldAsked); i < own.size(); i += stride, ++held_points_) {
+    // I - P has the eigenvalue 1 along what is held
+    const Eigen::SelfAdjointEigenSolver<Mat3> directions(Mat3(Mat3::Identity() - own[i]->projector));
+    for (int k = 0; k < 3; ++k)
+      if (directions.eigenvalues()[k] > 0.5) held_.push_back({own[i]->node, node(directions.eigenvectors().col(k))});
+  }
 }
 
-// p: of the modes, of six (V, w); the velocity B p at r = x - c, of six B = (1, -r x); M = sum m B^T B about the masses' centre c, G = sum B^T H B, g = sum B^T H v.
-template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, const std::vector<Hold>& holds) {
+// p: of the modes, of six (V, w); the velocity B p at r = x - c, of six B = (1, -r x); M = sum m B^T B about the masses' centre c, b = B^T n, G = sum b b^T, g = sum b n.v.
+template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, const std::vector<Hold>& holds, double points) {
   using Vector = Eigen::Matrix<double, modes, 1>;
   using Square = Eigen::Matrix<double, modes, modes>;
   const auto rigid = [](const Node& c, const Vector& p) {
@@ -67,10 +67,10 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
     if constexpr (modes == 1) {
       motion.v[1] = p[0];
     } else if constexpr (modes == 3) {
-      motion.v = Node(p[0], p[1], 0, 0);
+      motion.v = node(p[0], p[1], 0);
       motion.w[2] = p[2];
     } else {
-      motion.v = Node(p[0], p[1], p[2], 0);
+      motion.v = node(p[0], p[1], p[2]);
       motion.w = p.template tail<3>();
     }
     return motion;
@@ -117,7 +117,7 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
     Mp << vec3(momentum), L;
     M.template bottomRightCorner<3, 3>() = J;
   }
-  for (const Hold& h : holds) size2 = std::max(size2, vec3(h.x - c).squaredNorm());
+  for (const Hold& h : holds) size2 = std::max(size2, (h.x - c).squaredNorm());
   for (int i = ways; i < modes; ++i) M(i, i) += kLine * mass * size2;
   BodyMotion motion;
   motion.own.c = motion.told.c = c;
@@ -129,13 +129,14 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
   Vector g = Vector::Zero();
   double told2 = 0;
   for (const Hold& h : holds) {
-    const Vec3 r = vec3(h.x - c), v = vec3(h.v), Hv = h.across * v;
+    const Node r = h.x - c;
+    double b[modes];
+    repeat<modes>([&](auto k) { b[k] = along_mode(kMode<modes>[k], r, h.along); });
     repeat<modes>([&](auto k) {
-      const Vec3 HB = held_velocity(kMode<modes>[k], h.across, r);
-      repeat<modes>([&](auto l) { G(int{l}, int{k}) += along_mode(kMode<modes>[l], r, HB); });
-      g[int{k}] += along_mode(kMode<modes>[k], r, Hv);
+      repeat<modes>([&](auto l) { G(int{l}, int{k}) += b[l] * b[k]; });
+      g[int{k}] += h.speed * b[k];
     });
-    told2 += v.dot(Hv);
+    told2 += h.speed * h.speed;
   }
   if (mass > 0) motion.own = rigid(c, Vector((M + kHold * mass * G).ldlt().solve(Mp)));
   if (told2 == 0) return motion;
@@ -143,7 +144,7 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
   // Least squares with kRest as many holds more that keep it at rest, A = G + kRest n, again for what is left of g: after k rounds p is G^-1 g but for
   // E^k of it, E = 1 - A^-1 G, and k doubles in each turn of the loop.
   Square A = G;
-  for (int i = 0; i < modes; ++i) A(i, i) += kRest * static_cast<double>(holds.size()) * (i < ways ? 1 : size2);
+  for (int i = 0; i < modes; ++i) A(i, i) += kRest * points * (i < ways ? 1 : size2);
   const Eigen::LDLT<Square> solver(A);
   Vector p = solver.solve(g);
   Square E = Square::Identity() - solver.solve(G);
@@ -157,8 +158,8 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
   return motion;
 }
 
-template BodyMotion MovingBody::of<1>(const Mass*, int, const std::vector<Hold>&);
-template BodyMotion MovingBody::of<3>(const Mass*, int, const std::vector<Hold>&);
-template BodyMotion MovingBody::of<6>(const Mass*, int, const std::vector<Hold>&);
+template BodyMotion MovingBody::of<1>(const Mass*, int, const std::vector<Hold>&, double);
+template BodyMotion MovingBody::of<3>(const Mass*, int, const std::vector<Hold>&, double);
+template BodyMotion MovingBody::of<6>(const Mass*, int, const std::vector<Hold>&, double);
 
 }  // namespace forming_sim

@@ -12,7 +12,7 @@ ClosestEdges closest_on_edges(const Node& a0, const Node& a1, const Node& b0, co
     return {crossing.s, crossing.t, apart, dot3(apart, apart), true};
   }
   const EndOnEdge<double> end = end_on_edge(r, u, v);
-  return {end.s, end.t, Node(end.apart[0], end.apart[1], end.apart[2], 0), end.squared, false};
+  return {end.s, end.t, node(end.apart[0], end.apart[1], end.apart[2]), end.squared, false};
 }
 
 const ClosestKernels& closest_kernels_of(Isa isa) {

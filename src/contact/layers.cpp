@@ -96,7 +96,7 @@ bool Layers::give(ContactPair& pair, std::vector<Rub>& rubs, Place& place) const
     pair.impulse = lasts_ * last_try_.pairs[last].force;
     if (pair.rub >= 0 && !last_try_.drags.empty()) {
       const double(&drag)[3] = last_try_.drags[last].force;
-      rubs[pair.rub].slip = lasts_ * Node(drag[0], drag[1], drag[2], 0);
+      rubs[pair.rub].slip = lasts_ * node(drag[0], drag[1], drag[2]);
     }
   }
   if (known && before_.pairs[place.before].inside(base)) {

@@ -196,7 +196,7 @@ class Phase {
     if (distance > range_.reach || !(distance > 0) || !offered(askew, distance)) return;
     const double s = pack.s[l], t = pack.t[l];
     out_.pairs.emplace_back(PairKey::make(PairKey::edge_edge, e.first, 0, e.second), e.own, e.surface, distance, askew,
-                            Node(pack.normal[0][l], pack.normal[1][l], pack.normal[2][l], 0));
+                            node(pack.normal[0][l], pack.normal[1][l], pack.normal[2][l]));
     ContactPair& pair = out_.pairs.back();
     pair.link({e.node[0], e.node[1], e.node[2], e.node[3]}, {1 - s, s, t - 1, -t});
     take(pack.shares, l, pair);

@@ -63,7 +63,7 @@ void ShearWaves::follow(double dt, double last_dt, const std::vector<double>& in
     const int n = std::min(i < rubs_.size() ? rubs_[i].node : kNone, p < pressed.size() ? pressed[p].node : kNone);
     if (n == kNone) break;
     const RubbedNode* rubbed = p < pressed.size() && pressed[p].node == n ? &pressed[p++] : nullptr;
-    Rubbing r = i < rubs_.size() && rubs_[i].node == n ? rubs_[i++] : Rubbing{n, Node(before[n][0], before[n][1], before[n][2], 0), Node::Zero()};
+    Rubbing r = i < rubs_.size() && rubs_[i].node == n ? rubs_[i++] : Rubbing{n, before[n], Node::Zero()};
     const int b = body_of(n);
     const WaveBody& body = bodies_[b];
     if (body.impedance == 0) continue;
@@ -73,11 +73,10 @@ void ShearWaves::follow(double dt, double last_dt, const std::vector<double>& in
       held_before.reserve(asked.size());
       held_after.reserve(asked.size());
       for (const RubbedNode* h : asked) {
-        const Node along = h->by_tools.normalized();
-        const Mat3 across = vec3(along) * vec3(along).transpose();
         const double size = h->by_tools.norm();
-        held_before.push_back({place_before(h->node), h->told_before / size * along, across});
-        held_after.push_back({place_after(h->node), h->told / size * along, across});
+        const Node along = h->by_tools / size;
+        held_before.push_back({place_before(h->node), along, h->told_before / size});
+        held_after.push_back({place_after(h->node), along, h->told / size});
       }
       whole = ChangeOfMotion(moving_[b].motion(inverse_mass, before, place_before, std::move(held_before)), moving_[b].motion(inverse_mass, after, place_after, std::move(held_after)));
       part = dt / (body.time + dt);

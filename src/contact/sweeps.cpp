@@ -188,13 +188,13 @@ Node Sweeps::slip(long i) const {
   if (place_[i] < 0) return Node::Zero();
   const RubPack& r = tiles_[i / tile_size_].rubs[place_[i] / kLanes];
   const long l = place_[i] % kLanes;
-  return Node(r.slip[0][l], r.slip[1][l], r.slip[2][l], 0) + radiated(i);
+  return node(r.slip[0][l], r.slip[1][l], r.slip[2][l]) + radiated(i);
 }
 Node Sweeps::radiated(long i) const {
   if (place_[i] < 0) return Node::Zero();
   const RubPack& r = tiles_[i / tile_size_].rubs[place_[i] / kLanes];
   const long l = place_[i] % kLanes;
-  return Node(r.radiated[0][l], r.radiated[1][l], r.radiated[2][l], 0);
+  return node(r.radiated[0][l], r.radiated[1][l], r.radiated[2][l]);
 }
 
 void Sweeps::take_back(long first, long last, LargeArray<ContactPair>& pairs, std::vector<Rub>& rubs) const {
@@ -271,7 +271,7 @@ void Sweeps::mix(Workspace& work, const LargeArray<ContactPair>& pairs, std::vec
         more[k] = mixed_[place] - state_[place];
         *at[k] = mixed_[place];
       }
-      push(pairs[i], more[0] * pairs[i].normal + Node(more[1] + more[4], more[2] + more[5], more[3] + more[6], 0), work, work.v);
+      push(pairs[i], more[0] * pairs[i].normal + node(more[1] + more[4], more[2] + more[5], more[3] + more[6]), work, work.v);
     }
   });
   long place = static_cast<long>(mixed_.size() - 3 * ties.size() - driven.size());

@@ -12,7 +12,7 @@ namespace forming_sim {
 Node facet_normal(int dimension, const Node& a, const Node& b, const Node& c) {
   Node n;
   if (dimension == 2)
-    n = Node(b[1] - a[1], a[0] - b[0], 0, 0);
+    n = node(b[1] - a[1], a[0] - b[0], 0);
   else
     n = cross3(b - a, c - a);
   const double size = n.norm();

@@ -191,8 +191,11 @@ Vec3 BoundarySet::prescribed(const Group& group, double t, double dt, const Vec3
 Vec3 BoundarySet::prescribed(int k, double t, double dt, const Vec3& x) const { return prescribed(groups_[group_[k]], t, dt, x); }
 
 BoundarySet::Prescription BoundarySet::prescription(double t, double dt) const {
-  Prescription step{t, dt, {}};
-  for (const Group& group : groups_) step.u.push_back(group.turns ? Vec3(Vec3::Zero()) : prescribed(group, t, dt, Vec3::Zero()));
+  Prescription step{t, dt, {}, {}};
+  for (const Group& group : groups_) {
+    step.u.push_back(group.turns ? Vec3(Vec3::Zero()) : prescribed(group, t, dt, Vec3::Zero()));
+    step.speed.push_back(step.u.back().norm());
+  }
   return step;
 }
 
@@ -202,7 +205,7 @@ double BoundarySet::apply_velocity(const Prescription& step, const NodeField& x,
     const int g = group_[at - nodes_.begin()];
     const Group& group = groups_[g];
     const Vec3 u = group.turns ? prescribed(group, step.t, step.dt, vec3(x[*at])) : step.u[g];
-    fastest = std::max(fastest, u.norm());
+    fastest = std::max(fastest, group.turns ? u.norm() : step.speed[g]);
     Node& velocity = v[*at];
     velocity.head<3>() = group.projector * vec3(velocity) + u;
   }

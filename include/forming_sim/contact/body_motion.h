@@ -3,10 +3,10 @@
 // are held, and so do tools across their surfaces: half a sheet that is held at its plane of symmetry moves as the whole sheet does, a body that is gripped as
 // its grips, and a billet in its container as the ram.
 //
-// Its own part is that of its masses in what is left free: the rigid motion p with the least of  sum m |p - v|^2 + K sum |H p|^2,  H onto the held directions.
+// Its own part is that of its masses in what is left free: the rigid motion p with the least of  sum m |p - v|^2 + K sum (n.p)^2,  n the held directions.
 // However the holds lie, it is not more than the motion of the masses, so that what goes with it takes energy from a body that swings against its holds and gives none.
 //
-// The told part follows the holds,  p with the least of  sum |H (p - v)|^2,  as far as they lead it. What they lead hardly (a sheet on two shoulders, along them) they do not:
+// The told part follows the holds,  p with the least of  sum (n.(p - v))^2,  as far as they lead it. What they lead hardly (a sheet on two shoulders, along them) they do not:
 // the inclination of the one against the other would throw it about. And as far as they agree: a punch that moves into a sheet on a die that
 // rests moves no rigid body, and tells the sheet nothing.
 //
@@ -25,7 +25,7 @@ struct WholeMotion {
 
   Node at(const Node& x) const {
     const Node r = x - c;
-    return v + Node(w[1] * r[2] - w[2] * r[1], w[2] * r[0] - w[0] * r[2], w[0] * r[1] - w[1] * r[0], 0);
+    return v + node(w[1] * r[2] - w[2] * r[1], w[2] * r[0] - w[0] * r[2], w[0] * r[1] - w[1] * r[0]);
   }
 };
 
@@ -47,10 +47,11 @@ struct ChangeOfMotion {
   Node at(const Node& from, const Node& to) const { return is.at(to) - was.at(from); }
 };
 
-/// A point whose velocity is told in some directions.
+/// A point whose velocity along a direction is told.
 struct Hold {
-  Node x, v;    ///< m, m/s
-  Mat3 across;  ///< H: symmetric, its own square
+  Node x;        ///< m
+  Node along;    ///< n, of length 1
+  double speed;  ///< m/s
 };
 
 /// Modes of rigid motion that nodes have: 6, in the plane x, y 3; of a section that is turned about y the motion along y alone.
@@ -69,9 +70,9 @@ class MovingBody {
     int count = 0;
     for (const int n : asked_)
       if (inverse_mass[n] > 0) masses[count++] = {1 / inverse_mass[n], place(n), v[n]};
-    holds.reserve(holds.size() + held_.size());
-    for (const HeldNode& h : held_) holds.push_back({place(h.node), v[h.node], Mat3::Identity() - h.projector});
-    return modes_ == 1 ? of<1>(masses.data(), count, holds) : modes_ == 3 ? of<3>(masses.data(), count, holds) : of<6>(masses.data(), count, holds);
+    const double points = static_cast<double>(holds.size() + held_points_);
+    for (const HeldAlong& h : held_) holds.push_back({place(h.node), h.along, h.along.dot(v[h.node])});
+    return modes_ == 1 ? of<1>(masses.data(), count, holds, points) : modes_ == 3 ? of<3>(masses.data(), count, holds, points) : of<6>(masses.data(), count, holds, points);
   }
 
  private:
@@ -80,11 +81,18 @@ class MovingBody {
     double m;
     Node x, v;
   };
-  template <int modes> static BodyMotion of(const Mass* masses, int count, const std::vector<Hold>& holds);
+  /// A direction in which a node is held.
+  struct HeldAlong {
+    int node;
+    Node along;
+  };
+  /// points: that have the holds.
+  template <int modes> static BodyMotion of(const Mass* masses, int count, const std::vector<Hold>& holds, double points);
 
   int first_node_, nodes_, modes_;
   std::vector<int> asked_;
-  std::vector<HeldNode> held_;
+  std::vector<HeldAlong> held_;
+  std::size_t held_points_ = 0;
 };
 
 }  // namespace forming_sim

@@ -21,7 +21,7 @@ struct Closest {
 
 inline double dot3(const Node& a, const Node& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline Node cross3(const Node& a, const Node& b) {
-  return Node(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0);
+  return node(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
 }
 
 inline Vector<double, 3> between(const Node& from, const Node& to) { return {{to[0] - from[0], to[1] - from[1], to[2] - from[2]}}; }
@@ -38,7 +38,7 @@ inline void lie_on_segment(double s, const Node& apart, Closest& c) {
 inline Closest closest_on_segment_facet(const Node& p, const Node& a, const Node& b) {
   const OverSegment<double> over = over_segment<double>({{p[0] - a[0], p[1] - a[1]}}, {{b[0] - a[0], b[1] - a[1]}});
   Closest c;
-  lie_on_segment(over.s, Node(over.apart[0], over.apart[1], 0, 0), c);
+  lie_on_segment(over.s, node(over.apart[0], over.apart[1], 0), c);
   return c;
 }
 
@@ -67,14 +67,14 @@ inline void lie_on_border(int side, double s, const Node& apart, Closest& f) {
 /// below 1e-6) is its three edges.
 inline Closest closest_on_triangle(const Node& p, const Node& a, const Node& b, const Node& c) {
   const Vector<double, 3> r = between(a, p), u = between(a, b), v = between(a, c);
-  const auto node = [](const Vector<double, 3>& d) { return Node(d[0], d[1], d[2], 0); };
+  const auto record = [](const Vector<double, 3>& d) { return node(d[0], d[1], d[2]); };
   Closest found;
   const OverFace<double> over = over_face(r, u, v);
   if (over.inside) {
-    lie_in_face(over.beta, over.gamma, node(over.apart), found);
+    lie_in_face(over.beta, over.gamma, record(over.apart), found);
   } else {
     const OnBorder<double> border = on_border(r, u, v);
-    lie_on_border(static_cast<int>(border.side), border.s, node(border.apart), found);
+    lie_on_border(static_cast<int>(border.side), border.s, record(border.apart), found);
   }
   return found;
 }

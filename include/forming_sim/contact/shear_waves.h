@@ -60,7 +60,7 @@ class ShearWaves {
   /// v: its velocity, which is steady where the node has not rubbed lately.
   Node steady(int node, double steps, const Node& v) const {
     const int i = place_[node];
-    return i < 0 ? Node(v[0], v[1], v[2], 0) : Node(rubs_[i].v + steps * rubs_[i].change);
+    return i < 0 ? v : Node(rubs_[i].v + steps * rubs_[i].change);
   }
   /// Of a pair of surfaces, those of tools after those of bodies: the body, or of two the one with the smaller impedance.
   const WaveBody& of_pair(int first, int second) const;

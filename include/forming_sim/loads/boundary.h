@@ -49,6 +49,7 @@ class BoundarySet {
   struct Prescription {
     double t, dt;
     std::vector<Vec3> u;  ///< of each group that does not turn
+    std::vector<double> speed;  ///< |u|
   };
   Prescription prescription(double t, double dt) const;
   /// v <- P v + u of those of the nodes [first, last) that are held or driven. Returns the largest prescribed speed, m/s.

@@ -17,6 +17,15 @@ using Node = Eigen::Vector4d;
 using NodeField = LargeArray<Node>;
 
 inline Vec3 vec3(const Node& node) { return node.head<3>(); }
-inline Node node(const Vec3& v) { return Node(v.x(), v.y(), v.z(), 0); }
+/// Written in halves: a record that is written number by number and then loaded whole waits for the writes.
+inline Node node(double x, double y, double z) {
+  typedef double Half __attribute__((vector_size(16)));
+  Node record;
+  Half* halves = reinterpret_cast<Half*>(record.data());
+  halves[0] = Half{x, y};
+  halves[1] = Half{z, 0};
+  return record;
+}
+inline Node node(const Vec3& v) { return node(v.x(), v.y(), v.z()); }
 
 }  // namespace forming_sim
