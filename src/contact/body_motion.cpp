@@ -37,6 +37,11 @@ double along_mode(int mode, const Node& r, const Node& u) {
   const int i = (mode - kTurn + 1) % 3, j = (mode - kTurn + 2) % 3;
   return r[i] * u[j] - r[j] * u[i];
 }
+/// A^-1 b of a symmetric A; 0 where A is.
+template <class Square, class Right> Right solved(const Square& A, const Right& b) {
+  if constexpr (Square::RowsAtCompileTime == 1) return A(0, 0) != 0 ? Right(b / A(0, 0)) : Right(Right::Zero());
+  else return A.ldlt().solve(b);
+}
 }  // namespace
 
 MovingBody::MovingBody(int first_node, int nodes, int modes) : first_node_(first_node), nodes_(nodes), modes_(modes) {
@@ -122,7 +127,7 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
   BodyMotion motion;
   motion.own.c = motion.told.c = c;
   if (holds.empty()) {
-    motion.own = rigid(c, mass > 0 ? Vector(M.ldlt().solve(Mp)) : Vector::Zero());
+    motion.own = rigid(c, mass > 0 ? solved(M, Mp) : Vector(Vector::Zero()));
     return motion;
   }
   Square G = Square::Zero();
@@ -138,16 +143,18 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
     });
     told2 += h.speed * h.speed;
   }
-  if (mass > 0) motion.own = rigid(c, Vector((M + kHold * mass * G).ldlt().solve(Mp)));
+  if (mass > 0) motion.own = rigid(c, solved(Square(M + kHold * mass * G), Mp));
   if (told2 == 0) return motion;
 
   // Least squares with kRest as many holds more that keep it at rest, A = G + kRest n, again for what is left of g: after k rounds p is G^-1 g but for
   // E^k of it, E = 1 - A^-1 G, and k doubles in each turn of the loop.
   Square A = G;
   for (int i = 0; i < modes; ++i) A(i, i) += kRest * points * (i < ways ? 1 : size2);
-  const Eigen::LDLT<Square> solver(A);
-  Vector p = solver.solve(g);
-  Square E = Square::Identity() - solver.solve(G);
+  Eigen::Matrix<double, modes, modes + 1> g_and_G;
+  g_and_G << g, G;
+  g_and_G = solved(A, g_and_G);
+  Vector p = g_and_G.col(0);
+  Square E = Square::Identity() - g_and_G.template rightCols<modes>();
   for (int k = 1; k < kRounds; k *= 2) {
     p += E * p;
     E = Square(E * E);
