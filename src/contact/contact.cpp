@@ -104,9 +104,7 @@ void Contact::Impl::follow_steady_motion(double dt, const std::vector<ToolMotion
   for (int i = 0; i < work.body_entries; ++i) {
     if (place_pressed[i] < 0) continue;
     place_pressed[i] = static_cast<int>(pressed.size());
-    pressed.emplace_back();
-    pressed.back().node = work.vertex[i];
-    pressed.back().area = features.area[work.vertex[i]];
+    pressed.push_back({work.vertex[i], features.area[work.vertex[i]]});
   }
   for (const ContactPair& pair : near.pairs) {
     if (!rubs(pair)) continue;

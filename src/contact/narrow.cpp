@@ -101,6 +101,7 @@ class Phase {
     long candidate = -1;
     std::uint64_t feature = 0;
     bool taken = false;
+    Hit() {}  // without it all is set to zero before
   };
 
   // The closest points of the candidates, in lanes; then group by group what they are.
@@ -198,7 +199,7 @@ class Phase {
     out_.pairs.emplace_back(PairKey::make(PairKey::edge_edge, e.first, 0, e.second), e.own, e.surface, distance, askew,
                             node(pack.normal[0][l], pack.normal[1][l], pack.normal[2][l]));
     ContactPair& pair = out_.pairs.back();
-    pair.link({e.node[0], e.node[1], e.node[2], e.node[3]}, {1 - s, s, t - 1, -t});
+    pair.link({e.node[0], e.node[1], e.node[2], e.node[3]}, 1 - s, s, t - 1, -t);
     take(pack.shares, l, pair);
     finish();
   }
@@ -267,13 +268,13 @@ class Phase {
                        surface, gap, askew, normal);
     ContactPair& pair = pairs.back();
     if (c.feature == Closest::face) {
-      if (f_.dimension == 2) pair.link({g.node, e.node[0], e.node[1]}, {1, -c.weight[0], -c.weight[1]});
-      else pair.link({g.node, e.node[0], e.node[1], e.node[2]}, {1, -c.weight[0], -c.weight[1], -c.weight[2]});
+      if (f_.dimension == 2) pair.link({g.node, e.node[0], e.node[1]}, 1, -c.weight[0], -c.weight[1]);
+      else pair.link({g.node, e.node[0], e.node[1], e.node[2]}, 1, -c.weight[0], -c.weight[1], -c.weight[2]);
     } else if (corners) {
-      pair.link({turned ? other : g.node, turned ? g.node : other}, {1, -1});
+      pair.link({turned ? other : g.node, turned ? g.node : other}, 1, -1);
     } else {
       const int i = c.which == 2 ? 0 : c.which, j = c.which == 2 ? 2 : c.which + 1;
-      pair.link({g.node, e.node[i], e.node[j]}, {1, -c.weight[i], -c.weight[j]});
+      pair.link({g.node, e.node[i], e.node[j]}, 1, -c.weight[i], -c.weight[j]);
     }
     if (is_clear(range_, gap) && all_stand(work_, pair.node, pair.nodes)) pairs.pop_back();
     else if (c.feature == Closest::face) take(faces_[hit.candidate / kLanes].shares, static_cast<int>(hit.candidate % kLanes), pair);
@@ -336,7 +337,7 @@ void add_plane_pairs(const Features& features, const Workspace& work, const std:
     const int nodes[2] = {p.node, p.foot};
     if (gap > range.reach || (is_clear(range, gap) && all_stand(work, nodes, 2))) continue;
     pairs.emplace_back(PairKey::make(PairKey::plane, p.vertex, 0, p.tool), features.vertex_surface[p.vertex], features.bodies + p.tool, gap, false, plane.end_normal);
-    pairs.back().link({p.node, p.foot}, {1, -1});
+    pairs.back().link({p.node, p.foot}, 1, -1);
   }
 }
 

@@ -172,7 +172,7 @@ TEST(ContactClosest, FacesInLanesAreThoseOneByOne) {
         if (pack.inside[l] == 0) continue;
         ++inside;
         Link link;
-        link.link({4 * l, 4 * l + 1, 4 * l + 2, 4 * l + 3}, {1, -found.weight[0], -found.weight[1], -found.weight[2]});
+        link.link({4 * l, 4 * l + 1, 4 * l + 2, 4 * l + 3}, 1, -found.weight[0], -found.weight[1], -found.weight[2]);
         expect_shares(shares, link, pack.shares, l);
       }
     }
@@ -207,7 +207,7 @@ TEST(ContactClosest, SegmentsInLanesAreThoseOneByOne) {
         if (pack.inside[l] == 0) continue;
         ++inside;
         Link link;
-        link.link({3 * l, 3 * l + 1, 3 * l + 2}, {1, -found.weight[0], -found.weight[1]});
+        link.link({3 * l, 3 * l + 1, 3 * l + 2}, 1, -found.weight[0], -found.weight[1]);
         expect_shares(shares, link, pack.shares, l);
       }
     }
@@ -243,7 +243,7 @@ TEST(ContactClosest, EdgesInLanesAreThoseOneByOne) {
         if (!c.crossing) continue;
         ++crossing;
         Link link;
-        link.link({node[l][0], node[l][1], node[l][2], node[l][3]}, {1 - pack.s[l], pack.s[l], pack.t[l] - 1, -pack.t[l]});
+        link.link({node[l][0], node[l][1], node[l][2], node[l][3]}, 1 - pack.s[l], pack.s[l], pack.t[l] - 1, -pack.t[l]);
         expect_shares(shares, link, pack.shares, l);
         EXPECT_NEAR(pack.s[l], c.s, 1e-10);
         EXPECT_NEAR(pack.t[l], c.t, 1e-10);

@@ -165,7 +165,7 @@ TEST(ContactSweeps, PairsThatHoldTheSameNodeShareSoon) {
   for (int i = 1; i < 39; ++i)
     for (const int neighbour : {i - 1, i + 1}) {
       ContactPair pair;
-      pair.link({i, neighbour, 40}, {0.94, 0.06, -1});
+      pair.link({i, neighbour, 40}, 0.94, 0.06, -1);
       pair.normal = Node(0, 0, 1, 0);
       pair.layer = 1e-4;
       pair.gap = 0.9 * pair.layer * (1 + 1e-3 * (neighbour - i));
@@ -192,7 +192,7 @@ TEST(ContactSweeps, PairsThatNothingMoves) {
   const int tool = heap.work.body_entries;
   for (int i = 0; i < 20; ++i) {
     ContactPair still = heap.pairs[0];
-    still.link({tool + i, tool + i + 1}, {1, -1});
+    still.link({tool + i, tool + i + 1}, 1, -1);
     still.w = 0;
     still.movers = 0;
     still.held = 0;

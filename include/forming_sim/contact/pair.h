@@ -33,12 +33,13 @@ struct Link {
   int node[4] = {-1, -1, -1, -1};   ///< in the workspace
   std::int16_t nodes = 0;
 
-  template <int N> void link(const int (&of)[N], const double (&b)[N]) {
+  /// One b for each node. (An array of them would be written number by number, and wait to be read in halves.)
+  template <int N, class... B> void link(const int (&of)[N], B... b) {
+    static_assert(sizeof...(B) == N);
     nodes = N;
-    for (int k = 0; k < N; ++k) {
-      node[k] = of[k];
-      weight[k] = b[k];
-    }
+    for (int k = 0; k < N; ++k) node[k] = of[k];
+    double* to = weight;
+    ((*to++ = b), ...);
   }
 };
 
