@@ -138,6 +138,7 @@ BoundarySet::Group BoundarySet::merge(const std::vector<int>& members,
   }
   for (const Direction& fixed : group.directions) group.projector -= fixed.axis * fixed.axis.transpose();
   // All directions fixed: nothing is left, not even rounding.
+  group.whole = static_cast<int>(group.directions.size()) == dimension;
   if (group.directions.size() == 3) group.projector.setZero();
   group.fixed.topLeftCorner<3, 3>() = Mat3::Identity() - group.projector;
   return group;
@@ -207,7 +208,7 @@ double BoundarySet::apply_velocity(const Prescription& step, const NodeField& x,
     const Vec3 u = group.turns ? prescribed(group, step.t, step.dt, vec3(x[*at])) : step.u[g];
     fastest = std::max(fastest, group.turns ? u.norm() : step.speed[g]);
     Node& velocity = v[*at];
-    velocity.head<3>() = group.projector * vec3(velocity) + u;
+    velocity = node(group.whole ? u : Vec3(group.projector * vec3(velocity) + u));
   }
   return fastest;
 }

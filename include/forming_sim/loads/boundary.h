@@ -90,6 +90,7 @@ class BoundarySet {
     std::vector<Beyond> beyond;
     bool turns = false;  ///< u differs from node to node
     bool driven = false; ///< u may be other than 0
+    bool whole = false;  ///< no direction is free: v = u
   };
   Group merge(const std::vector<int>& members, const std::vector<ResolvedBoundary>& boundaries, int dimension) const;
   /// Throws where the boundaries of a group prescribe different velocities of a node.
