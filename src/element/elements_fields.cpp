@@ -148,6 +148,7 @@ ElementFields Elements::observe(const NodeField& x) const {
 
 std::vector<Sym> Elements::stress_of(const std::vector<int>& elements, const NodeField& x) const {
   std::vector<Sym> stress(elements.size());
+  if (elements.empty()) return stress;
   // With pressures in the nodes an element has a share in those of its neighbours; and where an element in a block is asked for, all are found.
   if (any_nodal_ || elements.size() * kLanes >= simplices_.size()) {
     const std::vector<Sym> all = observe(x).stress;

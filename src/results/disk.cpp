@@ -19,8 +19,12 @@ int obstacle(int file, std::uint64_t bytes) {
   struct rlimit largest;
   if (fstat(file, &now) != 0 || getrlimit(RLIMIT_FSIZE, &largest) != 0) return errno;
   if (largest.rlim_cur != RLIM_INFINITY && static_cast<std::uint64_t>(now.st_size) + bytes > largest.rlim_cur) return EFBIG;
-  if (fallocate(file, FALLOC_FL_KEEP_SIZE, now.st_size, static_cast<off_t>(bytes)) == 0) return 0;
-  return errno == EOPNOTSUPP ? 0 : errno;
+  int reason;
+  do reason = fallocate(file, FALLOC_FL_KEEP_SIZE, now.st_size, static_cast<off_t>(bytes)) == 0 ? 0 : errno;
+  while (reason == EINTR);
+  if (reason == EOPNOTSUPP || reason == ENOSYS || reason == EINVAL) return 0;
+  if (reason != 0 && ftruncate(file, now.st_size) != 0) return reason;  // what was allotted before it failed is free again
+  return reason;
 }
 
 }  // namespace

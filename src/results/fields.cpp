@@ -1,7 +1,9 @@
 #include "forming_sim/results/fields.h"
 
 #include <algorithm>
+#include <exception>
 
+#include "forming_sim/config/fault.h"
 #include "forming_sim/results/snapshot.h"
 #include "forming_sim/results/text_file.h"
 
@@ -34,11 +36,19 @@ void Fields::on_stage_end(const Simulation& simulation, int) { write(simulation)
 
 void Fields::on_end(const Simulation& simulation, Code code, const std::string&) {
   if (!file_) return;
-  if (code != Code::output_error) {
-    write(simulation, code == Code::cancelled);
-    if (xdmf_->frames() != file_->frames().size()) write_xdmf();
-  }
+  // Whatever fails: frames that are in the one file are listed in the other, and the room that was kept is free for what is written after these.
+  std::exception_ptr failed;
+  const auto attempt = [&](auto&& work) {
+    try {
+      work();
+    } catch (const Error&) {
+      if (!failed) failed = std::current_exception();
+    }
+  };
+  if (code != Code::output_error) attempt([&] { write(simulation, code == Code::cancelled); });
   file_->finish();
+  if (frames_in_xdmf_ != file_->frames().size()) attempt([&] { write_xdmf(); });
+  if (failed && code != Code::output_error) std::rethrow_exception(failed);
 }
 
 void Fields::write(const Simulation& simulation, bool interrupted) {
@@ -54,6 +64,7 @@ void Fields::write(const Simulation& simulation, bool interrupted) {
 void Fields::write_xdmf() {
   const Clock::time_point start = Clock::now();
   replace_file(in_directory(directory_, "result.xdmf"), xdmf_->text(file_->frames()));
+  frames_in_xdmf_ = file_->frames().size();
   const Clock::time_point end = Clock::now();
   xdmf_due_ = end + std::max<Clock::duration>(std::chrono::seconds(1), 100 * (end - start));
 }

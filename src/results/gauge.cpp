@@ -57,7 +57,10 @@ Peak greatest_thinning(const Simulation& simulation, const std::vector<double>& 
 
 Gauge::Gauge(const Simulation& simulation, const std::vector<ProbeConfig>& probes)
     : probes_(find_probes(probes, simulation.model(), simulation.elements())), sheets_(simulation.model()) {
-  for (Probe& probe : probes_) probe.held = std::any_of(probe.nodes.begin(), probe.nodes.end(), [&](int n) { return simulation.once_held(n); });
+  for (Probe& probe : probes_) {
+    probe.held = std::any_of(probe.nodes.begin(), probe.nodes.end(), [&](int n) { return simulation.once_held(n); });
+    asked_.insert(asked_.end(), probe.elements.begin(), probe.elements.end());
+  }
 }
 
 const Measures& Gauge::at(const Simulation& simulation) {
@@ -72,9 +75,12 @@ const Measures& Gauge::at(const Simulation& simulation) {
     measures_.thinning = greatest_thinning(simulation, measures_.thinning_of_nodes);
   }
   measures_.probes.clear();
-  for (const Probe& probe : probes_)
-    measures_.probes.push_back(measure(probe, simulation.model(), simulation.elements(),
-                                       simulation.positions(), simulation.velocities(), simulation.stress(probe.elements)));
+  const std::vector<Sym> stress = simulation.stress(asked_);
+  const Sym* of_probe = stress.data();
+  for (const Probe& probe : probes_) {
+    measures_.probes.push_back(measure(probe, simulation.model(), simulation.elements(), simulation.positions(), simulation.velocities(), of_probe));
+    of_probe += probe.elements.size();
+  }
   return measures_;
 }
 

@@ -72,7 +72,7 @@ double simplex_volume(const Model& model, const std::array<int, 4>& element, con
 }
 
 ProbeValue measure(const Probe& probe, const Model& model, const std::vector<std::array<int, 4>>& elements,
-                   const NodeField& positions, const NodeField& velocities, const std::vector<Sym>& stress) {
+                   const NodeField& positions, const NodeField& velocities, const Sym* stress) {
   ProbeValue value;
   for (int node : probe.nodes) {
     value.position += vec3(positions[node]);

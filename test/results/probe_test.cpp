@@ -64,7 +64,7 @@ TEST(Probe, WeighsStressByCurrentVolume) {
   std::vector<Sym> stress(2, Sym::Zero());
   stress[0] << 1, 2, 3, 4, 5, 6;
   stress[1] << 5, 6, 7, 8, 9, 10;
-  const ProbeValue value = measure(probes[0], square.model, square.elements, x, v, stress);
+  const ProbeValue value = measure(probes[0], square.model, square.elements, x, v, stress.data());
   EXPECT_EQ(value.position, Vec3(0, 0.5, 0));
   EXPECT_EQ(value.velocity, Vec3(0, 1, 0));
   Sym expected;
@@ -83,7 +83,7 @@ TEST(Probe, WeighsStressByTheCircleOfARing) {
   x[6] = Node(1, 1, 0, 0);
   std::vector<Sym> stress(2, Sym::Zero());
   stress[0][2] = 9;
-  EXPECT_NEAR(measure(probes[0], square.model, square.elements, x, v, stress).stress[2], 5, 1e-12);
+  EXPECT_NEAR(measure(probes[0], square.model, square.elements, x, v, stress.data()).stress[2], 5, 1e-12);
 }
 
 TEST(Probe, TellsAllThatCannotBePlaced) {

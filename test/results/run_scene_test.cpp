@@ -330,9 +330,9 @@ TEST(RunScene, IntoADirectoryThatCannotBeMadeIsAnOutcome) {
   EXPECT_NE(outcome.message.find(directory.file("occupied")), std::string::npos) << outcome.message;
 }
 
-void run_on_a_small_disk(const std::string& directory) {
+void run_on_a_small_disk(const std::string& directory, rlim_t bytes) {
   signal(SIGXFSZ, SIG_IGN);
-  const rlimit limit{60000, 60000};
+  const rlimit limit{bytes, bytes};
   setrlimit(RLIMIT_FSIZE, &limit);
   const Outcome outcome = run_scene(small_scene(), directory, 1, "", kNever);
   std::fprintf(stderr, "%s\n", outcome.message.c_str());
@@ -341,8 +341,20 @@ void run_on_a_small_disk(const std::string& directory) {
 
 TEST(RunSceneDeathTest, OnAFullDiskEndsWithASentence) {
   const TemporaryDirectory directory;
-  EXPECT_EXIT(run_on_a_small_disk(directory.path()), testing::ExitedWithCode(0), "^cannot .*: File too large");
+  EXPECT_EXIT(run_on_a_small_disk(directory.path(), 60000), testing::ExitedWithCode(0), "^cannot .*: File too large");
   EXPECT_EQ(read_json(directory.file("summary.json"))["status"]["code"], static_cast<int>(Code::output_error));
+}
+
+// A run is over before the text that lists its frames is due again.
+TEST(RunSceneDeathTest, OnAFullDiskListsTheFramesThatAreThere) {
+  const TemporaryDirectory directory;
+  EXPECT_EXIT(run_on_a_small_disk(directory.path(), 200000), testing::ExitedWithCode(0), "^cannot .*result.h5.*: File too large");
+  const std::size_t frames = ResultReader(directory.file("result.h5")).frames().size();
+  EXPECT_GT(frames, 1u);
+  std::ifstream file(directory.file("result.xdmf"));
+  std::size_t listed = 0;
+  for (std::string line; std::getline(file, line);) listed += line.find("<Time ") != std::string::npos;
+  EXPECT_EQ(listed, frames);
 }
 
 TEST(RunScene, OneRunAtATimeWritesIntoADirectory) {

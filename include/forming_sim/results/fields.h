@@ -38,6 +38,7 @@ class Fields : public Observer {
   std::optional<ResultFile> file_;
   long last_step_ = -1;
   std::optional<Xdmf> xdmf_;
+  std::size_t frames_in_xdmf_ = 0;  ///< of the file
   Clock::time_point xdmf_due_;
 };
 

@@ -29,6 +29,7 @@ class Gauge {
 
  private:
   std::vector<Probe> probes_;
+  std::vector<int> asked_;  ///< elements of the probes, one probe's after the other's
   Thickness sheets_;
   Measures measures_;
   long step_ = -1;

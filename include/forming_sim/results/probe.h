@@ -30,7 +30,7 @@ std::vector<Probe> find_probes(const std::vector<ProbeConfig>& configs, const Mo
 
 /// stress: of the probe's elements, in their order.
 ProbeValue measure(const Probe& probe, const Model& model, const std::vector<std::array<int, 4>>& elements,
-                   const NodeField& positions, const NodeField& velocities, const std::vector<Sym>& stress);
+                   const NodeField& positions, const NodeField& velocities, const Sym* stress);
 
 /// Volume of a simplex (plane strain: area; axisymmetric: per radian), positive where its nodes are in order.
 double simplex_volume(const Model& model, const std::array<int, 4>& element, const NodeField& positions);

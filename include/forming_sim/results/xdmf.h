@@ -17,7 +17,6 @@ class Xdmf {
   Xdmf(const ResultHeader& header, const std::string& h5_name) : header_(header), h5_name_(h5_name) {}
   /// The whole text. frames: those of the last call, unchanged, and what came after them, which alone is written anew.
   std::string text(const std::vector<FrameEntry>& frames);
-  std::size_t frames() const { return written_; }  ///< of the last call
 
  private:
   const ResultHeader& header_;

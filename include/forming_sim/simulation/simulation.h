@@ -57,7 +57,7 @@ class Simulation {
   int stage() const;                 ///< index of the running stage; number of stages at the end
   double progress() const;           ///< 0..1, by simulated time; a settle stage counts by its limit
   double wall_time() const;          ///< s spent stepping and checking, observers excluded
-  double observed_time() const;      ///< s that observers took between the steps
+  double observed_time() const;      ///< s that observers and the change of stages took between the steps
   const NodeField& initial_positions() const;
   const NodeField& positions() const;
   const NodeField& velocities() const;   ///< at the half step before time()

@@ -19,7 +19,7 @@ using NodeField = LargeArray<Node>;
 inline Vec3 vec3(const Node& node) { return node.head<3>(); }
 /// Written in halves: a record that is written number by number and then loaded whole waits for the writes.
 inline Node node(double x, double y, double z) {
-  typedef double Half __attribute__((vector_size(16)));
+  typedef double Half __attribute__((vector_size(16), may_alias));
   Node record;
   Half* halves = reinterpret_cast<Half*>(record.data());
   halves[0] = Half{x, y};
