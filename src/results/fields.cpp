@@ -60,7 +60,7 @@ void Fields::write(const Simulation& simulation, bool interrupted) {
   if (Clock::now() >= xdmf_due_) write_xdmf();
 }
 
-// All of it is written each time. So it is no more than a second behind, and takes no more than a hundredth of the time of a run.
+// All of it is written each time. So with the first frame after a second, and for no more than a hundredth of the time of a run.
 void Fields::write_xdmf() {
   const Clock::time_point start = Clock::now();
   replace_file(in_directory(directory_, "result.xdmf"), xdmf_->text(file_->frames()));

@@ -31,8 +31,7 @@ std::vector<int> elements_of(const std::vector<int>& nodes, int corners,
 
 }  // namespace
 
-std::vector<Probe> find_probes(const std::vector<ProbeConfig>& configs, const Model& model,
-                               const std::vector<std::array<int, 4>>& elements) {
+std::vector<Probe> place_probes(const std::vector<ProbeConfig>& configs, const Model& model) {
   std::vector<Probe> probes;
   std::vector<Fault> faults;
   for (std::size_t i = 0; i < configs.size(); ++i) {
@@ -55,10 +54,16 @@ std::vector<Probe> find_probes(const std::vector<ProbeConfig>& configs, const Mo
       continue;
     }
     for (int& node : probe.nodes) node += body->first_node;
-    probe.elements = elements_of(probe.nodes, model.dimension + 1, elements);
     probes.push_back(std::move(probe));
   }
   if (!faults.empty()) throw SceneError(faults);
+  return probes;
+}
+
+std::vector<Probe> find_probes(const std::vector<ProbeConfig>& configs, const Model& model,
+                               const std::vector<std::array<int, 4>>& elements) {
+  std::vector<Probe> probes = place_probes(configs, model);
+  for (Probe& probe : probes) probe.elements = elements_of(probe.nodes, model.dimension + 1, elements);
   return probes;
 }
 

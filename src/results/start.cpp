@@ -25,7 +25,7 @@ std::unique_ptr<Simulation> build_run(const Scene& scene, int threads) {
   auto simulation = std::make_unique<Simulation>(build_plan(scene), build_model(scene), threads);
   check_length(*simulation);
   std::vector<int> asked;
-  for (const Probe& probe : find_probes(scene.output.probes, simulation->model(), simulation->elements()))
+  for (const Probe& probe : place_probes(scene.output.probes, simulation->model()))
     asked.insert(asked.end(), probe.nodes.begin(), probe.nodes.end());
   simulation->keep_reactions(asked);
   return simulation;

@@ -24,7 +24,9 @@ struct ProbeValue {
   Sym stress = Sym::Zero();      ///< Pa, mean over the current volume: xx yy zz xy yz zx
 };
 
-/// Throws SceneError naming the probes whose body or set is not there or empty.
+/// Their names and nodes. Throws SceneError naming the probes whose body or set is not there or empty.
+std::vector<Probe> place_probes(const std::vector<ProbeConfig>& configs, const Model& model);
+/// With the elements too, for which all of the model's are gone through.
 std::vector<Probe> find_probes(const std::vector<ProbeConfig>& configs, const Model& model,
                                const std::vector<std::array<int, 4>>& elements);
 
