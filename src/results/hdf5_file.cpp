@@ -22,7 +22,7 @@ void keep_metadata(H5AC_cache_config_t& cache) {
   cache.decr_mode = H5C_decr__off;
 }
 
-/// A flush goes through all metadata in memory; what is in the file need not stay there. file: just flushed.
+/// file: just flushed.
 bool forget_metadata(hid_t file) {
   constexpr std::size_t kStays = 64 << 10;  // bytes, of what was used last
   H5AC_cache_config_t cache;
@@ -77,7 +77,11 @@ Hdf5Group Hdf5File::root() const {
 }
 
 void Hdf5File::flush() {
-  if (H5Fflush(handle_.id(), H5F_SCOPE_LOCAL) < 0 || !forget_metadata(handle_.id())) throw_hdf5_error("write", path_);
+  if (H5Fflush(handle_.id(), H5F_SCOPE_LOCAL) < 0) throw_hdf5_error("write", path_);
+}
+
+void Hdf5File::forget() {
+  if (!forget_metadata(handle_.id())) throw_hdf5_error("write", path_);
 }
 
 void Hdf5File::close() {

@@ -16,29 +16,58 @@ template <> hid_t native<std::int64_t>() { return H5T_NATIVE_INT64; }
 template <> hid_t native<std::uint8_t>() { return H5T_NATIVE_UINT8; }
 
 constexpr std::uint64_t kChunkBytes = 1u << 20;
+constexpr std::uint64_t kCompactBytes = 1024;     ///< what is no longer lies in the header of its dataset
 constexpr std::uint64_t kPackedBytes = 1u << 16;  ///< of less the index of a chunk is as large as what packing saves, and packing most of the time that writing takes
 
+/// What creates a dataset; it keeps no times, so that the same run gives the same file.
+Hdf5Handle dataset_list() {
+  Hdf5Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(list.id(), false);
+  return list;
+}
+
+/// Kept, and closed by the library at its end: to make a list anew takes as long as to write what is small.
+Hdf5Handle kept_list(bool compact) {
+  const auto of = [](H5D_layout_t layout) {
+    const Hdf5Handle list = dataset_list();
+    H5Pset_layout(list.id(), layout);
+    return H5Pcopy(list.id());
+  };
+  static const hid_t in_header = of(H5D_COMPACT), plain = of(H5D_CONTIGUOUS);
+  return Hdf5Handle(compact ? in_header : plain, nullptr);
+}
+
 /// Chunks of whole rows of about a megabyte.
-void set_storage(hid_t list, const std::vector<std::uint64_t>& shape, std::size_t size, Storage storage) {
-  std::uint64_t row = size;
-  for (std::size_t axis = 1; axis < shape.size(); ++axis) row *= shape[axis];
-  const bool empty = std::find(shape.begin(), shape.end(), 0u) != shape.end();
-  if (storage == Storage::plain || empty || shape.empty() || (storage == Storage::packed && shape[0] * row < kPackedBytes)) return;
+Hdf5Handle chunked_list(const std::vector<std::uint64_t>& shape, std::uint64_t row_bytes, Storage storage) {
+  Hdf5Handle list = dataset_list();
   std::vector<hsize_t> chunk(shape.begin(), shape.end());
-  chunk[0] = std::clamp<hsize_t>(kChunkBytes / row, 1, shape[0]);
-  H5Pset_chunk(list, static_cast<int>(chunk.size()), chunk.data());
+  chunk[0] = std::clamp<hsize_t>(kChunkBytes / row_bytes, 1, shape[0]);
+  H5Pset_chunk(list.id(), static_cast<int>(chunk.size()), chunk.data());
   if (storage == Storage::checked) {
-    H5Pset_fletcher32(list);
+    H5Pset_fletcher32(list.id());
   } else {
-    H5Pset_shuffle(list);
-    H5Pset_deflate(list, 1);
+    H5Pset_shuffle(list.id());
+    H5Pset_deflate(list.id(), 1);
   }
+  return list;
+}
+
+Hdf5Handle creation_list(const std::vector<std::uint64_t>& shape, std::uint64_t size, Storage storage) {
+  std::uint64_t row_bytes = size;
+  for (std::size_t axis = 1; axis < shape.size(); ++axis) row_bytes *= shape[axis];
+  const std::uint64_t bytes = shape[0] * row_bytes;
+  if (bytes == 0) return kept_list(false);
+  if (storage == Storage::checked) return chunked_list(shape, row_bytes, storage);
+  if (bytes <= kCompactBytes) return kept_list(true);
+  if (storage == Storage::plain || bytes < kPackedBytes) return kept_list(false);
+  return chunked_list(shape, row_bytes, storage);
 }
 
 /// The fields of a frame fit into the header of their group, without an index.
 Hdf5Handle compact_links() {
   Hdf5Handle list(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
   H5Pset_link_phase_change(list.id(), 64, 48);
+  H5Pset_est_link_info(list.id(), 16, 12);
   return list;
 }
 
@@ -57,16 +86,16 @@ std::string without_padding(std::string text) {
 
 /// False where it could not be written.
 bool put_attribute(hid_t object, const std::string& name, hid_t type, const void* value) {
-  if (H5Aexists(object, name.c_str()) > 0) H5Adelete(object, name.c_str());
-  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Handle attribute(H5Acreate2(object, name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  static const hid_t scalar = H5Screate(H5S_SCALAR);  // the library closes it at its end
+  const Hdf5Handle attribute(H5Acreate2(object, name.c_str(), type, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   return attribute.valid() && H5Awrite(attribute.id(), type, value) >= 0;
 }
 
 /// Of variable length: what h5py shows as str.
 bool put_attribute(hid_t object, const std::string& name, const std::string& value) {
+  static const hid_t type = H5Tcopy(text_type(H5T_VARIABLE).id());
   const char* text = value.c_str();
-  return put_attribute(object, name, text_type(H5T_VARIABLE).id(), &text);
+  return put_attribute(object, name, type, &text);
 }
 
 bool get_attribute(hid_t object, const std::string& name, hid_t type, void* value) {
@@ -90,9 +119,7 @@ void Hdf5Group::write(const std::string& name, const T* data, const std::vector<
                       const std::string& unit, Storage storage) {
   const std::vector<hsize_t> size(shape.begin(), shape.end());
   const Hdf5Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose);
-  const Hdf5Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  H5Pset_obj_track_times(list.id(), false);  // the same run gives the same file
-  set_storage(list.id(), shape, sizeof(T), storage);
+  const Hdf5Handle list = creation_list(shape, sizeof(T), storage);
   const Hdf5Handle set(
       H5Dcreate2(handle_.id(), name.c_str(), native<T>(), space.id(), H5P_DEFAULT, list.id(), H5P_DEFAULT), H5Dclose);
   if (!set.valid()) fail("create dataset", name);
@@ -209,7 +236,7 @@ Hdf5Group Hdf5Group::create(const std::string& name) {
 }
 
 Hdf5Group Hdf5Group::create_unlinked(const std::string& label) const {
-  Hdf5Handle group(H5Gcreate_anon(handle_.id(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  Hdf5Handle group(H5Gcreate_anon(handle_.id(), compact_links().id(), H5P_DEFAULT), H5Gclose);
   if (!group.valid()) fail("create group", label);
   return Hdf5Group(std::move(group), label_ + "/" + label);
 }

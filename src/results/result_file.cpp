@@ -107,6 +107,7 @@ void ResultFile::write(const Frame& frame) {
   file_.flush();             // the frame is in the file,
   frames.link(group, name);  // then it is listed
   file_.flush();
+  file_.forget();
   frames_.push_back(std::move(entry));
   last_poses_ = frame.tools;
 }

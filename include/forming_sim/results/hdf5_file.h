@@ -37,7 +37,7 @@ enum class Storage {
 /// A group of a file, and what it holds. T: double, float, int32_t, uint8_t.
 class Hdf5Group {
  public:
-  /// row-major array; `unit` becomes the attribute "unit" of the dataset.
+  /// row-major array of one axis or more; `unit` becomes the attribute "unit" of the dataset.
   template <class T>
   void write(const std::string& name, const T* data, const std::vector<std::uint64_t>& shape, const std::string& unit,
              Storage storage = Storage::packed);
@@ -51,6 +51,7 @@ class Hdf5Group {
   std::string read_text(const std::string& name) const;
   std::string read_checked(const std::string& name) const;
 
+  /// An attribute that is not there yet.
   void set(const std::string& attribute, const std::string& value);
   void set(const std::string& attribute, const char* value) { set(attribute, std::string(value)); }
   void set(const std::string& attribute, double value);
@@ -89,6 +90,8 @@ class Hdf5File {
   Hdf5Group root() const;
   /// All that was written is in the file when it returns.
   void flush();
+  /// A flush goes through all metadata in memory: what the last one has put into the file need not stay there.
+  void forget();
   /// Flushes and closes; groups must have been released. The destructor closes silently.
   void close();
   const std::string& path() const { return path_; }
