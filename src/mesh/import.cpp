@@ -7,6 +7,7 @@
 
 #include "forming_sim/config/fault.h"
 #include "forming_sim/mesh/url.h"
+#include "gmsh_reader.h"
 #include "raw_mesh.h"
 #include "tool_surface.h"
 

@@ -36,7 +36,4 @@ struct RawMesh {
 /// everything. Throws Error(mesh_error).
 Mesh assemble(RawMesh raw);
 
-/// The body of a .msh file at a path, scaled; by way of libgmsh.
-RawMesh read_gmsh(const std::string& path, const std::string& group, double unit_scale);
-
 }  // namespace forming_sim

@@ -1,4 +1,5 @@
 // A .msh file by way of libgmsh, in a process of its own: gmsh has one state for the whole process, and breaks over some files.
+// A library of its own, which mesh/gmsh_reader.cpp loads with the first .msh.
 #include <gmsh.h>
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 #include "forming_sim/config/fault.h"
 #include "forming_sim/mesh/cell_order.h"
 #include "mesh/read_apart.h"
-#include "raw_mesh.h"
+#include "mesh/gmsh_reader.h"
 
 namespace forming_sim {
 namespace {
@@ -209,8 +210,8 @@ RawMesh read_with_reasons(const std::string& path, const std::string& group, dou
 
 }  // namespace
 
-RawMesh read_gmsh(const std::string& path, const std::string& group, double unit_scale) {
-  return read_apart<RawMesh>("mesh file \"" + path + "\"", path, [&] { return read_with_reasons(path, group, unit_scale); }, [](auto& archive, auto& mesh) {
+void forming_sim_read_gmsh(const std::string& path, const std::string& group, double unit_scale, RawMesh& body) {
+  body = read_apart<RawMesh>("mesh file \"" + path + "\"", path, [&] { return read_with_reasons(path, group, unit_scale); }, [](auto& archive, auto& mesh) {
     archive.text(mesh.source);
     archive.number(mesh.dimension);
     archive.list(mesh.points);
