@@ -18,7 +18,8 @@ std::vector<Row> speed_error(const Request& request) {
                 {"flange", flange_problem},
                 {"flange-time", flange_time_problem},
                 {"slivers", slivers_problem},
-                {"layers", layers_problem}});
+                {"layers", layers_problem},
+                {"release", release_problem}});
   return report.finish();
 }
 

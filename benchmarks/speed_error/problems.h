@@ -15,5 +15,6 @@ void flange_problem(Report&);    ///< scenes/flange.yaml against its own finest 
 void flange_time_problem(Report&);  ///< the same: mass scaling, tool speed, time step
 void slivers_problem(Report&);   ///< a few thin cells in a pulled sheet: the limits of the step, mass for the few
 void layers_problem(Report&);    ///< one to ten layers of plasticity in a bent sheet
+void release_problem(Report&);   ///< a bent sheet is let go at once, and slowly
 
 }  // namespace forming_sim::bench

@@ -1,5 +1,6 @@
 // Sends a YAML scene to a forming_server and follows the run.
 #include <cstdio>
+#include <string>
 
 #include <ros/ros.h>
 
@@ -7,6 +8,11 @@
 #include "forming_sim/ros/signals.h"
 
 int main(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i)
+    if (const std::string option = argv[i]; option == "--help" || option == "-h") {
+      std::printf("%s", forming_sim::client_usage);
+      return 0;
+    }
   ros::init(argc, argv, "forming_client", ros::init_options::NoSigintHandler | ros::init_options::AnonymousName);
   forming_sim::ClientRequest request;
   try {

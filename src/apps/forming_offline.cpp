@@ -1,9 +1,11 @@
 // Runs a scene without ROS: forming_offline SCENE.yaml --output DIR
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 
 #include "forming_sim/results/command_line.h"
 #include "forming_sim/results/estimate.h"
@@ -59,9 +61,16 @@ int perform(const OfflineOptions& options) {
   return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 ? 0 : 1;
 }
 
+/// Where one of the standard files is closed, the first file of a run would get its number, and what is printed.
+void open_standard_files() {
+  for (int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(file, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) std::_Exit(1);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_files();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes is a full disk: the write says so
   try {
     return perform(read_options({argv + 1, argv + argc}));

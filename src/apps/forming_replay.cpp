@@ -5,6 +5,7 @@
 #include <ros/ros.h>
 
 #include "forming_sim/mesh/url.h"
+#include "forming_sim/ros/parameter.h"
 #include "forming_sim/ros/prepare.h"
 #include "forming_sim/ros/replay.h"
 #include "forming_sim/ros/signals.h"
@@ -27,8 +28,10 @@ int main(int argc, char** argv) {
     ros::NodeHandle node("~");
     forming_sim::ReplayOptions options;
     options.file = file;
-    node.param("duration", options.duration_s, options.duration_s);
-    node.param("loop", options.loop, options.loop);
+    forming_sim::read_parameter(node, "duration", "a number, in s", options.duration_s);
+    forming_sim::read_parameter(node, "loop", "true or false", options.loop);
+    if (!(options.duration_s > 0 && options.duration_s <= 1e6))
+      throw forming_sim::Error(forming_sim::Code::invalid_scene, "parameter " + node.resolveName("duration") + ": given " + std::to_string(options.duration_s) + "; give the wall time of one pass, above 0 and at most 1e6 s");
     ros::AsyncSpinner spinner(1);
     spinner.start();
     forming_sim::RunPublisher publisher(node, forming_sim::PublishOptions::read(node));

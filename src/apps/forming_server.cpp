@@ -17,7 +17,6 @@ int main(int argc, char** argv) {
   forming_sim::catch_stop_signals();
   if (!forming_sim::wait_for_master("forming_server")) return 1;
   try {
-    // Four threads: a service that meshes a large part holds up one of them only.
     ros::AsyncSpinner spinner(4);
     forming_sim::FormingServer server(ros::NodeHandle("~"));
     spinner.start();

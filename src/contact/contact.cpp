@@ -164,6 +164,27 @@ void Contact::add_normal_impulses(std::vector<double>& sum) const {
   }
 }
 
+std::vector<int> Contact::touched_by(const std::vector<char>& tools) const {
+  const Impl& m = *impl_;
+  const int bodies = m.features.bodies;
+  std::vector<char> near(m.features.area.size(), 0), others(near);
+  const auto see = [&](const Link& link, int tool, bool acts) {
+    const bool asked = tool >= 0 && tools[tool];
+    for (int k = 0; k < link.nodes; ++k) {
+      if (link.node[k] >= m.work.body_entries) continue;
+      const int n = m.work.vertex[link.node[k]];
+      near[n] = near[n] || asked;
+      others[n] = others[n] || (acts && !asked);
+    }
+  };
+  for (const ContactPair& pair : m.near.pairs) see(pair, pair.tool(bodies), pair.impulse > 0);
+  for (const TiePair& tie : m.tie_pairs) see(tie, tie.tool, true);
+  std::vector<int> touched;
+  for (std::size_t n = 0; n < near.size(); ++n)
+    if (near[n] && !others[n]) touched.push_back(static_cast<int>(n));
+  return touched;
+}
+
 bool Contact::ties() const { return !impl_->ties.empty(); }
 
 void Contact::add_held_impulses(std::vector<Vec3>& sum) const {

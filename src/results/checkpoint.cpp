@@ -34,22 +34,20 @@ void save_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
     Hdf5File file(temporary, Hdf5File::Mode::create);
     {
       Hdf5Group root = file.root();
-      root.set("kind", "forming_sim checkpoint");
-      root.set("version", checkpoint.version);
+      root.write_checked("version", checkpoint.version);
       root.set("time", checkpoint.time);
-      root.set("time_unit", "s");
       root.set("step", std::int64_t{checkpoint.step});
       root.write_checked("scene", checkpoint.scene);
       root.write_checked("record", checkpoint.record);
       root.write_checked("state", std::string(checkpoint.state.begin(), checkpoint.state.end()));
     }
     file.close();
+    if (std::rename(temporary.c_str(), path.c_str()) != 0)
+      throw Error(Code::output_error, "cannot write " + path + ": " + std::strerror(errno));
   } catch (...) {
     std::remove(temporary.c_str());
     throw;
   }
-  if (std::rename(temporary.c_str(), path.c_str()) != 0)
-    throw Error(Code::output_error, "cannot write " + path + ": " + std::strerror(errno));
 }
 
 Checkpoint load_checkpoint(const std::string& path) {
@@ -61,7 +59,7 @@ Checkpoint load_checkpoint(const std::string& path) {
     if (!root.has("state") || !root.has("record") || !root.has("scene"))
       throw Error(Code::resume_error, path + " is not a checkpoint; give the checkpoint.h5 of a run");
     Checkpoint checkpoint;
-    checkpoint.version = root.text("version");
+    checkpoint.version = root.read_checked("version");
     checkpoint.scene = root.read_checked("scene");
     checkpoint.record = root.read_checked("record");
     const std::string state = root.read_checked("state");

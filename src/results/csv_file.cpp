@@ -46,14 +46,17 @@ CsvFile::CsvFile(const std::string& path, const std::vector<std::string>& column
   open("ab");
 }
 
-std::unique_ptr<CsvFile> CsvFile::resume(const std::string& path, const std::vector<std::string>& columns, double last) {
-  if (!std::filesystem::exists(path)) return nullptr;
+std::unique_ptr<CsvFile> CsvFile::resume(const std::string& path, const std::vector<std::string>& columns, double last, double* until) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown)) return nullptr;
   const std::string text = read_text(path), header = header_row(columns);
   if (text.compare(0, header.size(), header) != 0) return nullptr;
   std::string kept = header;
   std::size_t begin = header.size();
   for (std::size_t end; (end = text.find("\r\n", begin)) != std::string::npos; begin = end + 2) {
-    if (std::strtod(text.c_str() + begin, nullptr) > last) break;
+    const double time = std::strtod(text.c_str() + begin, nullptr);
+    if (time > last) break;
+    if (until) *until = time;
     kept.append(text, begin, end + 2 - begin);
   }
   replace_file(path, kept);  // without what came later, and without half a row

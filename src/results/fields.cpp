@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/config/words.h"
 #include "forming_sim/results/snapshot.h"
 #include "forming_sim/results/text_file.h"
 
@@ -16,14 +17,18 @@ void Fields::on_start(const Simulation& simulation) {
   if (resumed_) {
     file_ = ResultFile::resume(path, header, simulation.steps());
     if (file_) {
-      if (!file_->frames().empty()) last_step_ = file_->frames().back().step;
+      const FrameEntry* last = file_->frames().empty() ? nullptr : &file_->frames().back();
+      if (last) last_step_ = last->step;
+      if (!last || schedule_.due_between(last->time, simulation.time()))
+        record_.notes.push_back("result.h5 holds no frames between " + (last ? number_text(last->time) : "0") + " s and the checkpoint, " + number_text(simulation.time()) + " s: it is that of a shorter first part");
       xdmf_.emplace(file_->header(), "result.h5");
       write_xdmf();
       return;
     }
     record_.notes.push_back("result.h5 begins at the checkpoint: the directory held no result of the earlier part");
   }
-  file_.emplace(path, std::move(header));
+  const auto stages = static_cast<double>(scene_.stages.size());
+  file_.emplace(path, std::move(header), static_cast<std::size_t>(std::min(1e5, schedule_.times(longest_time(scene_.stages)) + stages + 2)));
   xdmf_.emplace(file_->header(), "result.h5");
   write(simulation);
 }

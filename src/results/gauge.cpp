@@ -90,7 +90,7 @@ double springback_angle_deg(const SpringbackConfig& config, int dimension, const
     return std::find_if(probes.begin(), probes.end(), [&](const Probe& p) { return p.name == name; }) - probes.begin();
   };
   const std::size_t from = find(config.from), to = find(config.to);
-  if (from >= values.size() || to >= values.size()) return std::numeric_limits<double>::quiet_NaN();
+  if (from >= values.size() || to >= values.size() || values[from].position == values[to].position) return std::numeric_limits<double>::quiet_NaN();
   return line_angle_deg(dimension, values[from].position, values[to].position);
 }
 

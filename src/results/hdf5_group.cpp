@@ -1,7 +1,9 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <functional>
 
+#include "forming_sim/config/fault.h"
 #include "forming_sim/results/hdf5_error.h"
 #include "forming_sim/results/hdf5_file.h"
 
@@ -38,17 +40,13 @@ Hdf5Handle kept_list(bool compact) {
 }
 
 /// Chunks of whole rows of about a megabyte.
-Hdf5Handle chunked_list(const std::vector<std::uint64_t>& shape, std::uint64_t row_bytes, Storage storage) {
+Hdf5Handle packed_list(const std::vector<std::uint64_t>& shape, std::uint64_t row_bytes) {
   Hdf5Handle list = dataset_list();
   std::vector<hsize_t> chunk(shape.begin(), shape.end());
   chunk[0] = std::clamp<hsize_t>(kChunkBytes / row_bytes, 1, shape[0]);
   H5Pset_chunk(list.id(), static_cast<int>(chunk.size()), chunk.data());
-  if (storage == Storage::checked) {
-    H5Pset_fletcher32(list.id());
-  } else {
-    H5Pset_shuffle(list.id());
-    H5Pset_deflate(list.id(), 1);
-  }
+  H5Pset_shuffle(list.id());
+  H5Pset_deflate(list.id(), 1);
   return list;
 }
 
@@ -57,17 +55,18 @@ Hdf5Handle creation_list(const std::vector<std::uint64_t>& shape, std::uint64_t 
   for (std::size_t axis = 1; axis < shape.size(); ++axis) row_bytes *= shape[axis];
   const std::uint64_t bytes = shape[0] * row_bytes;
   if (bytes == 0) return kept_list(false);
-  if (storage == Storage::checked) return chunked_list(shape, row_bytes, storage);
   if (bytes <= kCompactBytes) return kept_list(true);
   if (storage == Storage::plain || bytes < kPackedBytes) return kept_list(false);
-  return chunked_list(shape, row_bytes, storage);
+  return packed_list(shape, row_bytes);
 }
 
-/// The fields of a frame fit into the header of their group, without an index.
-Hdf5Handle compact_links() {
+/// All links lie in the header of their group, which has room for so many, and not in an index: whoever reads the file meanwhile
+/// would find the parts of an index that do not fit each other, and HDF5 does not bear that. A header has a checksum.
+Hdf5Handle links_in_header(std::size_t links) {
+  constexpr unsigned kMost = 65535, kLength = 12;
   Hdf5Handle list(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
-  H5Pset_link_phase_change(list.id(), 64, 48);
-  H5Pset_est_link_info(list.id(), 16, 12);
+  H5Pset_link_phase_change(list.id(), kMost, 0);
+  H5Pset_est_link_info(list.id(), static_cast<unsigned>(std::min<std::size_t>(links, kMost)), kLength);
   return list;
 }
 
@@ -120,12 +119,13 @@ void Hdf5Group::write(const std::string& name, const T* data, const std::vector<
   const std::vector<hsize_t> size(shape.begin(), shape.end());
   const Hdf5Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose);
   const Hdf5Handle list = creation_list(shape, sizeof(T), storage);
-  const Hdf5Handle set(
+  Hdf5Handle set(
       H5Dcreate2(handle_.id(), name.c_str(), native<T>(), space.id(), H5P_DEFAULT, list.id(), H5P_DEFAULT), H5Dclose);
   if (!set.valid()) fail("create dataset", name);
   const bool empty = std::find(shape.begin(), shape.end(), 0u) != shape.end();
   if (!empty && H5Dwrite(set.id(), native<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) fail("write dataset", name);
   if (!unit.empty() && !put_attribute(set.id(), "unit", unit)) fail("write the unit of", name);
+  if (!set.close()) fail("write dataset", name);  // what is packed reaches the file here
 }
 
 template <class T>
@@ -172,13 +172,21 @@ std::string Hdf5Group::read_text(const std::string& name) const {
   return without_padding(value);
 }
 
+namespace {
+std::string hash_of(const std::string& name) { return name + "_hash"; }
+std::int64_t hash(const std::string& bytes) { return static_cast<std::int64_t>(std::hash<std::string>()(bytes)); }
+}  // namespace
+
 void Hdf5Group::write_checked(const std::string& name, const std::string& bytes) {
-  write(name, reinterpret_cast<const std::uint8_t*>(bytes.data()), {bytes.size()}, "", Storage::checked);
+  write(name, reinterpret_cast<const std::uint8_t*>(bytes.data()), {bytes.size()}, "", Storage::plain);
+  set(hash_of(name), hash(bytes));
 }
 
 std::string Hdf5Group::read_checked(const std::string& name) const {
-  const std::vector<std::uint8_t> bytes = read<std::uint8_t>(name);
-  return std::string(bytes.begin(), bytes.end());
+  const std::vector<std::uint8_t> read_bytes = read<std::uint8_t>(name);
+  std::string bytes(read_bytes.begin(), read_bytes.end());
+  if (integer(hash_of(name)) != hash(bytes)) throw Error(Code::output_error, label_ + "/" + name + " is not what was written: its bytes have another hash");
+  return bytes;
 }
 
 void Hdf5Group::set(const std::string& attribute, const std::string& value) {
@@ -229,14 +237,14 @@ Hdf5Group Hdf5Group::group(const std::string& name) const {
   return Hdf5Group(std::move(group), label_ + "/" + name);
 }
 
-Hdf5Group Hdf5Group::create(const std::string& name) {
-  Hdf5Handle group(H5Gcreate2(handle_.id(), name.c_str(), H5P_DEFAULT, compact_links().id(), H5P_DEFAULT), H5Gclose);
+Hdf5Group Hdf5Group::create(const std::string& name, std::size_t links) {
+  Hdf5Handle group(H5Gcreate2(handle_.id(), name.c_str(), H5P_DEFAULT, links_in_header(links).id(), H5P_DEFAULT), H5Gclose);
   if (!group.valid()) fail("create group", name);
   return Hdf5Group(std::move(group), label_ + "/" + name);
 }
 
 Hdf5Group Hdf5Group::create_unlinked(const std::string& label) const {
-  Hdf5Handle group(H5Gcreate_anon(handle_.id(), compact_links().id(), H5P_DEFAULT), H5Gclose);
+  Hdf5Handle group(H5Gcreate_anon(handle_.id(), links_in_header(16).id(), H5P_DEFAULT), H5Gclose);
   if (!group.valid()) fail("create group", label);
   return Hdf5Group(std::move(group), label_ + "/" + label);
 }

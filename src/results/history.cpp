@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "forming_sim/config/words.h"
+
 namespace forming_sim {
 namespace {
 
@@ -56,7 +58,10 @@ void History::on_start(const Simulation& simulation) {
   schedule_.start(simulation.time());
   const std::vector<std::string> columns = history_columns(simulation.model(), gauge_.probes());
   if (resumed_) {
-    file_ = CsvFile::resume(path_, columns, record_.history_time);
+    double until = 0;
+    file_ = CsvFile::resume(path_, columns, record_.history_time, &until);
+    if (file_ && until < record_.history_time)
+      record_.notes.push_back("history.csv holds no rows between " + number_text(until) + " s and " + number_text(record_.history_time) + " s: it is that of a shorter first part");
     if (file_) return;
     record_.notes.push_back("history.csv begins at the checkpoint: the directory held no history of the earlier part");
   }

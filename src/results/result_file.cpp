@@ -18,9 +18,13 @@ std::string frame_name(std::size_t number) {
   return name;
 }
 
-bool same_model(const ResultHeader& a, const ResultHeader& b) {
-  return a.version == b.version && a.scene_text == b.scene_text && a.dimension == b.dimension &&
-         a.elements == b.elements && a.tools.size() == b.tools.size();
+/// What is another in the file than in the run; empty where nothing is.
+std::string difference(const ResultHeader& file, const ResultHeader& run) {
+  if (file.version != run.version) return "it was written by version " + file.version + ", this is version " + run.version;
+  if (file.scene_name != run.scene_name) return "it is of the scene " + file.scene_name + ", this is " + run.scene_name;
+  if (file.dimension != run.dimension || file.elements != run.elements || file.initial_positions != run.initial_positions) return "its bodies have another mesh";
+  if (file.tools.size() != run.tools.size()) return "it has " + std::to_string(file.tools.size()) + " tools, this run " + std::to_string(run.tools.size());
+  return "";
 }
 
 void write_fields(Hdf5Group& group, const Frame& frame) {
@@ -63,17 +67,18 @@ float mises_stress(const std::array<float, 6>& s) {
 
 ResultFile::ResultFile(const std::string& path, ResultHeader header, Hdf5File file) : path_(path), header_(std::move(header)), file_(std::move(file)) {}
 
-ResultFile::ResultFile(const std::string& path, ResultHeader header)
+ResultFile::ResultFile(const std::string& path, ResultHeader header, std::size_t frames)
     : path_(path), header_(std::move(header)), file_(path, Hdf5File::Mode::create) {
-  write_header(file_.root(), header_);
+  write_header(file_.root(), header_, frames);
   file_.flush();
 }
 
 std::optional<ResultFile> ResultFile::resume(const std::string& path, ResultHeader header, long step) {
-  if (!std::filesystem::exists(path)) return std::nullopt;
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown)) return std::nullopt;
   try {
     Hdf5File file(path, Hdf5File::Mode::append);
-    if (!same_model(read_header(file.root()), header)) return std::nullopt;
+    if (const std::string why = difference(read_header(file.root()), header); !why.empty()) throw Error(Code::output_error, why);
     ResultFile result(path, std::move(header), std::move(file));
     Hdf5Group frames = result.file_.root().group("frames");
     for (FrameEntry& entry : read_entries(result.file_.root())) {
@@ -82,8 +87,8 @@ std::optional<ResultFile> ResultFile::resume(const std::string& path, ResultHead
     }
     result.file_.flush();
     return result;
-  } catch (const Error&) {
-    return std::nullopt;  // not a file of ours, or one that was cut off
+  } catch (const Error& error) {
+    throw Error(Code::output_error, "cannot go on with " + path + ": " + error.what() + "; resume into the directory of the run's first part, or into one without a result.h5");
   }
 }
 

@@ -47,7 +47,7 @@ void write_tools(Hdf5Group tools, const ResultHeader& header) {
 
 }  // namespace
 
-void write_header(Hdf5Group root, const ResultHeader& header) {
+void write_header(Hdf5Group root, const ResultHeader& header, std::size_t frames) {
   root.set("version", header.version);
   root.set("scene", header.scene_name);
   root.set("dimension", std::int64_t{header.dimension});
@@ -69,7 +69,7 @@ void write_header(Hdf5Group root, const ResultHeader& header) {
                  {header.initial_positions.size(), 3}, "m");
   write_bodies(root.create("bodies"), header);
   write_tools(root.create("tools"), header);
-  root.create("frames");
+  root.create("frames", frames);
 }
 
 }  // namespace forming_sim

@@ -5,7 +5,8 @@
 
 namespace forming_sim {
 
-void write_header(Hdf5Group root, const ResultHeader& header);
+/// frames: how many there will be, as far as is known.
+void write_header(Hdf5Group root, const ResultHeader& header, std::size_t frames);
 /// Facet or segment indices, `columns` of the array's entries each.
 template <std::size_t N>
 std::vector<std::int32_t> flatten(const std::vector<std::array<int, N>>& rows, int columns) {

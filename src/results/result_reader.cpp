@@ -2,11 +2,24 @@
 
 #include <algorithm>
 
+#include "forming_sim/config/fault.h"
+
 namespace forming_sim {
 namespace {
 
+/// What the file says is looked at before it is used: who wrote it last may not have been this package.
+void need(bool good, const std::string& what) {
+  if (!good) throw Error(Code::output_error, "the result file is damaged: " + what);
+}
+
+template <class Range> void need_indices(const Range& indices, std::size_t count, const std::string& name) {
+  for (int i : indices)
+    if (i < 0 || static_cast<std::size_t>(i) >= count) need(false, name + " name " + std::to_string(i) + ", and there are " + std::to_string(count));
+}
+
 template <std::size_t N>
 std::vector<std::array<int, N>> rows(const std::vector<std::int32_t>& flat, std::size_t columns) {
+  need(flat.size() % columns == 0, std::to_string(flat.size()) + " indices are no rows of " + std::to_string(columns));
   std::vector<std::array<int, N>> rows(flat.size() / columns);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].fill(-1);
@@ -16,13 +29,26 @@ std::vector<std::array<int, N>> rows(const std::vector<std::int32_t>& flat, std:
 }
 
 NodeField nodes(const std::vector<double>& flat) {
+  need(flat.size() % 3 == 0, std::to_string(flat.size()) + " coordinates are no rows of 3");
   NodeField nodes(flat.size() / 3);
   for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = Node(flat[3 * i], flat[3 * i + 1], flat[3 * i + 2], 0);
   return nodes;
 }
 
+std::vector<double> numbers(const Hdf5Group& group, const std::string& name, std::size_t count) {
+  std::vector<double> values = group.read<double>(name);
+  need(values.size() == count, name + " has " + std::to_string(values.size()) + " values, " + std::to_string(count) + " are needed");
+  return values;
+}
+
 Vec3 vector(const Hdf5Group& group, const std::string& name) {
-  return Eigen::Map<const Vec3>(group.read<double>(name).data());
+  return Eigen::Map<const Vec3>(numbers(group, name, 3).data());
+}
+
+std::vector<float> field(const Hdf5Group& group, const std::string& name, std::size_t count) {
+  std::vector<float> values = group.read<float>(name);
+  need(values.size() == count, name + " has " + std::to_string(values.size()) + " values, " + std::to_string(count) + " are needed");
+  return values;
 }
 
 /// Members "0", "1", ... in numeric order.
@@ -37,7 +63,9 @@ ToolShape read_tool(const Hdf5Group& tool, int dimension) {
     return shape;
   }
   for (const Node& node : nodes(tool.read<double>("points"))) shape.points.push_back(vec3(node));
-  shape.facets = rows<3>(tool.read<std::int32_t>("facets"), dimension);
+  const std::vector<std::int32_t> facets = tool.read<std::int32_t>("facets");
+  need_indices(facets, shape.points.size(), "facets of tool " + shape.name);
+  shape.facets = rows<3>(facets, dimension);
   return shape;
 }
 
@@ -50,13 +78,21 @@ ResultHeader read_header(const Hdf5Group& root) {
   header.scene_text = root.read_text("scene_text");
   header.dimension = static_cast<int>(root.integer("dimension"));
   header.axisymmetric = root.integer("axisymmetric") != 0;
+  need(header.dimension == 2 || header.dimension == 3, "its dimension is " + std::to_string(header.dimension));
   const Hdf5Group topology = root.group("topology");
-  header.elements = rows<4>(topology.read<std::int32_t>("elements"), header.dimension + 1);
-  header.element_body = topology.read<std::int32_t>("body");
-  const std::vector<std::int32_t> owners = topology.read<std::int32_t>("surface_element");
-  for (const auto& facet : rows<3>(topology.read<std::int32_t>("surface"), header.dimension))
-    header.surface.push_back({facet, owners[header.surface.size()]});
   header.initial_positions = nodes(topology.read<double>("initial_positions"));
+  const std::size_t count = header.initial_positions.size();
+  const std::vector<std::int32_t> corners = topology.read<std::int32_t>("elements"), facets = topology.read<std::int32_t>("surface");
+  need_indices(corners, count, "elements");
+  need_indices(facets, count, "facets of the surface");
+  header.elements = rows<4>(corners, header.dimension + 1);
+  header.element_body = topology.read<std::int32_t>("body");
+  need(header.element_body.size() == header.elements.size(), "not every element has a body");
+  const std::vector<std::int32_t> owners = topology.read<std::int32_t>("surface_element");
+  need_indices(owners, header.elements.size(), "facets of the surface");
+  const auto surface = rows<3>(facets, header.dimension);
+  need(owners.size() == surface.size(), "not every facet has an element");
+  for (const auto& facet : surface) header.surface.push_back({facet, owners[header.surface.size()]});
   const Hdf5Group bodies = root.group("bodies");
   for (std::size_t i = 0; i < member_count(bodies); ++i) {
     const Hdf5Group body = bodies.group(std::to_string(i));
@@ -66,6 +102,8 @@ ResultHeader read_header(const Hdf5Group& root) {
       header.sets[header.bodies.back() + "/" + sets.group(name).text("name")] =
           sets.group(name).read<std::int32_t>("nodes");
   }
+  need_indices(header.element_body, header.bodies.size(), "elements");
+  for (const auto& [name, set] : header.sets) need_indices(set, count, "nodes of set " + name);
   const Hdf5Group tools = root.group("tools");
   for (std::size_t i = 0; i < member_count(tools); ++i)
     header.tools.push_back(read_tool(tools.group(std::to_string(i)), header.dimension));
@@ -96,28 +134,30 @@ Frame ResultReader::frame(std::size_t index) const {
   frame.step = group.integer("step");
   frame.stage = group.text("stage");
   frame.interrupted = group.integer("interrupted") != 0;
-  frame.positions = nodes(group.read<double>("positions"));
-  frame.velocities = nodes(group.read<double>("velocities"));
-  frame.plastic_strain = group.read<float>("plastic_strain");
-  const std::vector<float> stress = group.read<float>("stress");
-  frame.stress.resize(stress.size() / 6);
+  const std::size_t count = header_.initial_positions.size(), elements = header_.elements.size(), facets = header_.surface.size();
+  frame.positions = nodes(numbers(group, "positions", 3 * count));
+  frame.velocities = nodes(numbers(group, "velocities", 3 * count));
+  frame.plastic_strain = field(group, "plastic_strain", elements);
+  const std::vector<float> stress = field(group, "stress", 6 * elements);
+  frame.stress.resize(elements);
   for (std::size_t e = 0; e < frame.stress.size(); ++e) std::copy_n(&stress[6 * e], 6, frame.stress[e].begin());
-  frame.volume_ratio = group.read<float>("volume_ratio");
-  frame.contact_pressure = group.read<float>("contact_pressure");
-  if (entry.gap) frame.contact_gap = group.read<float>("contact_gap");
-  if (entry.slip) frame.contact_slip = group.read<float>("contact_slip");
-  frame.surface_strain = group.read<float>("surface_strain");
-  frame.surface_strain_minor = group.read<float>("surface_strain_minor");
+  frame.volume_ratio = field(group, "volume_ratio", elements);
+  frame.contact_pressure = field(group, "contact_pressure", count);
+  if (entry.gap) frame.contact_gap = field(group, "contact_gap", count);
+  if (entry.slip) frame.contact_slip = field(group, "contact_slip", count);
+  frame.surface_strain = field(group, "surface_strain", facets);
+  frame.surface_strain_minor = field(group, "surface_strain_minor", facets);
   if (entry.sheet) {
-    frame.thickness = group.read<float>("thickness");
-    frame.thinning = group.read<float>("thinning");
+    frame.thickness = field(group, "thickness", count);
+    frame.thinning = field(group, "thinning", count);
   }
   const Hdf5Group tools = group.group("tools");
-  for (std::size_t i = 0; i < member_count(tools); ++i) {
+  need(member_count(tools) == header_.tools.size(), "frame " + entry.name + " has " + std::to_string(member_count(tools)) + " tools, the scene " + std::to_string(header_.tools.size()));
+  for (std::size_t i = 0; i < header_.tools.size(); ++i) {
     const Hdf5Group tool = tools.group(std::to_string(i));
     FrameTool pose;
     pose.position = vector(tool, "position");
-    pose.rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(tool.read<double>("rotation").data());
+    pose.rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers(tool, "rotation", 9).data());
     pose.force = vector(tool, "force");
     pose.present = tool.integer("present") != 0;
     frame.tools.push_back(pose);

@@ -1,5 +1,6 @@
 #include "forming_sim/results/run_scene.h"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -22,6 +23,8 @@ Outcome run_valid(const Scene& scene, const std::string& directory, int threads,
     checkpoint = load_checkpoint(resume_file);
     require_same_run(*checkpoint, scene, resume_file);
   }
+  std::error_code unknown;
+  std::filesystem::remove(in_directory(directory, "summary.json"), unknown);  // of another run; this one's comes at its end
   if (!built) built = build_run(scene, threads);
   Simulation& simulation = *built;
   if (checkpoint) simulation.restore(checkpoint->state);

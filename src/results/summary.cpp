@@ -121,11 +121,34 @@ void tell_idle_tools(const Simulation& simulation, std::vector<std::string>& war
       warnings.push_back("tool " + simulation.model().tools[i].name + " has touched nothing in the whole run: look at its position, unit_scale and motion, or leave it out");
 }
 
+/// Motions that went on when the run ended: planned for a settle stage that takes its limit, which mostly ends before.
+void tell_unfinished_motions(const Simulation& simulation, std::vector<std::string>& warnings) {
+  const double end = simulation.time() * (1 + 1e-9);
+  for (std::size_t i = 0; i < simulation.tools().size(); ++i) {
+    const ToolModel& tool = simulation.model().tools[i];
+    if (!tool.motion || tool.motion->times.empty() || !simulation.tools()[i].present || !(tool.motion->times.back() > end)) continue;
+    warnings.push_back("the motion of tool " + tool.name + " goes to " + number_text(tool.motion->times.back()) + " s, and the run ended at " + three_digits(simulation.time()) +
+                       " s: its times count from the start of the run, and a settle stage ends when the bodies rest, unless it has `ends: limit`");
+  }
+}
+
 /// Layers that bodies leave no room: what is shut in by tools that stand almost h0 too far out is too soft.
 void tell_flat_layers(const ContactStatus& contact, std::vector<std::string>& warnings) {
   constexpr double kFlat = 0.1;  // of h0: p = 9 E, by far more than metals bear
   if (contact.min_gap_over_layer >= kFlat) return;
   warnings.push_back("contact layers were pressed to " + three_digits(contact.min_gap_over_layer) + " of their thickness h0, " + three_digits(contact.layer) + " m, by pressures far above their stiffness: a body that is shut in is too soft by that much room; give contact.stiffness its bulk modulus, or a smaller contact.layer");
+}
+
+/// Bodies that went on flowing when forming was over: they may not have sprung back as they would, let go slowly.
+void tell_late_flow(const Simulation& simulation, const RunRecord& record, std::vector<std::string>& warnings) {
+  constexpr double kMuch = 0.05;  // of the energy that they could spring back by
+  const auto& stages = record.stages;
+  const auto formed = std::find_if(stages.rbegin(), stages.rend(), [](const StageRecord& stage) { return stage.kind == "form"; });
+  if (formed == stages.rbegin() || formed == stages.rend()) return;
+  const double flow = simulation.energies().plastic - formed->plastic;
+  if (!(flow > kMuch * formed->elastic)) return;
+  warnings.push_back("after the stage " + formed->name + " the plastic work grew by " + three_digits(flow) + (simulation.model().per_width() ? " J/m, " : " J, ") + three_digits(100 * flow / formed->elastic) +
+                     " % of the elastic energy that the bodies then had: tools that leave dragged on them, or they flowed as they sprang back. Let a longer stages[].duration or stages[].release_time show whether springback depends on how they are let go");
 }
 
 /// The released angle is that of a run that came to its end.
@@ -153,6 +176,8 @@ Json stages(const RunRecord& record) {
                     {"end_time_s", number(stage.end_time)},
                     {"kinetic_J", number(stage.kinetic)},
                     {"internal_J", number(stage.elastic + stage.plastic)},
+                    {"elastic_J", number(stage.elastic)},
+                    {"plastic_J", number(stage.plastic)},
                     {"kinetic_over_internal", number(stage.kinetic_over_internal())},
                     {"kinetic_over_internal_peak", number(stage.kinetic_over_internal_peak)}});
   return list;
@@ -220,6 +245,8 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
   std::vector<std::string> warnings = simulation.warnings();
   if (came_to_its_end(code)) {
     tell_idle_tools(simulation, warnings);
+    tell_unfinished_motions(simulation, warnings);
+    tell_late_flow(simulation, record, warnings);
     if (simulation.plan().contact.method == "implicit") tell_flat_layers(contact, warnings);
   }
   warnings.insert(warnings.end(), record.notes.begin(), record.notes.end());

@@ -169,7 +169,10 @@ ClientRequest read_arguments(int argc, char** argv) {
     if (option == "--output") request.output_directory = value;
     else if (option == "--resume") request.resume = value;
     else if (option == "--server") request.server = value;
-    else if (option == "--threads") request.threads = static_cast<int>(number());
+    else if (option == "--threads") {
+      request.threads = static_cast<int>(number());
+      if (request.threads != number()) throw std::invalid_argument("option --threads: given " + value + "; give a whole number");
+    }
     else if (option == "--wait") request.wait_s = number();
     else throw std::invalid_argument("unknown option " + option);
   }

@@ -16,10 +16,15 @@ double now_s() {
 RosObserver::RosObserver(RunPublisher& publisher, std::string scene, Feedback feedback)
     : publisher_(publisher), scene_(std::move(scene)), feedback_(std::move(feedback)) {}
 
-void RosObserver::on_start(const Simulation& simulation) {
+void RosObserver::begin(const Simulation& simulation) {
   clock_.start(simulation.progress(), now_s());
   sheets_ = Thickness(simulation.model());
   publisher_.start(shape_of(simulation, scene_));
+  begun_ = true;
+}
+
+void RosObserver::on_start(const Simulation& simulation) {
+  begin(simulation);
   tell(simulation, true, Code::none, "running");
 }
 
@@ -32,6 +37,7 @@ void RosObserver::on_stage_end(const Simulation& simulation, int) {
 }
 
 void RosObserver::on_end(const Simulation& simulation, Code code, const std::string& message) {
+  if (!begun_) begin(simulation);  // an observer before this one could not
   tell(simulation, true, code, message);
 }
 

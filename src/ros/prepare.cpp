@@ -9,6 +9,7 @@
 
 #include "forming_sim/mesh/url.h"
 #include "forming_sim/parallel/team.h"
+#include "forming_sim/results/checkpoint.h"
 #include "forming_sim/results/start.h"
 #include "forming_sim/ros/convert.h"
 #include "forming_sim/ros/publisher.h"
@@ -60,7 +61,18 @@ std::string make_output_directory(const std::string& given, const std::string& o
 }
 
 bool is_readable_file(const std::string& path) {
-  return fs::is_regular_file(path) && access(path.c_str(), R_OK) == 0;
+  std::error_code unknown;
+  return fs::is_regular_file(path, unknown) && access(path.c_str(), R_OK) == 0;
+}
+
+void check_resume(const std::string& file, Prepared& prepared) {
+  const auto refuse = [&](const std::string& remedy) { prepared.faults.push_back({Code::resume_error, "resume", '"' + file + '"', remedy}); };
+  if (!is_readable_file(file)) return refuse("give the checkpoint file of an earlier run on the server's machine");
+  try {
+    require_same_run(load_checkpoint(file), prepared.scene, file);
+  } catch (const Error& error) {
+    refuse(error.what());
+  }
 }
 
 int choose_threads(int asked, int standard) {

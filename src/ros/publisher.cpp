@@ -10,17 +10,18 @@
 #include "forming_sim/PlasticStrain.h"
 #include "forming_sim/PlasticStrainTopology.h"
 #include "forming_sim/config/words.h"
+#include "forming_sim/ros/parameter.h"
 #include "geometry.h"
 
 namespace forming_sim {
 
 PublishOptions PublishOptions::read(const ros::NodeHandle& node) {
   PublishOptions options;
-  node.param("publish_rate", options.rate, options.rate);
-  node.param("triangle_budget", options.markers.triangle_budget, options.markers.triangle_budget);
-  node.param("colour_by", options.markers.colour_by, options.markers.colour_by);
-  node.param("colour_max", options.markers.colour_max, options.markers.colour_max);
-  node.param("frame", options.markers.frame, options.markers.frame);
+  read_parameter(node, "publish_rate", "a number, in Hz", options.rate);
+  read_parameter(node, "triangle_budget", "a whole number", options.markers.triangle_budget);
+  read_parameter(node, "colour_by", "one of " + one_of(MarkerOptions::colours()), options.markers.colour_by);
+  read_parameter(node, "colour_max", "a number", options.markers.colour_max);
+  read_parameter(node, "frame", "the name of a frame", options.markers.frame);
   const auto refuse = [&](const std::string& name, const std::string& given, const std::string& remedy) {
     throw Error(Code::invalid_scene, "parameter " + node.resolveName(name) + ": given " + given + "; " + remedy);
   };

@@ -7,6 +7,7 @@
 #include "forming_sim/parallel/team.h"
 #include "forming_sim/ros/convert.h"
 #include "forming_sim/ros/observer.h"
+#include "forming_sim/ros/parameter.h"
 #include "forming_sim/ros/prepare.h"
 #include "forming_sim/ros/summary.h"
 #include "forming_sim/results/estimate.h"
@@ -58,15 +59,19 @@ FormingServer::FormingServer(const ros::NodeHandle& node)
       publisher_(node, PublishOptions::read(node)),
       server_(
           node_, "simulate_forming", [this](Goal goal) { on_goal(goal); }, [this](Goal goal) { on_cancel(goal); }, false) {
-  node_.param("threads", threads_, 0);
+  read_parameter(node_, "threads", "a whole number", threads_);
   if (threads_ < 0 || threads_ > kMostThreads) {
     throw Error(Code::invalid_scene, "parameter " + node_.resolveName("threads") + ": given " + std::to_string(threads_) +
                                          "; give 1 to " + std::to_string(kMostThreads) + " threads, or 0 for one a processor");
   }
-  node_.param<std::string>("output_root", output_root_, "");
+  read_parameter(node_, "output_root", "a directory", output_root_);
   if (output_root_.empty()) output_root_ = default_output_root();
-  validate_ = node_.advertiseService("validate_scene", &FormingServer::on_validate, this);
-  estimate_ = node_.advertiseService("estimate_run", &FormingServer::on_estimate, this);
+  // In threads of their own: a service that meshes a large part holds up no cancel.
+  ros::NodeHandle services(node_);
+  services.setCallbackQueue(&service_queue_);
+  validate_ = services.advertiseService("validate_scene", &FormingServer::on_validate, this);
+  estimate_ = services.advertiseService("estimate_run", &FormingServer::on_estimate, this);
+  service_threads_.start();
   RunStatus idle;
   idle.message = "no run so far";
   publisher_.publish(idle);
@@ -168,14 +173,12 @@ void FormingServer::serve(Goal goal, Clock::time_point received) {
 SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
   const auto request = goal.getGoal();
   const int threads = choose_threads(request->threads, threads_);
-  const std::string resume = from_home(request->resume);
+  const std::string resume = request->resume.empty() ? "" : from_home(request->resume);
   Scene scene;
   std::unique_ptr<Simulation> simulation;
   {
     Prepared prepared = prepare(request->scene, request->scene_text, threads);
-    if (!request->resume.empty() && !is_readable_file(resume)) {
-      prepared.faults.push_back({Code::resume_error, "resume", '"' + request->resume + '"', "give the checkpoint file of an earlier run on the server's machine"});
-    }
+    if (!resume.empty()) check_resume(resume, prepared);
     if (!prepared.faults.empty()) return rejection(prepared.faults);
     scene = std::move(prepared.scene);
     simulation = std::move(prepared.simulation);
@@ -202,6 +205,7 @@ SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
 
   SimulateFormingResult result = result_of(outcome.code, outcome.message);
   result.directory = directory;
+  if (!observer.begun()) return result;  // what is in the directory is of other runs
   result.files = run_files(directory);
   try {
     result.summary = read_summary(directory);

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/ros/prepare.h"
 #include "forming_sim/tensor/vec.h"
 #include "geometry.h"
 
@@ -91,7 +92,7 @@ RunSummary read_summary(const std::string& directory) {
 std::vector<std::string> run_files(const std::string& directory) {
   std::vector<std::string> files;
   for (const char* name : {"result.h5", "result.xdmf", "history.csv", "summary.json", "checkpoint.h5"}) {
-    if (std::filesystem::exists(std::filesystem::path(directory) / name)) files.emplace_back(name);
+    if (is_readable_file(directory + "/" + name)) files.emplace_back(name);
   }
   return files;
 }

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kLeastYield = 1e-5, kMostYield = 0.1;    // of Young's modulus: lead .0004, spring steel .01
 constexpr double kLightest = 100, kHeaviest = 25000;      // kg/m3: foams, tungsten and gold
+constexpr double kMostStrain = 5;
 constexpr double kMuchScaling = 1e4;
 constexpr double kFast = 0.1;                             // of the waves: what moves so squeezes metal by a tenth before the rest of it knows
 
@@ -28,11 +29,16 @@ void tell_odd_material(const BodyConfig& body, std::vector<std::string>& notes) 
     notes.push_back("the density of body " + body.name + " is " + number_text(m.density) + " kg/m3: steel has 7850, aluminium 2700; give it in kg/m3, not in g/cm3 or t/mm3");
   double most = 0;
   const auto see = [&](const std::optional<HardeningConfig>& h) {
-    if (h) most = std::max(most, first_yield(*h));
+    if (!h) return;
+    most = std::max(most, first_yield(*h));
+    if (!h->plastic_strains.empty() && h->plastic_strains.back() > kMostStrain)
+      notes.push_back("the hardening curve of body " + body.name + " goes to a plastic strain of " + number_text(h->plastic_strains.back()) + ": 1 is 100 %, so give 0.2 for 20 %");
   };
   see(m.hardening);
   for (const LayerConfig& layer : m.layers) see(layer.hardening);
   const double odd = most > kMostYield * m.E() && m.layers.empty() ? most : most < kLeastYield * m.E() ? most : 0;  // a layer may yield as late as it likes
+  if (most > 0 && m.law != "hyperelastic" && m.poissons_ratio == 0)
+    notes.push_back("poissons_ratio of body " + body.name + " is 0 or not given, as for cork: steel has 0.3, aluminium 0.33");
   if (odd > 0)
     notes.push_back("the yield stress of body " + body.name + " is " + number_text(odd) + " Pa, " + three_digits(odd / m.E()) + " of Young's modulus: metals have .0005 to .01; give both in Pa");
 }

@@ -23,11 +23,25 @@ template <class Config> void check_names_of(const std::vector<Config>& parts, co
   }
 }
 
+/// The forces of a tool have a topic, whose name has _ for what is neither letter nor digit.
+void check_topics(const std::vector<ToolConfig>& tools, FaultList& faults) {
+  std::map<std::string, std::size_t> first;
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    std::string topic = tools[i].name;
+    for (char& c : topic) c = c == '-' || c == '.' ? '_' : c;
+    const auto [entry, is_new] = first.emplace(topic, i);
+    if (is_new || tools[i].name.empty() || tools[i].name == tools[entry->second].name) continue;
+    faults.add(join_path(join_path("tools", i), "name"), given_text(tools[i].name),
+               "give a name that is another with _ for - and . too: the forces of tools[" + std::to_string(entry->second) + "], " + tools[entry->second].name + ", have the topic tool_forces/" + topic + " already");
+  }
+}
+
 }  // namespace
 
 void check_names(const Scene& scene, FaultList& faults) {
   check_names_of(scene.bodies, "bodies", faults);
   check_names_of(scene.tools, "tools", faults);
+  check_topics(scene.tools, faults);
   check_names_of(scene.stages, "stages", faults);
   check_names_of(scene.output.probes, "output.probes", faults);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

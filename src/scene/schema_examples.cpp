@@ -86,7 +86,7 @@ tools:
 
 stages:
   - {name: flanging, kind: form, duration: 0.006}
-  - {name: release, kind: withdraw, duration: 1e-4}  # all tools are lifted off at once
+  - {name: release, kind: withdraw, duration: 1e-4}  # all tools are gone, and what they held fades
   - {name: springback, kind: settle, limit: 0.02}
 
 output:

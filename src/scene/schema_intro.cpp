@@ -87,9 +87,12 @@ A run is a list of stages. Times of motions, boundaries, pressures and loads cou
 
 - `form` runs for `duration`.
 - `withdraw` moves tools away from where they stand by `displacement`, smoothly, in `duration`; then they are gone.
+  Without a displacement they are gone at once, and what they held the bodies by fades in `release_time`, as does what a boundary
+  with `until` held: what lets go of a sheet in one step (`release: sudden`) makes it flow anew as it springs back.
 - `settle` takes motion out of the bodies until their kinetic energy stays below `kinetic_fraction` of the elastic one:
   springback. It ends at `limit` at the latest, and the result then says so. Forces come to rest as the root of it: with
   the default of 1e-5 to some .3 %; who reads a static force from the end of a run gives 1e-8.
+  Where another operation follows, `ends: limit` makes it as long as its limit, so that the times of that operation are known.
 
 Slow processes are simulated faster than they are: give the tools speeds of some m/s, or scale the mass, and judge
 what it costs by kinetic over internal energy in `summary.json`, which should stay below a few percent.

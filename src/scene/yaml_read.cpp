@@ -1,6 +1,5 @@
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "forming_sim/scene/validate.h"
 #include "forming_sim/scene/yaml.h"
@@ -59,12 +58,16 @@ Scene read_scene(const std::string& yaml_text, const std::string& base_directory
 
 Scene read_scene_file(const std::string& path, std::vector<Fault>& faults) {
   namespace fs = std::filesystem;
+  constexpr std::size_t kMost = 256 << 20;  // bytes: what comes from a device never ends
+  std::error_code problem;
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!file || fs::is_directory(path) || !(text << file.rdbuf())) {
+  std::string text, part(1 << 16, '\0');
+  while (text.size() <= kMost && file.read(part.data(), static_cast<std::streamsize>(part.size())).gcount() > 0) text.append(part, 0, static_cast<std::size_t>(file.gcount()));
+  if (text.empty() || fs::is_directory(path, problem))
     throw Error(Code::output_error, "The scene file '" + path + "' cannot be read; give the path of a YAML file that exists and is not empty.");
-  }
-  return read_scene(text.str(), fs::absolute(path).parent_path().string(), faults);
+  if (text.size() > kMost) throw Error(Code::output_error, "The scene file '" + path + "' is longer than 256 MiB; give the path of a YAML file.");
+  const fs::path whole = fs::absolute(path, problem);  // empty where the working directory is gone
+  return read_scene(text, (problem ? fs::path(path) : whole).parent_path().string(), faults);
 }
 
 Scene read_scene_file(const std::string& path) {

@@ -7,6 +7,7 @@
 #include "forming_sim/element/nodes.h"
 #include "forming_sim/loads/boundary.h"
 #include "forming_sim/loads/dead_load.h"
+#include "forming_sim/loads/fading_forces.h"
 #include "forming_sim/loads/pressure.h"
 #include "forming_sim/simulation/ledger_watch.h"
 #include "forming_sim/simulation/simulation.h"
@@ -43,6 +44,7 @@ struct Simulation::Impl {
   std::vector<Vec3> held_impulse;   ///< of contact on boundaries.nodes() along what holds them, in a step, N s
   PressureSet pressures;
   DeadLoadSet dead_loads;
+  FadingForces fading;              ///< of what has let go
   StageRunner stages;
   std::optional<Contact> contact;
   std::vector<double> contact_force, node_impulse;     ///< per node, normal: running mean, N; of a step, N s
@@ -129,6 +131,7 @@ struct Simulation::Impl {
   void book(const ContactStep& done);
   /// kick: time in which its impulses act as forces do, s.
   void mean_contact_force(double kick);
+  double least_press() const { return 1e-12 * contact->stiffness(); }  ///< Pa: no pressure is less
   /// Work of prescribed motion, pressure, dead loads, gravity and damping over the kick.
   void book_loads();
   void book_reactions(double kick);
@@ -140,6 +143,14 @@ struct Simulation::Impl {
   /// Settling: whether the bodies rest, from the force m dv/dt + m alpha v that is left on
   /// each node when contact and supports have answered; v_before, v and dt are those of the step.
   void see_rest();
+
+  // letting_go.cpp
+  /// L^2/(t c) of the largest body, the thinnest and the slowest wave along a bar, s: about the period of the slowest swing of a free strip.
+  double slowness() const;
+  /// Time in which fades what lets go at the beginning of the running stage, s; 0: it is gone at once.
+  double release_time() const;
+  /// Keeps what held the bodies until the running stage began, and no longer does, as forces that fade; held_before: the boundaries until then.
+  void let_go(const BoundarySet& held_before);
 
   // simulation.cpp
   void begin_stage();

@@ -40,6 +40,8 @@ class Settle {
     if ((omega_ == 0 && restless_ > least_) || restless_ > quiet_) quiet_since_ = t;
     return t - quiet_since_ > shortest_;
   }
+  /// The body is not on its own yet: what it was held by fades.
+  void not_yet(double t) { quiet_since_ = t; }
   /// Kinetic and releasable energy when it was last looked at, and what it should be below, J.
   double restless() const { return restless_; }
   double quiet() const { return quiet_; }

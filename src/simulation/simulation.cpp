@@ -17,17 +17,11 @@ constexpr int kCrossingChecks = 200;  ///< independent crossing checks over a ru
 
 void Simulation::Impl::begin_stage() {
   rests = false;
+  const BoundarySet held_before = boundaries;
   release_boundaries();
+  if (steps > 0 && !stages.finished()) let_go(held_before);
   if (!stages.settling()) return;
-  double size = 0, thin = 1e300, speed = 1e300;
-  for (const BodyModel& body : model.bodies) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& X_i : body.mesh.nodes) box.extend(X_i);
-    size = std::max(size, box.diagonal().norm());
-    thin = std::min(thin, thickness_of(body, model.axisymmetric));
-    speed = std::min(speed, std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling));
-  }
-  settle = Settle(time, size * size / (thin * speed), stages.stage().kinetic_fraction, least_energy());
+  settle = Settle(time, slowness(), stages.stage().kinetic_fraction, least_energy());
 }
 
 void Simulation::Impl::check_ledger(double residual, double error) {
@@ -43,8 +37,10 @@ void Simulation::Impl::check_ledger(double residual, double error) {
 
 bool Simulation::Impl::stage_over() {
   if (!stages.settling()) return stages.remaining(time) <= 1e-12 * (time + stages.stage().duration);
+  const bool to_limit = stages.stage().ends == "limit";
+  if (rests && !to_limit) return true;
+  if (stages.remaining(time) > (to_limit ? 1e-12 * time : 0)) return false;
   if (rests) return true;
-  if (stages.remaining(time) > 0) return false;
   settled = false;
   unsettled = settle;
   return true;
@@ -123,7 +119,8 @@ Outcome Simulation::run(const std::atomic<bool>& cancel) {
     try {
       o->on_end(*this, outcome.code, outcome.message);
     } catch (const Error& error) {
-      if (outcome.code == Code::success) outcome = {error.code(), error.what()};
+      if (outcome.code == Code::success || outcome.code == Code::limit_reached) outcome = {error.code(), error.what()};
+      else if (outcome.message.find(error.what()) == std::string::npos) outcome.message += std::string("; and ") + error.what();
     }
   }
   return outcome;

@@ -40,11 +40,13 @@ void StageRunner::begin(double t) {
 }
 
 void StageRunner::advance(double t) {
+  left_ = present_;
   for (std::size_t k = 0; k < motions_.size(); ++k)
     if (leaves(stages_[index_], static_cast<int>(k))) present_[k] = 0;
   ++index_;
   starts_.push_back(t);
   if (!finished()) begin(t);
+  for (std::size_t k = 0; k < present_.size(); ++k) left_[k] = left_[k] && !present_[k];
 }
 
 double StageRunner::remaining(double t) const {

@@ -35,6 +35,8 @@ class StageRunner {
   const ForceDrive* drive(int tool) const { return driven(tool) ? &*drives_[tool] : nullptr; }
   ForceDrive* drive(int tool) { return driven(tool) ? &*drives_[tool] : nullptr; }
   bool present(int tool) const { return present_[tool]; }
+  /// 1: tools that were there until the running stage began.
+  const std::vector<char>& left() const { return left_; }
 
   /// Start times of the stages begun so far: all that a checkpoint needs.
   const std::vector<double>& starts() const { return starts_; }
@@ -54,7 +56,7 @@ class StageRunner {
   const Model* model_;
   std::vector<RigidMotion> motions_;
   std::vector<std::optional<ForceDrive>> drives_;  ///< of the tools that a force drives
-  std::vector<char> present_;
+  std::vector<char> present_, left_;
   std::vector<double> starts_;
   int index_ = 0;
   struct KnownPose {

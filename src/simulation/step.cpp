@@ -26,10 +26,12 @@ void Simulation::Impl::predict(double step_dt, NodeField& v_star) const {
 }
 
 void Simulation::Impl::find_loads() {
-  if (pressures.empty() && dead_loads.empty() && plan.gravity.isZero()) return;
+  fading.forget(time);
+  if (pressures.empty() && dead_loads.empty() && fading.empty() && plan.gravity.isZero()) return external.clear();
   external.assign(x.size(), Node::Zero());
   pressures.add(time, x, external);
   dead_loads.add(time, external);
+  fading.add(time, external);
   if (!plan.gravity.isZero()) add_gravity(plan.gravity, physical_mass, external);
 }
 
@@ -111,7 +113,7 @@ void Simulation::Impl::book(const ContactStep& done) {
 void Simulation::Impl::mean_contact_force(double kick) {
   const std::vector<double>& area = contact->nodal_area();
   contact->add_normal_impulses(node_impulse);
-  const double over_kick = 1 / kick, nothing = 1e-12 * contact->stiffness();
+  const double over_kick = 1 / kick, nothing = least_press();
   pressed = false;
   for (int n : touchable) {
     contact_force[n] += (node_impulse[n] * over_kick - contact_force[n]) * (1 / kForceMeanSteps);
@@ -202,6 +204,7 @@ void Simulation::Impl::see_rest() {
   double f_Mf = 0;
   for (std::size_t i = 0; i < v.size(); ++i)
     f_Mf += mass[i] * ((v[i] - v_before[i]) / kick + 0.5 * alpha * (v[i] + v_before[i])).squaredNorm();
+  if (!fading.empty()) settle.not_yet(time);
   rests = settle.at_rest(time, f_Mf, kinetic(), elements.stored_energy(x), most);
 }
 

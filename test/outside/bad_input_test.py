@@ -11,8 +11,10 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 import unittest
 
+import h5py
 import numpy
 import yaml
 
@@ -280,6 +282,47 @@ class BadInput(OwnDirectory):
         scene = self.changed(('output', 'frames'), 100)
         run = self.refused(scene, self.path('out'), preexec_fn=small)
         self.assertIn('write', run.stderr)
+
+    def test_standard_files_that_are_closed(self):
+        self.write('scene.yaml', yaml.safe_dump(SCENE))
+        line = 'exec 0<&- 1>&- 2>&-; exec "$0" "$1" --output "$2" --threads 1'
+        self.assertEqual(subprocess.run(['bash', '-c', line, OFFLINE, self.path('scene.yaml'), self.path('out')], timeout=120).returncode, 0)
+        with h5py.File(self.path('out/result.h5')) as result:
+            self.assertGreater(len(result['frames']), 1)
+
+    def test_a_cancel_whose_checkpoint_cannot_be_written(self):
+        self.write('scene.yaml', yaml.safe_dump(self.changed(('stages', 0, 'duration'), 1.0)))
+        os.makedirs(self.path('out/checkpoint.h5/in_the_way'))
+        run = subprocess.Popen([OFFLINE, self.path('scene.yaml'), '--output', self.path('out'), '--threads', '1', '--quiet'], stderr=subprocess.PIPE, text=True)
+        while not os.path.exists(self.path('out/history.csv')):
+            time.sleep(0.01)
+        run.send_signal(signal.SIGINT)
+        said = run.communicate(timeout=60)[1]
+        self.assertEqual(run.returncode, 1)
+        self.assertIn('cancelled at', said)
+        self.assertIn('checkpoint.h5', said)
+        self.assertFalse(os.path.exists(self.path('out/checkpoint.h5.part')))
+
+    def test_a_resume_with_files_that_are_another_run_s(self):
+        scene = self.changed(('output', 'checkpoint_interval'), 1e-6)
+        self.write('scene.yaml', yaml.safe_dump(scene))
+        words = (self.path('scene.yaml'), '--quiet', '--threads', '1', '--output')
+        self.assertEqual(self.offline(*words, self.path('out')).returncode, 0, self.said)
+        resume = words + (self.path('out'), '--resume', self.path('checkpoint.h5'))
+        shutil.copy(self.path('out/checkpoint.h5'), self.path('checkpoint.h5'))
+        with h5py.File(self.path('out/result.h5')) as result:
+            frames = len(result['frames'])
+        # A remark in the scene changes nothing.
+        self.write('scene.yaml', '# a remark\n' + yaml.safe_dump(scene))
+        self.assertEqual(self.offline(*resume).returncode, 0, self.said)
+        with h5py.File(self.path('out/result.h5')) as result:
+            self.assertEqual(len(result['frames']), frames)
+        # A file that is none of its first part stays as it is.
+        self.write('out/result.h5', 'not HDF5')
+        self.assertEqual(self.offline(*resume).returncode, 1)
+        self.assertIn('cannot go on with', self.said)
+        with open(self.path('out/result.h5')) as file:
+            self.assertEqual(file.read(), 'not HDF5')
 
     # ---- a run that fails
 

@@ -1,6 +1,9 @@
 // checkpoint.h5: what is saved is loaded; what is damaged is refused with a sentence.
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <cstdio>
 #include <fstream>
 
@@ -63,6 +66,60 @@ TEST(Checkpoint, IsLoadedAsSaved) {
   EXPECT_EQ(record.history_tools[0].angular, Vec3(0, 0, 2));
   EXPECT_EQ(record.history_tools[0].radial, 3);
   EXPECT_NO_THROW(require_same_run(loaded, small_scene(), "checkpoint.h5"));
+}
+
+/// In a process of its own, whose files may grow to `bytes`. Exits with 0 where the failure is the sentence that it should be.
+void save_on_a_small_disk(const std::string& path, rlim_t bytes) {
+  signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{bytes, bytes};
+  setrlimit(RLIMIT_FSIZE, &limit);
+  try {
+    save_checkpoint(path, example_checkpoint());
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    std::exit(error.code() == Code::output_error ? 0 : 1);
+  }
+  std::exit(2);
+}
+
+TEST(CheckpointDeathTest, OnAFullDiskTheOneBeforeStays) {
+  for (rlim_t bytes : {1000, 100000, 1000000, 2500000, 3000000}) {
+    const TemporaryDirectory directory;
+    const std::string path = directory.file("checkpoint.h5");
+    Checkpoint before = example_checkpoint();
+    before.state.resize(500);
+    save_checkpoint(path, before);
+    EXPECT_EXIT(save_on_a_small_disk(path, bytes), testing::ExitedWithCode(0), "^cannot .*checkpoint.h5.part.*: File too large\n$") << bytes;
+    EXPECT_EQ(load_checkpoint(path).state, before.state) << bytes;
+    EXPECT_FALSE(std::ifstream(path + ".part").good());
+  }
+}
+
+// Of every byte of what describes the state: a change of it is told, and neither hangs nor crashes.
+TEST(Checkpoint, EveryByteIsChecked) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("checkpoint.h5");
+  Checkpoint small = example_checkpoint();
+  small.state.resize(500);
+  save_checkpoint(path, small);
+  const std::string whole = read_text(path);
+  int told = 0;
+  for (std::size_t at = 0; at < whole.size(); at += 7) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x5a);
+    replace_file(path, damaged);
+    try {
+      const Checkpoint loaded = load_checkpoint(path);
+      EXPECT_EQ(loaded.state, small.state) << at;
+      EXPECT_EQ(loaded.scene, small.scene) << at;
+      EXPECT_EQ(loaded.record, small.record) << at;
+      EXPECT_EQ(loaded.version, small.version) << at;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), Code::resume_error);
+      ++told;
+    }
+  }
+  EXPECT_GT(told, static_cast<int>(whole.size() / 7) / 2);
 }
 
 TEST(Checkpoint, ThatIsMissingCutOffOrDamagedIsRefused) {

@@ -45,6 +45,9 @@ TEST(CsvFile, ResumesWithoutLaterRowsAndHalfRows) {
   std::ofstream(path, std::ios::app) << "4e-3";  // the program was stopped here
   CsvFile::resume(path, {"time_s", "x"}, 2e-3)->append({"2.5e-3", "8"});
   EXPECT_EQ(read_text(path), "time_s,x\r\n0,7\r\n1e-3,7\r\n2e-3,7\r\n2.5e-3,8\r\n");
+  double until = 0;
+  CsvFile::resume(path, {"time_s", "x"}, 1, &until);
+  EXPECT_EQ(until, 2.5e-3);
   EXPECT_EQ(CsvFile::resume(path, {"time_s", "y"}, 1), nullptr);
   EXPECT_EQ(CsvFile::resume(directory.file("absent.csv"), {"time_s"}, 1), nullptr);
 }

@@ -78,14 +78,65 @@ TEST(ResultFile, ResumesAfterAStepAndDropsWhatCameLater) {
     ASSERT_EQ(file->frames().size(), 4u);
     for (int i = 4; i < 7; ++i) file->write(example_frame(header, i));
   }
-  const ResultReader reader(path);
-  ASSERT_EQ(reader.frames().size(), 7u);
-  for (int i = 0; i < 7; ++i) expect_frame(reader.frame(i), header, i);
-
-  ResultHeader other = header;
-  other.scene_text += "# changed";
-  EXPECT_FALSE(ResultFile::resume(path, other, 35));
+  {
+    const ResultReader reader(path);
+    ASSERT_EQ(reader.frames().size(), 7u);
+    for (int i = 0; i < 7; ++i) expect_frame(reader.frame(i), header, i);
+  }
   EXPECT_FALSE(ResultFile::resume(directory.file("absent.h5"), header, 35));
+  ResultHeader same = header;
+  same.scene_text += "# a remark";  // the checkpoint tells whether it is the same scene
+  EXPECT_TRUE(ResultFile::resume(path, same, 35));
+}
+
+void expect_not_resumed(const std::string& path, const ResultHeader& header, const std::string& words) {
+  try {
+    ResultFile::resume(path, header, 35);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Code::output_error);
+    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << error.what();
+  }
+}
+
+// A file that is there stays as it is, whatever it is.
+TEST(ResultFile, IsNotResumedAndStaysWhereItIsAnother) {
+  const TemporaryDirectory directory;
+  const ResultHeader header = example_header(3);
+  const std::string path = directory.file("result.h5");
+  {
+    ResultFile file(path, header);
+    file.write(example_frame(header, 0));
+  }
+  ResultHeader other = header;
+  other.initial_positions[0][0] += 1e-9;
+  expect_not_resumed(path, other, "another mesh");
+  other = header;
+  other.scene_name = "another";
+  expect_not_resumed(path, other, "this is another");
+  other = header;
+  other.version = "0.0.0";
+  expect_not_resumed(path, other, "0.0.0");
+  EXPECT_EQ(ResultReader(path).frames().size(), 1u);
+}
+
+// Who looks at the file meanwhile would find an index whose parts do not fit each other, and HDF5 does not bear that.
+TEST(ResultFile, FramesHaveNoIndex) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("result.h5");
+  const ResultHeader header = example_header(2);
+  {
+    ResultFile file(path, header, 20);  // fewer than come
+    for (int i = 0; i < 80; ++i) file.write(example_frame(header, i));
+  }
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  for (const char* group : {"frames", "frames/000007"}) {
+    H5G_info_t info{};
+    ASSERT_GE(H5Gget_info_by_name(file, group, &info, H5P_DEFAULT), 0);
+    EXPECT_EQ(info.storage_type, H5G_STORAGE_TYPE_COMPACT) << group;
+  }
+  H5Fclose(file);
 }
 
 TEST(ResultFile, IsReadableUpToTheLastCompleteFrameAfterAKill) {
@@ -189,11 +240,46 @@ TEST(ResultFile, CannotBeCreatedInADirectoryThatIsNotThere) {
   }
 }
 
+// Values that no run writes are refused with a sentence, wherever they stand.
+TEST(ResultFile, RefusesWhatDoesNotFitTogether) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("result.h5");
+  const ResultHeader good = example_header(3);
+  const auto refused = [&](const ResultHeader& header, const Frame& frame, const std::string& words) {
+    ResultFile(path, header).write(frame);
+    try {
+      ResultReader(path).frame(0);
+      FAIL() << words;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  };
+  const Frame frame = example_frame(good, 0);
+  ResultHeader bad = good;
+  bad.elements[1][2] = 1 << 20;
+  refused(bad, frame, "elements name 1048576");
+  bad = good;
+  bad.surface[0].element = -3;
+  refused(bad, frame, "facets of the surface name -3");
+  bad = good;
+  bad.element_body[0] = 7;
+  refused(bad, frame, "elements name 7");
+  bad = good;
+  bad.tools[0].facets[0][0] = 1 << 20;
+  refused(bad, frame, "facets of tool");
+  Frame off = frame;
+  off.positions.pop_back();
+  refused(good, off, "positions has");
+  off = frame;
+  off.plastic_strain.pop_back();
+  refused(good, off, "plastic_strain has");
+}
+
 TEST(ResultFile, RefusesWhatIsNotHdf5) {
   const TemporaryDirectory directory;
   std::ofstream(directory.file("result.h5")) << "this is text";
   EXPECT_THROW(ResultReader{directory.file("result.h5")}, Error);
-  EXPECT_FALSE(ResultFile::resume(directory.file("result.h5"), example_header(2), 0));
+  expect_not_resumed(directory.file("result.h5"), example_header(2), "cannot open");
 }
 
 }  // namespace

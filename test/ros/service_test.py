@@ -336,8 +336,24 @@ class ServiceTest(unittest.TestCase):
         self.assertEqual(state, GoalStatus.PREEMPTED)
         self.assertGreaterEqual(resumed.feedback[0].step, steps)
 
+        # Of another scene it is refused before anything is written.
+        state, refused = run(scenes.pulled_strip(), output_directory=self.path('other'), resume=os.path.join(result.directory, 'checkpoint.h5'))
+        self.assertEqual((state, refused.code), (GoalStatus.REJECTED, ResultCode.RESUME_ERROR))
+        self.assertEqual([fault.field for fault in refused.faults], ['resume'])
+        self.assertIn('another scene', refused.faults[0].remedy)
+        self.assertFalse(os.path.exists(self.path('other')))
+
         state, result = run(scenes.pulled_strip())
         self.assertEqual((state, result.code), (GoalStatus.SUCCEEDED, ResultCode.SUCCESS))
+
+    def test_a_run_that_cannot_create_its_files_ends_and_the_next_runs(self):
+        self.assertEqual(run(scenes.pulled_strip())[1].code, ResultCode.SUCCESS)
+        os.makedirs(self.path('taken/result.h5'))
+        state, result = run(scenes.long_run(), output_directory=self.path('taken'))  # another mesh than the run before
+        self.assertEqual((state, result.code), (GoalStatus.ABORTED, ResultCode.OUTPUT_ERROR), result.message)
+        self.assertIn('result.h5', result.message)
+        self.assertEqual(result.files, ['summary.json'])
+        self.assertEqual(run(scenes.pulled_strip())[1].code, ResultCode.SUCCESS)
 
     def test_client_is_cancelled_by_ctrl_c(self):
         with open(self.path('long.yaml'), 'w') as file:

@@ -196,6 +196,15 @@ TEST(SceneRules, SetsExist) {
   expect_flange_fault("set: leg}", "set: lag}", "output.probes[2].set", "did you mean leg?");
 }
 
+TEST(SceneRules, ToolsHaveTopicsOfTheirOwn) {
+  const auto tools = [](const std::string& second) {
+    const std::string at = "point: [0, 0.002, 0], normal: [0, -1, 0]}\n";
+    return minimal_example() + "tools:\n  - {name: press.a, " + at + "  - {name: " + second + ", " + at;
+  };
+  expect_fault(tools("press-a"), "tools[1].name", "tool_forces/press_a");
+  EXPECT_TRUE(faults_of(tools("press-b")).empty());
+}
+
 TEST(SceneRules, Stages) {
   expect_flange_fault("kind: withdraw, duration", "kind: withdraw, tools: [punsh], duration", "stages[1].tools[0]", "did you mean punch?");
   expect_flange_fault("  - {name: springback", "  - {kind: withdraw, duration: 1}\n  - {name: springback", "stages[2]", "all tools are gone");

@@ -13,8 +13,8 @@ class CsvFile {
   /// A new file with its header row. Throws Error(output_error).
   CsvFile(const std::string& path, const std::vector<std::string>& columns);
   /// Goes on with a file that has these columns: rows whose first value is
-  /// greater than `last` are dropped. Null where there is no such file.
-  static std::unique_ptr<CsvFile> resume(const std::string& path, const std::vector<std::string>& columns, double last);
+  /// greater than `last` are dropped. Null where there is no such file. until: where not null, receives the first value of the last row kept.
+  static std::unique_ptr<CsvFile> resume(const std::string& path, const std::vector<std::string>& columns, double last, double* until = nullptr);
 
   /// One value per column: text (quoted where it must be) or numbers (empty where not finite).
   void append(const std::vector<std::string>& values);

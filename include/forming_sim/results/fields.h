@@ -16,8 +16,7 @@ namespace forming_sim {
 
 class Fields : public Observer {
  public:
-  /// resumed: go on with the file that is there, where it fits; a note in the
-  /// record tells where it did not.
+  /// resumed: go on with the file that is there; a note in the record tells where there is none, or one that ends too early.
   Fields(const Scene& scene, const std::string& directory, double interval, bool resumed, Gauge& gauge, RunRecord& record)
       : scene_(scene), directory_(directory), schedule_(interval), resumed_(resumed), gauge_(gauge), record_(record) {}
   void on_start(const Simulation& simulation) override;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace forming_sim {
@@ -17,7 +18,12 @@ class Hdf5Handle {
   Hdf5Handle(std::int64_t id, Close close) : id_(id), close_(close) {}
   Hdf5Handle(Hdf5Handle&& other) noexcept { swap(other); }
   Hdf5Handle& operator=(Hdf5Handle&& other) noexcept { swap(other); return *this; }
-  ~Hdf5Handle() { if (id_ >= 0 && close_) close_(id_); }
+  ~Hdf5Handle() { close(); }
+  /// False where what was still to be written then could not be.
+  bool close() {
+    const std::int64_t id = std::exchange(id_, -1);
+    return id < 0 || !close_ || close_(id) >= 0;
+  }
   std::int64_t id() const { return id_; }
   bool valid() const { return id_ >= 0; }
 
@@ -30,8 +36,7 @@ class Hdf5Handle {
 /// How a dataset lies in the file.
 enum class Storage {
   plain,    ///< as it is
-  packed,   ///< bytes shuffled, deflated at level 1, where there are many
-  checked   ///< with a Fletcher-32 checksum a chunk, verified on reading
+  packed    ///< bytes shuffled, deflated at level 1, where there are many
 };
 
 /// A group of a file, and what it holds. T: double, float, int32_t, uint8_t.
@@ -43,7 +48,7 @@ class Hdf5Group {
              Storage storage = Storage::packed);
   /// One string; it may be longer than the 64 KiB of an attribute.
   void write_text(const std::string& name, const std::string& text);
-  /// Bytes with a checksum.
+  /// Bytes beside their hash, which is verified on reading; what describes them lies in headers with checksums.
   void write_checked(const std::string& name, const std::string& bytes);
   /// shape: receives the dimensions where not null.
   template <class T>
@@ -63,7 +68,8 @@ class Hdf5Group {
   bool has(const std::string& name) const;
   std::vector<std::string> names() const;      ///< of its members, in order of name
   Hdf5Group group(const std::string& name) const;
-  Hdf5Group create(const std::string& name);
+  /// links: how many it will hold, as far as is known.
+  Hdf5Group create(const std::string& name, std::size_t links = 16);
   /// A group that no other group holds yet: it is in the file once it is linked.
   Hdf5Group create_unlinked(const std::string& label) const;
   /// Makes `object` (of this file) a member under this name.

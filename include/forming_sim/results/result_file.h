@@ -33,9 +33,10 @@ namespace forming_sim {
 class ResultFile {
  public:
   /// A new file; an old one of that name is replaced.
-  ResultFile(const std::string& path, ResultHeader header);
-  /// Goes on with a file of the same topology, scene and version: frames after
-  /// `step` are dropped. nullopt where there is no such file.
+  /// frames: how many there will be, as far as is known.
+  ResultFile(const std::string& path, ResultHeader header, std::size_t frames = 64);
+  /// Goes on with a file of the same scene (by its name), mesh and version: frames after `step` are dropped. nullopt where there is no file.
+  /// Throws where it is another's or damaged: it stays as it is.
   static std::optional<ResultFile> resume(const std::string& path, ResultHeader header, long step);
 
   /// Throws Error(output_error); the frames before stay readable, also on a full disk.

@@ -14,6 +14,10 @@ class Schedule {
   explicit Schedule(double interval) : interval_(interval) {}
   /// What was due up to `time` is done.
   void start(double time) { done_ = multiple(time); }
+  /// Whether it becomes due after `from` and until `to`.
+  bool due_between(double from, double to) const { return multiple(to) > multiple(from); }
+  /// How often it becomes due until `time`.
+  double times(double time) const { return multiple(time); }
   /// True once per multiple.
   bool due(double time) {
     if (!(interval_ > 0)) return false;

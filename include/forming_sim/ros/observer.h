@@ -22,8 +22,11 @@ class RosObserver : public Observer {
   void on_step(const Simulation& simulation) override;
   void on_stage_end(const Simulation& simulation, int index) override;
   void on_end(const Simulation& simulation, Code code, const std::string& message) override;
+  /// The run has got as far as its files.
+  bool begun() const { return begun_; }
 
  private:
+  void begin(const Simulation& simulation);
   void tell(const Simulation& simulation, bool always, Code code, const std::string& message);
 
   RunPublisher& publisher_;
@@ -31,6 +34,7 @@ class RosObserver : public Observer {
   Feedback feedback_;
   EtaClock clock_;
   Thickness sheets_;
+  bool begun_ = false;
 };
 
 }  // namespace forming_sim

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include <actionlib/server/action_server.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 #include "forming_sim/EstimateRun.h"
@@ -72,6 +73,8 @@ class FormingServer {
   Server server_;
   ros::Publisher results_;           ///< the topics of server_, to see who is connected
   ros::Subscriber goals_;
+  ros::CallbackQueue service_queue_;
+  ros::AsyncSpinner service_threads_{2, &service_queue_};
   ros::ServiceServer validate_, estimate_;
   std::thread worker_;
 };

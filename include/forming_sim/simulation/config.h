@@ -44,6 +44,9 @@ struct StageConfig {
   Vec3 displacement = Vec3::Zero();
   double kinetic_fraction = 1e-5;
   double limit = 0;
+  std::string ends = "rest";
+  std::string release = "gradual";
+  double release_time = 0;
 
   /// As it is called in feedback and files.
   const std::string& title() const { return name.empty() ? kind : name; }
@@ -54,9 +57,13 @@ struct StageConfig {
           .doc("form: run for a duration; withdraw: the tools move away from where they stand, then they are gone; settle: damping adapted to the body's own slowest swing until it rests"));
     visit(FORMING_SIM_FIELD(duration), Field().unit("s").above(0).required().when("kind", {"form", "withdraw"}).doc("length of the stage in simulated time"));
     visit(FORMING_SIM_FIELD(tools), Field().when("kind", {"withdraw"}).computed("all tools").doc("tools that leave"));
-    visit(FORMING_SIM_FIELD(displacement), Field().unit("m").when("kind", {"withdraw"}).doc("how far the tools move from where they stand, smoothly; [0, 0, 0]: they are lifted off at once"));
+    visit(FORMING_SIM_FIELD(displacement), Field().unit("m").when("kind", {"withdraw"}).doc("how far the tools move from where they stand, smoothly; [0, 0, 0]: they are gone at once"));
     visit(FORMING_SIM_FIELD(kinetic_fraction), Field().above(0).below(1).when("kind", {"settle"}).doc("the bodies rest when their kinetic energy, and the energy that forces out of balance could still set free, stay below this fraction of their elastic energy, or of a millionth of all the energy put in where that is more"));
     visit(FORMING_SIM_FIELD(limit), Field().unit("s").above(0).required().when("kind", {"settle"}).doc("longest time of the stage; when it is reached the result says so"));
+    visit(FORMING_SIM_FIELD(ends), Field().choices({"rest", "limit"}).when("kind", {"settle"}).doc("rest: when the bodies rest; limit: at limit, also where they rest before it, so that it is known when the motions of later stages begin"));
+    visit(FORMING_SIM_FIELD(release), Field().choices({"gradual", "sudden"})
+          .doc("how tools that are gone, and boundaries whose until it is, let go of the bodies when the stage begins: gradual: the forces that they held them by stay, and fade; sudden: they are gone in one step, and the wave that this sends out may make a body flow that springs back"));
+    visit(FORMING_SIM_FIELD(release_time), Field().unit("s").at_least(0).when("release", {"gradual"}).computed("the period of the slowest swing of the largest body if it were held at one end, 6.2 L^2/(t c), and no more than a quarter of the time until the end of the next settle stage").doc("time in which these forces fade"));
   }
 };
 

@@ -1,0 +1,41 @@
+#pragma once
+// Forces on nodes that are there at once and fade: what a body was held by that has been let go.
+#include <vector>
+
+#include "forming_sim/tensor/vec.h"
+
+namespace forming_sim {
+
+/// f(t) = f (1 - 10 u^3 + 15 u^4 - 6 u^5), u = (t - start)/duration: level at both ends. They keep their direction.
+class FadingForces {
+ public:
+  /// nodes and their forces, N, from `start` for `duration`, s.
+  void begin(double start, double duration, std::vector<int> nodes, std::vector<Node> forces);
+  /// f += forces at time t.
+  void add(double t, NodeField& f) const;
+  /// Drops what has faded away.
+  void forget(double t);
+  bool empty() const { return sets_.empty(); }
+
+  template <class Archive> void exchange(Archive& a) {
+    std::size_t count = sets_.size();
+    a.number(count);
+    sets_.resize(count);
+    for (Set& set : sets_) {
+      a.number(set.start);
+      a.number(set.duration);
+      a.list(set.nodes);
+      a.list(set.forces);
+    }
+  }
+
+ private:
+  struct Set {
+    double start = 0, duration = 0;
+    std::vector<int> nodes;
+    std::vector<Node> forces;
+  };
+  std::vector<Set> sets_;
+};
+
+}  // namespace forming_sim

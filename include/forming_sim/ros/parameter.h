@@ -1,0 +1,25 @@
+#pragma once
+// Parameters of a node.
+#include <sstream>
+#include <string>
+#include <type_traits>
+
+#include <ros/ros.h>
+
+#include "forming_sim/config/fault.h"
+
+namespace forming_sim {
+
+/// The parameter where it is set, else what `value` holds. kind: of the value, for the message ("a number").
+/// Throws Error(invalid_scene) for one of another kind, naming parameter and value.
+template <class T> void read_parameter(const ros::NodeHandle& node, const std::string& name, const std::string& kind, T& value) {
+  XmlRpc::XmlRpcValue given;
+  if (!node.getParam(name, given)) return;
+  const bool rounded = std::is_same<T, int>::value && given.getType() == XmlRpc::XmlRpcValue::TypeDouble;
+  if (!rounded && node.getParam(name, value)) return;
+  std::ostringstream text;
+  given.write(text);
+  throw Error(Code::invalid_scene, "parameter " + node.resolveName(name) + ": given " + text.str() + "; give " + kind);
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,35 @@
+// Forces that fade: whole at their start, level at both ends, gone at their end.
+#include <gtest/gtest.h>
+
+#include "forming_sim/loads/fading_forces.h"
+
+namespace forming_sim {
+namespace {
+
+Vec3 on(const FadingForces& forces, int n, double t) {
+  NodeField f(4, Node::Zero());
+  forces.add(t, f);
+  return vec3(f[n]);
+}
+
+TEST(FadingForces, FadeFromAllToNothing) {
+  FadingForces forces;
+  EXPECT_TRUE(forces.empty());
+  forces.begin(2, 4, {1, 3}, {node(Vec3(8, 0, -16)), node(Vec3(0, 1, 0))});
+  forces.begin(3, 2, {1}, {node(Vec3(0, 10, 0))});
+  EXPECT_EQ(on(forces, 1, 2), Vec3(8, 10, -16));
+  EXPECT_EQ(on(forces, 3, 4), Vec3(0, 0.5, 0));
+  EXPECT_EQ(on(forces, 1, 4), Vec3(4, 5, -8));
+  EXPECT_EQ(on(forces, 0, 4), Vec3(0, 0, 0));
+  EXPECT_EQ(on(forces, 1, 7), Vec3(0, 0, 0));
+  const double h = 1e-3;
+  for (double t : {2., 6.}) EXPECT_NEAR((on(forces, 3, t + h) - on(forces, 3, t - h)).norm() / h, 0, 1e-5);
+  forces.forget(5);
+  EXPECT_EQ(on(forces, 1, 5.9).y(), 0);
+  EXPECT_FALSE(forces.empty());
+  forces.forget(6);
+  EXPECT_TRUE(forces.empty());
+}
+
+}  // namespace
+}  // namespace forming_sim

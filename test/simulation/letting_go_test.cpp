@@ -1,0 +1,115 @@
+// What lets go of a body lets go slowly: it springs back as much as theory and a tool that is moved away slowly say.
+#include <gtest/gtest.h>
+
+#include "support/bent_strip.h"
+
+namespace forming_sim {
+namespace {
+
+StageConfig settle(double limit) {
+  StageConfig stage;
+  stage.name = stage.kind = "settle";
+  stage.limit = limit;
+  return stage;
+}
+
+// Of a sheet with k t = .02 the law, integrated over the thickness, keeps .59401 of the curvature, without a strain along the width.
+TEST(LettingGo, ABentStripSpringsBackAsMuchAsItShould) {
+  OneBody run = bent_strip(perfect_aluminium());
+  const Kept slowly = let_go(*run.start());
+  EXPECT_NEAR(slowly.curvature, kKeptPerfect, 0.003);
+  EXPECT_LT(slowly.late_flow, 0.003);
+  EXPECT_LT(slowly.balance_error, 1e-4);
+  // At once it flows anew, and keeps too much.
+  run.plan.stages.back().release = "sudden";
+  const Kept at_once = let_go(*run.start());
+  EXPECT_GT(at_once.curvature, 0.64);
+  EXPECT_GT(at_once.late_flow, 0.1);
+}
+
+/// A clamped strip is pressed down at its end by a plane, and bent for good. Then the plane leaves: at once, or slowly.
+OneBody pressed_strip() {
+  OneBody run(body_of(generate_blank(strip_of(0.02, 1e-3, 40, 3)), aluminium(true)), 2e-3);
+  clamp_left(run);
+  ToolModel plane;
+  plane.name = "punch";
+  plane.mesh.dimension = 2;
+  plane.normal = Vec3(-0.5, -1, 0).normalized();  // it rises away from the end, and stays clear of the clamp
+  plane.point = Vec3(0.02, 1e-3, 0);
+  MotionConfig motion;
+  motion.kind = "trajectory";
+  motion.profile = "smooth";
+  motion.times = {0, 2e-3};
+  motion.positions = {Vec3::Zero(), Vec3(0, -5e-3, 0)};
+  plane.motion = motion;
+  run.model.tools.push_back(plane);
+  return run;
+}
+
+StageConfig withdraw(double height, double duration) {
+  StageConfig stage;
+  stage.name = stage.kind = "withdraw";
+  stage.displacement = Vec3(0, height, 0);
+  stage.duration = duration;
+  return stage;
+}
+
+struct Released {
+  double tip, late_flow;  ///< m; plastic work since the plane began to leave, over the elastic energy then
+};
+Released release(OneBody run, const StageConfig& leaving, const StageConfig& rest) {
+  run.plan.stages.push_back(leaving);
+  run.plan.stages.push_back(rest);
+  auto sim = run.start();
+  while (sim->stage() == 0) sim->step();
+  const Energies formed = sim->energies();
+  while (sim->step()) {}
+  EXPECT_LT(sim->balance_error(), 1e-3);
+  EXPECT_TRUE(sim->contact_status().crossings == 0);
+  const int tip = sim->model().bodies[0].mesh.sets.at("right")[0];
+  return {sim->positions()[tip][1] - sim->initial_positions()[tip][1], (sim->energies().plastic - formed.plastic) / formed.elastic};
+}
+
+TEST(LettingGo, AToolThatIsGoneAtOnceLetsGoAsOneThatIsMovedAway) {
+  const OneBody run = pressed_strip();
+  const Released slowly = release(run, withdraw(5e-3, 10e-3), settle(20e-3)), at_once = release(run, withdraw(0, 1e-5), settle(20e-3));
+  EXPECT_NEAR(at_once.tip, slowly.tip, 0.01 * std::abs(slowly.tip));
+  EXPECT_LT(at_once.late_flow, 0.01);
+  StageConfig sudden = withdraw(0, 1e-5);
+  sudden.release = "sudden";
+  EXPECT_GT(release(run, sudden, settle(20e-3)).late_flow, 5 * std::max(at_once.late_flow, 0.001));
+}
+
+// What is let go rests no sooner than the forces have faded, and release_time is their time.
+TEST(LettingGo, ForcesFadeInTheTimeThatIsGiven) {
+  OneBody run = pressed_strip();
+  StageConfig rest = settle(20e-3);
+  StageConfig leaving = withdraw(0, 1e-5);
+  leaving.release_time = 4e-3;
+  run.plan.stages.push_back(leaving);
+  run.plan.stages.push_back(rest);
+  auto sim = run.start();
+  const int tip = run.model.bodies[0].mesh.sets.at("right")[0];
+  double pressed = 0;
+  while (sim->stage() == 0) sim->step();
+  pressed = sim->positions()[tip][1];
+  while (sim->time() < 2e-3 + 0.4e-3) sim->step();
+  EXPECT_NEAR(sim->positions()[tip][1], pressed, 1e-4);  // a tenth of the time, a hundredth of the force
+  while (sim->step()) {}
+  EXPECT_GT(sim->time(), 6e-3);
+}
+
+// A settle stage that ends at its limit rests and lasts: what follows is planned by the clock.
+TEST(LettingGo, SettlingLastsToItsLimitWhereThatIsAsked) {
+  OneBody run = pressed_strip();
+  run.plan.stages.push_back(withdraw(0, 1e-5));
+  run.plan.stages.push_back(settle(9e-3));
+  run.plan.stages.back().ends = "limit";
+  auto sim = run.start();
+  std::atomic<bool> cancel{false};
+  EXPECT_EQ(sim->run(cancel).code, Code::success);
+  EXPECT_NEAR(sim->time(), 2e-3 + 1e-5 + 9e-3, 1e-9);
+}
+
+}  // namespace
+}  // namespace forming_sim
