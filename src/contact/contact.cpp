@@ -167,9 +167,11 @@ void Contact::add_normal_impulses(std::vector<double>& sum) const {
 std::vector<int> Contact::touched_by(const std::vector<char>& tools) const {
   const Impl& m = *impl_;
   const int bodies = m.features.bodies;
-  std::vector<char> near(m.features.area.size(), 0), others(near);
+  std::vector<char> near(m.features.area.size(), 0), others(near), act(tools.size(), 0);
+  for (const ContactPair& pair : m.near.pairs)
+    if (const int tool = pair.tool(bodies); tool >= 0 && pair.impulse > 0) act[tool] = 1;
   const auto see = [&](const Link& link, int tool, bool acts) {
-    const bool asked = tool >= 0 && tools[tool];
+    const bool asked = tool >= 0 && tools[tool] && (act[tool] || acts);
     for (int k = 0; k < link.nodes; ++k) {
       if (link.node[k] >= m.work.body_entries) continue;
       const int n = m.work.vertex[link.node[k]];

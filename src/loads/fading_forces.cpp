@@ -16,6 +16,12 @@ void FadingForces::add(double t, NodeField& f) const {
   }
 }
 
+double FadingForces::end() const {
+  double last = 0;
+  for (const Set& set : sets_) last = std::max(last, set.start + set.duration);
+  return last;
+}
+
 void FadingForces::forget(double t) {
   sets_.erase(std::remove_if(sets_.begin(), sets_.end(), [t](const Set& set) { return t >= set.start + set.duration; }), sets_.end());
 }

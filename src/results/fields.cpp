@@ -27,8 +27,8 @@ void Fields::on_start(const Simulation& simulation) {
     }
     record_.notes.push_back("result.h5 begins at the checkpoint: the directory held no result of the earlier part");
   }
-  const auto stages = static_cast<double>(scene_.stages.size());
-  file_.emplace(path, std::move(header), static_cast<std::size_t>(std::min(1e5, schedule_.times(longest_time(scene_.stages)) + stages + 2)));
+  const double time = longest_time(scene_.stages), frames = std::min(schedule_.times(time), time / simulation.dt());
+  file_.emplace(path, std::move(header), static_cast<std::size_t>(std::min(1e5, frames + static_cast<double>(scene_.stages.size()) + 2)));
   xdmf_.emplace(file_->header(), "result.h5");
   write(simulation);
 }

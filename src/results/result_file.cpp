@@ -22,6 +22,7 @@ std::string frame_name(std::size_t number) {
 std::string difference(const ResultHeader& file, const ResultHeader& run) {
   if (file.version != run.version) return "it was written by version " + file.version + ", this is version " + run.version;
   if (file.scene_name != run.scene_name) return "it is of the scene " + file.scene_name + ", this is " + run.scene_name;
+  if (file.scene_hash != run.scene_hash) return "its scene " + file.scene_name + " has other values";
   if (file.dimension != run.dimension || file.elements != run.elements || file.initial_positions != run.initial_positions) return "its bodies have another mesh";
   if (file.tools.size() != run.tools.size()) return "it has " + std::to_string(file.tools.size()) + " tools, this run " + std::to_string(run.tools.size());
   return "";
@@ -73,23 +74,30 @@ ResultFile::ResultFile(const std::string& path, ResultHeader header, std::size_t
   file_.flush();
 }
 
-std::optional<ResultFile> ResultFile::resume(const std::string& path, ResultHeader header, long step) {
+void require_first_part(const std::string& path, const ResultHeader& header) {
   std::error_code unknown;
-  if (!std::filesystem::exists(path, unknown)) return std::nullopt;
+  if (!std::filesystem::exists(path, unknown)) return;
   try {
-    Hdf5File file(path, Hdf5File::Mode::append);
+    const Hdf5File file(path, Hdf5File::Mode::read);
     if (const std::string why = difference(read_header(file.root()), header); !why.empty()) throw Error(Code::output_error, why);
-    ResultFile result(path, std::move(header), std::move(file));
-    Hdf5Group frames = result.file_.root().group("frames");
-    for (FrameEntry& entry : read_entries(result.file_.root())) {
-      if (entry.step > step || entry.interrupted) frames.remove(entry.name);
-      else result.frames_.push_back(std::move(entry));
-    }
-    result.file_.flush();
-    return result;
   } catch (const Error& error) {
     throw Error(Code::output_error, "cannot go on with " + path + ": " + error.what() + "; resume into the directory of the run's first part, or into one without a result.h5");
   }
+}
+
+std::optional<ResultFile> ResultFile::resume(const std::string& path, ResultHeader header, long step) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown)) return std::nullopt;
+  require_first_part(path, header);
+  Hdf5File file(path, Hdf5File::Mode::append);
+  ResultFile result(path, std::move(header), std::move(file));
+  Hdf5Group frames = result.file_.root().group("frames");
+  for (FrameEntry& entry : read_entries(result.file_.root())) {
+    if (entry.step > step || entry.interrupted) frames.remove(entry.name);
+    else result.frames_.push_back(std::move(entry));
+  }
+  result.file_.flush();
+  return result;
 }
 
 void ResultFile::write(const Frame& frame) {

@@ -50,6 +50,7 @@ void write_tools(Hdf5Group tools, const ResultHeader& header) {
 void write_header(Hdf5Group root, const ResultHeader& header, std::size_t frames) {
   root.set("version", header.version);
   root.set("scene", header.scene_name);
+  root.set("scene_hash", header.scene_hash);
   root.set("dimension", std::int64_t{header.dimension});
   root.set("axisymmetric", std::int64_t{header.axisymmetric});
   root.write_text("scene_text", header.scene_text);

@@ -76,6 +76,7 @@ ResultHeader read_header(const Hdf5Group& root) {
   header.version = root.text("version");
   header.scene_name = root.text("scene");
   header.scene_text = root.read_text("scene_text");
+  header.scene_hash = root.integer("scene_hash");
   header.dimension = static_cast<int>(root.integer("dimension"));
   header.axisymmetric = root.integer("axisymmetric") != 0;
   need(header.dimension == 2 || header.dimension == 3, "its dimension is " + std::to_string(header.dimension));

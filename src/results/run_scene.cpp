@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "forming_sim/results/directory_lock.h"
+#include "forming_sim/results/result_file.h"
 #include "forming_sim/results/run_files.h"
+#include "forming_sim/results/snapshot.h"
 #include "forming_sim/results/start.h"
 #include "forming_sim/results/summary.h"
 #include "forming_sim/results/text_file.h"
@@ -23,11 +25,14 @@ Outcome run_valid(const Scene& scene, const std::string& directory, int threads,
     checkpoint = load_checkpoint(resume_file);
     require_same_run(*checkpoint, scene, resume_file);
   }
-  std::error_code unknown;
-  std::filesystem::remove(in_directory(directory, "summary.json"), unknown);  // of another run; this one's comes at its end
   if (!built) built = build_run(scene, threads);
   Simulation& simulation = *built;
-  if (checkpoint) simulation.restore(checkpoint->state);
+  if (checkpoint) {
+    simulation.restore(checkpoint->state);
+    require_first_part(in_directory(directory, "result.h5"), take_header(simulation, scene));
+  }
+  std::error_code unknown;
+  std::filesystem::remove(in_directory(directory, "summary.json"), unknown);  // of another run; this one's comes at its end
   RunFiles files = open_run_files(simulation, scene, directory, checkpoint ? &*checkpoint : nullptr);
   for (const auto& observer : files.observers) simulation.add(*observer);
   for (Observer* observer : extra) simulation.add(*observer);

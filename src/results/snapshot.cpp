@@ -1,5 +1,7 @@
 #include "forming_sim/results/snapshot.h"
 
+#include <functional>
+
 #include "forming_sim/results/history.h"
 #include "forming_sim/results/version.h"
 #include "forming_sim/scene/yaml.h"
@@ -11,7 +13,9 @@ ResultHeader take_header(const Simulation& simulation, const Scene& scene) {
   ResultHeader header;
   header.version = package_version();
   header.scene_name = scene.name;
-  header.scene_text = scene.text.empty() ? write_scene(scene) : scene.text;
+  const std::string meant = write_scene(scene);
+  header.scene_text = scene.text.empty() ? meant : scene.text;
+  header.scene_hash = static_cast<std::int64_t>(std::hash<std::string>()(meant));
   header.dimension = model.dimension;
   header.axisymmetric = model.axisymmetric;
   header.elements = simulation.elements();

@@ -8,6 +8,7 @@
 #include "forming_sim/results/body_measures.h"
 #include "forming_sim/results/text_file.h"
 #include "forming_sim/results/version.h"
+#include "forming_sim/scene/stage_times.h"
 
 namespace forming_sim {
 namespace {
@@ -121,13 +122,16 @@ void tell_idle_tools(const Simulation& simulation, std::vector<std::string>& war
       warnings.push_back("tool " + simulation.model().tools[i].name + " has touched nothing in the whole run: look at its position, unit_scale and motion, or leave it out");
 }
 
-/// Motions that went on when the run ended: planned for a settle stage that takes its limit, which mostly ends before.
+/// Motions that a settle stage cut off: they were planned for one that takes its limit, and the bodies rested before.
 void tell_unfinished_motions(const Simulation& simulation, std::vector<std::string>& warnings) {
-  const double end = simulation.time() * (1 + 1e-9);
-  for (std::size_t i = 0; i < simulation.tools().size(); ++i) {
-    const ToolModel& tool = simulation.model().tools[i];
-    if (!tool.motion || tool.motion->times.empty() || !simulation.tools()[i].present || !(tool.motion->times.back() > end)) continue;
-    warnings.push_back("the motion of tool " + tool.name + " goes to " + number_text(tool.motion->times.back()) + " s, and the run ended at " + three_digits(simulation.time()) +
+  const std::vector<StageConfig>& stages = simulation.plan().stages;
+  const double end = simulation.time() * (1 + 1e-9), longest = longest_time(stages) * (1 + 1e-9);
+  for (const ToolModel& tool : simulation.model().tools) {
+    const auto takes = [&](const StageConfig& s) { return s.kind == "withdraw" && (s.tools.empty() || std::find(s.tools.begin(), s.tools.end(), tool.name) != s.tools.end()); };
+    if (!tool.motion || tool.motion->times.empty() || std::any_of(stages.begin(), stages.end(), takes)) continue;
+    const double last = tool.motion->times.back();
+    if (last <= end || last > longest) continue;
+    warnings.push_back("the motion of tool " + tool.name + " goes to " + number_text(last) + " s, and the run ended at " + three_digits(simulation.time()) +
                        " s: its times count from the start of the run, and a settle stage ends when the bodies rest, unless it has `ends: limit`");
   }
 }

@@ -94,8 +94,8 @@ struct Simulation::Impl {
   void set_up_contact();
   /// Warns where a press is over within some ways of a wave of shear through the thickness.
   void tell_quick_press();
-  /// Leaves those boundaries that hold in the running stage.
-  void release_boundaries();
+  /// Leaves those boundaries that hold in the running stage. True where some have ended.
+  bool release_boundaries();
   void tell_contact_what_is_held();
   /// Which of the held nodes book_reactions() looks at.
   void choose_booked();
@@ -149,8 +149,8 @@ struct Simulation::Impl {
   double slowness() const;
   /// Time in which fades what lets go at the beginning of the running stage, s; 0: it is gone at once.
   double release_time() const;
-  /// Keeps what held the bodies until the running stage began, and no longer does, as forces that fade; held_before: the boundaries until then.
-  void let_go(const BoundarySet& held_before);
+  /// Keeps what held the bodies until the running stage began, and no longer does, as forces that fade; held_before: the boundaries until then, of which some may have ended.
+  void let_go(const BoundarySet& held_before, bool boundaries_ended);
 
   // simulation.cpp
   void begin_stage();

@@ -11,9 +11,21 @@ namespace forming_sim {
 
 namespace {
 constexpr double kCantilever = 6.2;  ///< 2 pi sqrt(12)/1.875^2: period of the first swing of a beam held at one end, over L^2/(t c)
-constexpr double kRoom = 0.25;       ///< of the time until the bodies have to rest: for more of it nothing fades
+constexpr double kRoom = 0.25;       ///< of the time until the bodies have to rest or are formed on: for more of it nothing fades
+constexpr double kMoving = 0.3;      ///< of the forces that are let go: more than this sets the body in motion as a whole
 
 bool any(const std::vector<char>& of) { return std::find(of.begin(), of.end(), 1) != of.end(); }
+
+/// Of the stages from the one at `begin` to the next settle stage, and at most until the next form stage begins, s.
+double time_to_rest(const std::vector<StageConfig>& stages, int begin) {
+  std::vector<StageConfig> until;
+  for (int k = begin; k < static_cast<int>(stages.size()); ++k) {
+    if (k > begin && stages[k].kind == "form") break;
+    until.push_back(stages[k]);
+    if (stages[k].kind == "settle") break;
+  }
+  return longest_time(until);
+}
 }  // namespace
 
 double Simulation::Impl::slowness() const {
@@ -32,16 +44,15 @@ double Simulation::Impl::release_time() const {
   const StageConfig& stage = stages.stage();
   if (stage.release == "sudden") return 0;
   if (stage.release_time > 0) return stage.release_time;
-  const auto begin = plan.stages.begin() + stages.index();
-  auto end = std::find_if(begin, plan.stages.end(), [](const StageConfig& s) { return s.kind == "settle"; });
-  if (end != plan.stages.end()) ++end;
-  return std::min(kCantilever * slowness(), kRoom * longest_time({begin, end}));
+  const auto flows = [](const BodyModel& body) { return body.material.hardening || !body.material.layers.empty(); };
+  if (std::none_of(model.bodies.begin(), model.bodies.end(), flows)) return 0;  // what is elastic ends where it would anyhow
+  return std::min(kCantilever * slowness(), kRoom * time_to_rest(plan.stages, stages.index()));
 }
 
-// What held a node is what balanced all other forces on it, f: so -f where tools pressed, and along the directions in which a boundary
-// lets go. What else presses on a node or holds it goes on doing so, and its part is unknown: such nodes are let go at once.
-void Simulation::Impl::let_go(const BoundarySet& held_before) {
-  if (!any(stages.left()) && held_before.nodes() == boundaries.nodes()) return;
+// What holds a node of a body at rest balances all other forces on it, f: so it is -f where tools pressed, and along the directions in
+// which a boundary lets go. What goes on pressing on a node of a tool is not told apart from it: such nodes are let go at once.
+void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_ended) {
+  if (!any(stages.left()) && !boundaries_ended) return;
   const double duration = release_time();
   if (duration == 0) return;
   NodeField f(x.size());
@@ -52,17 +63,29 @@ void Simulation::Impl::let_go(const BoundarySet& held_before) {
     if (found == set.nodes().end() || *found != n) return f[n];
     return node(Vec3(set.projector(static_cast<int>(found - set.nodes().begin())) * vec3(f[n])));
   };
-  for (int n : held_before.nodes()) held_by[n] = free_part(held_before, n) - free_part(boundaries, n);
-  if (contact && pressed)
+  if (boundaries_ended)
+    for (int n : held_before.nodes()) held_by[n] = free_part(held_before, n) - free_part(boundaries, n);
+  const auto pressed_on = [&](int n) { return contact && std::abs(contact_force[n]) > least_press() * contact->nodal_area()[n]; };
+  if (contact)
     for (int n : contact->touched_by(stages.left()))
-      if (std::abs(contact_force[n]) > least_press() * contact->nodal_area()[n]) held_by[n] = -free_part(boundaries, n);
+      if (pressed_on(n)) held_by[n] = -free_part(boundaries, n);
   std::vector<int> nodes;
   std::vector<Node> forces;
-  for (std::size_t n = 0; n < x.size(); ++n)
-    if (!held_by[n].isZero(0)) {
-      nodes.push_back(static_cast<int>(n));
-      forces.push_back(held_by[n]);
+  for (const BodyModel& body : model.bodies) {
+    Node moving = Node::Zero();  // what accelerates nodes that nothing presses on, all together
+    double held = 0;
+    const int end = body.first_node + body.node_count;
+    for (int n = body.first_node; n < end; ++n) {
+      held += held_by[n].norm();
+      if (!pressed_on(n)) moving += free_part(held_before, n);
     }
+    if (moving.norm() > kMoving * held) continue;  // it flies, or gathers speed: there is no rest that could be kept
+    for (int n = body.first_node; n < end; ++n)
+      if (!held_by[n].isZero(0)) {
+        nodes.push_back(n);
+        forces.push_back(held_by[n]);
+      }
+  }
   if (!nodes.empty()) fading.begin(time, duration, std::move(nodes), std::move(forces));
 }
 

@@ -214,18 +214,19 @@ void Simulation::Impl::set_up_contact() {
   tell_quick_press();
 }
 
-void Simulation::Impl::release_boundaries() {
-  if (stages.finished()) return;
+bool Simulation::Impl::release_boundaries() {
+  if (stages.finished()) return false;
   std::vector<ResolvedBoundary> held;
   for (const ResolvedBoundary& boundary : all_boundaries)
     if (release_stage(boundary.config.until, plan.stages) > stages.index()) held.push_back(boundary);
-  if (held.size() == holding) return;
+  if (held.size() == holding) return false;
   holding = held.size();
   boundaries = BoundarySet(held, model.dimension);
   choose_booked();
   if (contact) tell_contact_what_is_held();
   global.forget();  // what is let go swings faster than what is held
   control.hurry();
+  return true;
 }
 
 // The nodes of both lists increase. What stands does no work.

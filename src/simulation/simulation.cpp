@@ -18,8 +18,8 @@ constexpr int kCrossingChecks = 200;  ///< independent crossing checks over a ru
 void Simulation::Impl::begin_stage() {
   rests = false;
   const BoundarySet held_before = boundaries;
-  release_boundaries();
-  if (steps > 0 && !stages.finished()) let_go(held_before);
+  const bool ended = release_boundaries();
+  if (steps > 0 && !stages.finished()) let_go(held_before, ended);
   if (!stages.settling()) return;
   settle = Settle(time, slowness(), stages.stage().kinetic_fraction, least_energy());
 }
@@ -104,7 +104,9 @@ Outcome Simulation::run(const std::atomic<bool>& cancel) {
         std::ostringstream text;
         text << "a settle stage reached its limit before the bodies rested: at its end their kinetic energy, and what the forces out of balance could still set free, were "
              << s.unsettled.restless() << " J, and should stay below stages[].kinetic_fraction of the elastic energy, " << s.unsettled.quiet()
-             << " J; a longer limit lets them come to rest";
+             << " J";
+        if (s.fading.empty()) text << "; a longer limit lets them come to rest";
+        else text << "; what held them was still fading, until " << s.fading.end() << " s: a longer limit or a shorter stages[].release_time lets them come to rest";
         outcome = {Code::limit_reached, text.str()};
       }
     }

@@ -95,8 +95,8 @@ TEST(CheckpointDeathTest, OnAFullDiskTheOneBeforeStays) {
   }
 }
 
-// Of every byte of what describes the state: a change of it is told, and neither hangs nor crashes.
-TEST(Checkpoint, EveryByteIsChecked) {
+// Wherever a byte is changed: it is told or it does not matter, and nothing hangs or crashes.
+TEST(Checkpoint, DamageIsToldOrDoesNotMatter) {
   const TemporaryDirectory directory;
   const std::string path = directory.file("checkpoint.h5");
   Checkpoint small = example_checkpoint();
@@ -104,7 +104,7 @@ TEST(Checkpoint, EveryByteIsChecked) {
   save_checkpoint(path, small);
   const std::string whole = read_text(path);
   int told = 0;
-  for (std::size_t at = 0; at < whole.size(); at += 7) {
+  for (std::size_t at = 0; at < whole.size(); at += 3) {
     std::string damaged = whole;
     damaged[at] = static_cast<char>(damaged[at] ^ 0x5a);
     replace_file(path, damaged);
@@ -119,7 +119,7 @@ TEST(Checkpoint, EveryByteIsChecked) {
       ++told;
     }
   }
-  EXPECT_GT(told, static_cast<int>(whole.size() / 7) / 2);
+  EXPECT_GT(told, static_cast<int>(whole.size() / 3) / 2);
 }
 
 TEST(Checkpoint, ThatIsMissingCutOffOrDamagedIsRefused) {

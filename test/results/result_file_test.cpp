@@ -116,6 +116,9 @@ TEST(ResultFile, IsNotResumedAndStaysWhereItIsAnother) {
   other.scene_name = "another";
   expect_not_resumed(path, other, "this is another");
   other = header;
+  other.scene_hash += 1;
+  expect_not_resumed(path, other, "other values");
+  other = header;
   other.version = "0.0.0";
   expect_not_resumed(path, other, "0.0.0");
   EXPECT_EQ(ResultReader(path).frames().size(), 1u);
@@ -168,6 +171,33 @@ TEST(ResultFile, IsReadableUpToTheLastCompleteFrameAfterAKill) {
     ASSERT_GE(frames, complete);
     for (int i = 0; i < frames; ++i) expect_frame(reader.frame(i), header, i);
   }
+}
+
+// Whoever looks finds whole frames, or is told that this opening failed; nothing worse.
+TEST(ResultFile, CanBeReadWhileItIsWritten) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("result.h5");
+  const ResultHeader header = example_header(10);
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    ResultFile file(path, header, 400);
+    for (int i = 0; i < 400; ++i) file.write(example_frame(header, i));
+    _exit(0);
+  }
+  int read = 0;
+  for (int status = 0; waitpid(child, &status, WNOHANG) == 0;) {
+    try {
+      const ResultReader reader(path);
+      if (reader.frames().empty()) continue;
+      const int last = static_cast<int>(reader.frames().size()) - 1;
+      expect_frame(reader.frame(last), header, last);
+      ++read;
+    } catch (const Error&) {
+    }
+  }
+  EXPECT_GT(read, 0);
+  EXPECT_EQ(ResultReader(path).frames().size(), 400u);
 }
 
 /// Writes frames until it fails, in a process of its own: files may grow to

@@ -80,6 +80,61 @@ TEST(LettingGo, AToolThatIsGoneAtOnceLetsGoAsOneThatIsMovedAway) {
   EXPECT_GT(release(run, sudden, settle(20e-3)).late_flow, 5 * std::max(at_once.late_flow, 0.001));
 }
 
+TEST(LettingGo, AToolThatStillPressesWhenItIsGoneLetsGoSlowly) {
+  const OneBody run = pressed_strip();
+  const Released slowly = release(run, withdraw(5e-3, 10e-3), settle(20e-3)), early = release(run, withdraw(0.2e-3, 1e-3), settle(20e-3));
+  EXPECT_NEAR(early.tip, slowly.tip, 0.01 * std::abs(slowly.tip));
+  EXPECT_LT(early.late_flow, 0.01);
+}
+
+// Where one of two boundaries on the same nodes ends, its direction fades and the other's stays.
+TEST(LettingGo, OneOfTwoBoundariesOnASetFades) {
+  OneBody run(body_of(generate_blank(strip_of(0.02, 1e-3, 40, 3)), aluminium(true)), 2e-3);
+  clamp_left(run);
+  BoundaryConfig along, down;
+  along.set = down.set = "right";
+  along.kind = "fixed";
+  along.axes = {"x"};
+  down.kind = "velocity";
+  down.axes = {"y"};
+  down.profile = "smooth";
+  down.times = {0, 1e-3, 2e-3};
+  down.velocities = {Vec3::Zero(), Vec3(0, -2, 0), Vec3::Zero()};
+  down.until = "settle";
+  run.plan.bodies[0].boundaries.push_back(along);
+  run.plan.bodies[0].boundaries.push_back(down);
+  run.plan.stages.push_back(settle(20e-3));
+  const double slowly = let_go(*run.start()).late_flow;
+  run.plan.stages.back().release = "sudden";
+  EXPECT_LT(slowly, 0.3 * let_go(*run.start()).late_flow);
+}
+
+// A block that bounces on a plane when the plane is taken away is at no rest: nothing pushes it on.
+TEST(LettingGo, ABodyThatFliesIsLetGoAtOnce) {
+  for (double hit : {20.5e-6, 21.8e-6}) {
+    OneBody run(body_of(generate_blank(strip_of(0.01, 0.005, 10, 5)), aluminium(true)), hit);
+    run.plan.bodies[0].initial_velocity = Vec3(0, -0.5, 0);
+    ToolModel plane;
+    plane.name = "floor";
+    plane.mesh.dimension = 2;
+    plane.normal = Vec3::UnitY();
+    plane.point = Vec3(0, -9e-6, 0);
+    run.model.tools.push_back(plane);
+    run.plan.stages.push_back(withdraw(0, 1e-5));
+    run.plan.stages.push_back(settle(1e-3));
+    auto sim = run.start();
+    const auto momentum = [&] {
+      double sum = 0;
+      for (std::size_t i = 0; i < sim->velocities().size(); ++i) sum += sim->nodal_mass()[i] * sim->velocities()[i][1];
+      return sum;
+    };
+    while (sim->stage() == 0) sim->step();
+    const double left = momentum();
+    while (sim->stage() == 1) sim->step();
+    EXPECT_NEAR(momentum(), left, 1e-9 * mass_of(*sim)) << hit;
+  }
+}
+
 // What is let go rests no sooner than the forces have faded, and release_time is their time.
 TEST(LettingGo, ForcesFadeInTheTimeThatIsGiven) {
   OneBody run = pressed_strip();

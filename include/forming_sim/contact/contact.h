@@ -159,7 +159,7 @@ class Contact {
   /// Adds the impulses of the last step on the nodes given to set_masses as held, in their order, along the
   /// directions that are held: what holds them bears these. N s.
   void add_held_impulses(std::vector<Vec3>& sum) const;
-  /// Nodes of the bodies, increasing, that are near or tied to one of these tools (1) and that nothing else pressed on in the last step.
+  /// Nodes of the bodies, increasing, that are near or tied to one of these tools (1) which pressed or pulled in the last step, and that nothing else pressed on in it.
   std::vector<int> touched_by(const std::vector<char>& tools) const;
   const std::vector<double>& nodal_area() const;      ///< of the bodies' nodes at the start, m^2 (m in plane strain); 0 inside
 

@@ -16,6 +16,7 @@ class FadingForces {
   /// Drops what has faded away.
   void forget(double t);
   bool empty() const { return sets_.empty(); }
+  double end() const;  ///< when the last of them is gone, s
 
   template <class Archive> void exchange(Archive& a) {
     std::size_t count = sets_.size();

@@ -2,6 +2,7 @@
 // What result.h5 holds, as plain data: what stays (ResultHeader) and one
 // output time (Frame). Written by ResultFile, read by ResultReader.
 #include <array>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct ToolShape {
 
 struct ResultHeader {
   std::string version, scene_name, scene_text;
+  std::int64_t scene_hash = 0;               ///< of what the scene means: a remark changes nothing
   int dimension = 3;
   bool axisymmetric = false;                 ///< dimension 2: the section is turned about the y axis
   std::vector<std::array<int, 4>> elements;  ///< simplices of all bodies, dimension + 1 nodes each

@@ -1,7 +1,7 @@
 #pragma once
 // result.h5, the fields of a run:
 //
-//   /                       attributes version, scene, dimension, axisymmetric; dataset scene_text
+//   /                       attributes version, scene, scene_hash, dimension, axisymmetric; dataset scene_text
 //   /topology/elements      n x 3|4 int32, corner nodes of the simplices
 //   /topology/body          n int32, index into the attribute names of /bodies
 //   /topology/surface       m x 2|3 int32, boundary facets, normal outwards
@@ -29,14 +29,16 @@
 
 namespace forming_sim {
 
+/// Where there is a file at `path`: throws Error(output_error) unless it is of this scene, mesh and version, whole or cut off after a frame.
+void require_first_part(const std::string& path, const ResultHeader& header);
+
 /// Writes result.h5. All functions throw Error(output_error) with file, dataset and reason.
 class ResultFile {
  public:
   /// A new file; an old one of that name is replaced.
   /// frames: how many there will be, as far as is known.
   ResultFile(const std::string& path, ResultHeader header, std::size_t frames = 64);
-  /// Goes on with a file of the same scene (by its name), mesh and version: frames after `step` are dropped. nullopt where there is no file.
-  /// Throws where it is another's or damaged: it stays as it is.
+  /// Goes on with the file of the run's first part: frames after `step` are dropped. nullopt where there is no file. Throws as require_first_part().
   static std::optional<ResultFile> resume(const std::string& path, ResultHeader header, long step);
 
   /// Throws Error(output_error); the frames before stay readable, also on a full disk.
