@@ -182,6 +182,8 @@ void Simulation::Impl::watch_settling() {
   const long phase = steps % Settle::kInterval;
   const bool estimates = phase == 0 && f_before_step == steps - 1;
   if (phase != Settle::kInterval - 1 && !estimates) return;
+  // With the loads: what fades of them the body answers as it springs back slowly, and both together tell of its swings about that way
+  // alone. Damping for its own slow motion drags on it, and bends it anew: of a bent strip 4 % of the curvature.
   NodeField f(x.size());
   sum_nodes(elements.team(), forces(), f);
   if (!estimates) {
