@@ -51,7 +51,8 @@ void save_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
 }
 
 Checkpoint load_checkpoint(const std::string& path) {
-  if (!std::filesystem::exists(path))
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown))
     throw Error(Code::resume_error, "the checkpoint " + path + " does not exist; give the checkpoint.h5 of a run");
   try {
     const Hdf5File file(path, Hdf5File::Mode::read);

@@ -355,6 +355,13 @@ class ServiceTest(unittest.TestCase):
         self.assertEqual(result.files, ['summary.json'])
         self.assertEqual(run(scenes.pulled_strip())[1].code, ResultCode.SUCCESS)
 
+    def test_parameters_of_the_wrong_kind_are_told(self):
+        for name, given in (('threads', 'two'), ('threads', '2.7'), ('publish_rate', 'fast'), ('colour_by', '5'), ('output_root', '5')):
+            server = subprocess.run([executable('forming_server'), '__name:=other', '_%s:=%s' % (name, given)], stderr=subprocess.PIPE, text=True, timeout=30)
+            rospy.delete_param('/other/' + name)
+            self.assertEqual(server.returncode, 1, server.stderr)
+            self.assertIn('parameter /other/%s: given %s; give ' % (name, given), server.stderr)
+
     def test_client_is_cancelled_by_ctrl_c(self):
         with open(self.path('long.yaml'), 'w') as file:
             yaml.safe_dump(scenes.long_run(), file)
