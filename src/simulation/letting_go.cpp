@@ -50,7 +50,7 @@ double Simulation::Impl::release_time() const {
 }
 
 // What holds a node of a body at rest balances all other forces on it, f: so it is -f where tools pressed, and along the directions in
-// which a boundary lets go. What goes on pressing on a node of a tool is not told apart from it: such nodes are let go at once.
+// which a boundary lets go. What a tool pressed with on a node on which something else presses as well is not known: there it is gone at once.
 void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_ended) {
   if (!any(stages.left()) && !boundaries_ended) return;
   const double duration = release_time();
