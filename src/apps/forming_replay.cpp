@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
     forming_sim::read_parameter(node, "duration", "a number, in s", options.duration_s);
     forming_sim::read_parameter(node, "loop", "true or false", options.loop);
     if (!(options.duration_s > 0 && options.duration_s <= 1e6))
-      throw forming_sim::Error(forming_sim::Code::invalid_scene, "parameter " + node.resolveName("duration") + ": given " + std::to_string(options.duration_s) + "; give the wall time of one pass, above 0 and at most 1e6 s");
+      forming_sim::refuse_parameter(node, "duration", std::to_string(options.duration_s), "give the wall time of one pass, above 0 and at most 1e6 s");
     ros::AsyncSpinner spinner(1);
     spinner.start();
     forming_sim::RunPublisher publisher(node, forming_sim::PublishOptions::read(node));

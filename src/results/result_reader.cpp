@@ -35,20 +35,14 @@ NodeField nodes(const std::vector<double>& flat) {
   return nodes;
 }
 
-std::vector<double> numbers(const Hdf5Group& group, const std::string& name, std::size_t count) {
-  std::vector<double> values = group.read<double>(name);
-  need(values.size() == count, name + " has " + std::to_string(values.size()) + " values, " + std::to_string(count) + " are needed");
-  return values;
+template <class T> std::vector<T> values(const Hdf5Group& group, const std::string& name, std::size_t count) {
+  std::vector<T> found = group.read<T>(name);
+  need(found.size() == count, name + " has " + std::to_string(found.size()) + " values, " + std::to_string(count) + " are needed");
+  return found;
 }
 
 Vec3 vector(const Hdf5Group& group, const std::string& name) {
-  return Eigen::Map<const Vec3>(numbers(group, name, 3).data());
-}
-
-std::vector<float> field(const Hdf5Group& group, const std::string& name, std::size_t count) {
-  std::vector<float> values = group.read<float>(name);
-  need(values.size() == count, name + " has " + std::to_string(values.size()) + " values, " + std::to_string(count) + " are needed");
-  return values;
+  return Eigen::Map<const Vec3>(values<double>(group, name, 3).data());
 }
 
 /// Members "0", "1", ... in numeric order.
@@ -136,21 +130,21 @@ Frame ResultReader::frame(std::size_t index) const {
   frame.stage = group.text("stage");
   frame.interrupted = group.integer("interrupted") != 0;
   const std::size_t count = header_.initial_positions.size(), elements = header_.elements.size(), facets = header_.surface.size();
-  frame.positions = nodes(numbers(group, "positions", 3 * count));
-  frame.velocities = nodes(numbers(group, "velocities", 3 * count));
-  frame.plastic_strain = field(group, "plastic_strain", elements);
-  const std::vector<float> stress = field(group, "stress", 6 * elements);
+  frame.positions = nodes(values<double>(group, "positions", 3 * count));
+  frame.velocities = nodes(values<double>(group, "velocities", 3 * count));
+  frame.plastic_strain = values<float>(group, "plastic_strain", elements);
+  const std::vector<float> stress = values<float>(group, "stress", 6 * elements);
   frame.stress.resize(elements);
   for (std::size_t e = 0; e < frame.stress.size(); ++e) std::copy_n(&stress[6 * e], 6, frame.stress[e].begin());
-  frame.volume_ratio = field(group, "volume_ratio", elements);
-  frame.contact_pressure = field(group, "contact_pressure", count);
-  if (entry.gap) frame.contact_gap = field(group, "contact_gap", count);
-  if (entry.slip) frame.contact_slip = field(group, "contact_slip", count);
-  frame.surface_strain = field(group, "surface_strain", facets);
-  frame.surface_strain_minor = field(group, "surface_strain_minor", facets);
+  frame.volume_ratio = values<float>(group, "volume_ratio", elements);
+  frame.contact_pressure = values<float>(group, "contact_pressure", count);
+  if (entry.gap) frame.contact_gap = values<float>(group, "contact_gap", count);
+  if (entry.slip) frame.contact_slip = values<float>(group, "contact_slip", count);
+  frame.surface_strain = values<float>(group, "surface_strain", facets);
+  frame.surface_strain_minor = values<float>(group, "surface_strain_minor", facets);
   if (entry.sheet) {
-    frame.thickness = field(group, "thickness", count);
-    frame.thinning = field(group, "thinning", count);
+    frame.thickness = values<float>(group, "thickness", count);
+    frame.thinning = values<float>(group, "thinning", count);
   }
   const Hdf5Group tools = group.group("tools");
   need(member_count(tools) == header_.tools.size(), "frame " + entry.name + " has " + std::to_string(member_count(tools)) + " tools, the scene " + std::to_string(header_.tools.size()));
@@ -158,7 +152,7 @@ Frame ResultReader::frame(std::size_t index) const {
     const Hdf5Group tool = tools.group(std::to_string(i));
     FrameTool pose;
     pose.position = vector(tool, "position");
-    pose.rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers(tool, "rotation", 9).data());
+    pose.rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values<double>(tool, "rotation", 9).data());
     pose.force = vector(tool, "force");
     pose.present = tool.integer("present") != 0;
     frame.tools.push_back(pose);

@@ -9,6 +9,7 @@
 #include "forming_sim/results/text_file.h"
 #include "forming_sim/results/version.h"
 #include "forming_sim/scene/stage_times.h"
+#include "forming_sim/simulation/release.h"
 
 namespace forming_sim {
 namespace {
@@ -127,8 +128,8 @@ void tell_unfinished_motions(const Simulation& simulation, std::vector<std::stri
   const std::vector<StageConfig>& stages = simulation.plan().stages;
   const double end = simulation.time() * (1 + 1e-9), longest = longest_time(stages) * (1 + 1e-9);
   for (const ToolModel& tool : simulation.model().tools) {
-    const auto takes = [&](const StageConfig& s) { return s.kind == "withdraw" && (s.tools.empty() || std::find(s.tools.begin(), s.tools.end(), tool.name) != s.tools.end()); };
-    if (!tool.motion || tool.motion->times.empty() || std::any_of(stages.begin(), stages.end(), takes)) continue;
+    const bool leaves = std::any_of(stages.begin(), stages.end(), [&](const StageConfig& stage) { return takes_away(stage, tool.name); });
+    if (!tool.motion || tool.motion->times.empty() || leaves) continue;
     const double last = tool.motion->times.back();
     if (last <= end || last > longest) continue;
     warnings.push_back("the motion of tool " + tool.name + " goes to " + number_text(last) + " s, and the run ended at " + three_digits(simulation.time()) +

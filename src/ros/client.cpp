@@ -170,8 +170,9 @@ ClientRequest read_arguments(int argc, char** argv) {
     else if (option == "--resume") request.resume = value;
     else if (option == "--server") request.server = value;
     else if (option == "--threads") {
-      request.threads = static_cast<int>(number());
-      if (request.threads != number()) throw std::invalid_argument("option --threads: given " + value + "; give a whole number");
+      const double threads = number();
+      request.threads = static_cast<int>(threads);
+      if (request.threads != threads) throw std::invalid_argument("option --threads: given " + value + "; give a whole number");
     }
     else if (option == "--wait") request.wait_s = number();
     else throw std::invalid_argument("unknown option " + option);

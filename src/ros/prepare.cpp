@@ -13,6 +13,7 @@
 #include "forming_sim/results/start.h"
 #include "forming_sim/ros/convert.h"
 #include "forming_sim/ros/publisher.h"
+#include "forming_sim/scene/topic_name.h"
 #include "forming_sim/scene/yaml.h"
 
 namespace forming_sim {

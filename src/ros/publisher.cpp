@@ -1,7 +1,6 @@
 #include "forming_sim/ros/publisher.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <geometry_msgs/WrenchStamped.h>
@@ -11,6 +10,7 @@
 #include "forming_sim/PlasticStrainTopology.h"
 #include "forming_sim/config/words.h"
 #include "forming_sim/ros/parameter.h"
+#include "forming_sim/scene/topic_name.h"
 #include "geometry.h"
 
 namespace forming_sim {
@@ -22,9 +22,7 @@ PublishOptions PublishOptions::read(const ros::NodeHandle& node) {
   read_parameter(node, "colour_by", "one of " + one_of(MarkerOptions::colours()), options.markers.colour_by);
   read_parameter(node, "colour_max", "a number", options.markers.colour_max);
   read_parameter(node, "frame", "the name of a frame", options.markers.frame);
-  const auto refuse = [&](const std::string& name, const std::string& given, const std::string& remedy) {
-    throw Error(Code::invalid_scene, "parameter " + node.resolveName(name) + ": given " + given + "; " + remedy);
-  };
+  const auto refuse = [&](const std::string& name, const std::string& given, const std::string& remedy) { refuse_parameter(node, name, given, remedy); };
   if (!(options.rate > 0 && options.rate <= 1000)) {
     refuse("publish_rate", std::to_string(options.rate), "give a rate above 0 and at most 1000, in Hz");
   }
@@ -40,12 +38,6 @@ PublishOptions PublishOptions::read(const ros::NodeHandle& node) {
     refuse("colour_by", options.markers.colour_by, "give one of " + one_of(words));
   }
   return options;
-}
-
-std::string topic_name(const std::string& name) {
-  std::string topic;
-  for (const unsigned char c : name) topic += std::isalnum(c) ? static_cast<char>(c) : '_';
-  return topic.empty() || std::isdigit(static_cast<unsigned char>(topic.front())) ? "tool_" + topic : topic;
 }
 
 RunPublisher::RunPublisher(const ros::NodeHandle& node, const PublishOptions& options)

@@ -60,10 +60,8 @@ FormingServer::FormingServer(const ros::NodeHandle& node)
       server_(
           node_, "simulate_forming", [this](Goal goal) { on_goal(goal); }, [this](Goal goal) { on_cancel(goal); }, false) {
   read_parameter(node_, "threads", "a whole number", threads_);
-  if (threads_ < 0 || threads_ > kMostThreads) {
-    throw Error(Code::invalid_scene, "parameter " + node_.resolveName("threads") + ": given " + std::to_string(threads_) +
-                                         "; give 1 to " + std::to_string(kMostThreads) + " threads, or 0 for one a processor");
-  }
+  if (threads_ < 0 || threads_ > kMostThreads)
+    refuse_parameter(node_, "threads", std::to_string(threads_), "give 1 to " + std::to_string(kMostThreads) + " threads, or 0 for one a processor");
   read_parameter(node_, "output_root", "a directory", output_root_);
   if (output_root_.empty()) output_root_ = default_output_root();
   // In threads of their own: a service that meshes a large part holds up no cancel.

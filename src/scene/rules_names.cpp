@@ -1,5 +1,6 @@
 #include <map>
 
+#include "forming_sim/scene/topic_name.h"
 #include "rules.h"
 
 namespace forming_sim {
@@ -23,16 +24,15 @@ template <class Config> void check_names_of(const std::vector<Config>& parts, co
   }
 }
 
-/// The forces of a tool have a topic, whose name has _ for what is neither letter nor digit.
+/// The forces of every tool have a topic.
 void check_topics(const std::vector<ToolConfig>& tools, FaultList& faults) {
   std::map<std::string, std::size_t> first;
   for (std::size_t i = 0; i < tools.size(); ++i) {
-    std::string topic = tools[i].name;
-    for (char& c : topic) c = c == '-' || c == '.' ? '_' : c;
+    const std::string topic = topic_name(tools[i].name);
     const auto [entry, is_new] = first.emplace(topic, i);
     if (is_new || tools[i].name.empty() || tools[i].name == tools[entry->second].name) continue;
     faults.add(join_path(join_path("tools", i), "name"), given_text(tools[i].name),
-               "give a name that is another with _ for - and . too: the forces of tools[" + std::to_string(entry->second) + "], " + tools[entry->second].name + ", have the topic tool_forces/" + topic + " already");
+               "give a name that is another as a topic, with _ for - and . and tool_ before a digit: the forces of tools[" + std::to_string(entry->second) + "], " + tools[entry->second].name + ", have the topic tool_forces/" + topic + " already");
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "forming_sim/simulation/release.h"
+
 namespace forming_sim {
 
 namespace {
@@ -20,11 +22,7 @@ StageRunner::StageRunner(const std::vector<StageConfig>& stages, const Model& mo
   if (!finished()) begin(0);
 }
 
-bool StageRunner::leaves(const StageConfig& stage, int tool) const {
-  return stage.kind == "withdraw" &&
-         (stage.tools.empty() ||
-          std::find(stage.tools.begin(), stage.tools.end(), model_->tools[tool].name) != stage.tools.end());
-}
+bool StageRunner::leaves(const StageConfig& stage, int tool) const { return takes_away(stage, model_->tools[tool].name); }
 
 void StageRunner::begin(double t) {
   known_.assign(motions_.size(), {});

@@ -295,6 +295,7 @@ class BadInput(OwnDirectory):
         os.makedirs(self.path('out/checkpoint.h5/in_the_way'))
         run = subprocess.Popen([OFFLINE, self.path('scene.yaml'), '--output', self.path('out'), '--threads', '1', '--quiet'], stderr=subprocess.PIPE, text=True)
         while not os.path.exists(self.path('out/history.csv')):
+            self.assertIsNone(run.poll(), 'it ended by itself')
             time.sleep(0.01)
         run.send_signal(signal.SIGINT)
         said = run.communicate(timeout=60)[1]

@@ -2,6 +2,7 @@
 // cannot be written is said.
 #include <gtest/gtest.h>
 #include <hdf5.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -178,26 +179,32 @@ TEST(ResultFile, CanBeReadWhileItIsWritten) {
   const TemporaryDirectory directory;
   const std::string path = directory.file("result.h5");
   const ResultHeader header = example_header(10);
+  int enough[2];  // closed by the reader: it has seen enough
+  ASSERT_EQ(pipe(enough), 0);
   const pid_t child = fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
+    close(enough[1]);
+    pollfd seen{enough[0], POLLIN, 0};
     ResultFile file(path, header, 400);
-    for (int i = 0; i < 400; ++i) file.write(example_frame(header, i));
+    for (int i = 0; i < 400 || poll(&seen, 1, 0) == 0; ++i) file.write(example_frame(header, i));
     _exit(0);
   }
-  int read = 0;
-  for (int status = 0; waitpid(child, &status, WNOHANG) == 0;) {
+  close(enough[0]);
+  int status = 0, found = 0;
+  while (waitpid(child, &status, WNOHANG) == 0) {
     try {
       const ResultReader reader(path);
       if (reader.frames().empty()) continue;
       const int last = static_cast<int>(reader.frames().size()) - 1;
       expect_frame(reader.frame(last), header, last);
-      ++read;
+      if (++found == 5) close(enough[1]);
     } catch (const Error&) {
     }
   }
-  EXPECT_GT(read, 0);
-  EXPECT_EQ(ResultReader(path).frames().size(), 400u);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_GE(found, 5);
+  EXPECT_GE(ResultReader(path).frames().size(), 400u);
 }
 
 /// Writes frames until it fails, in a process of its own: files may grow to

@@ -197,12 +197,13 @@ TEST(SceneRules, SetsExist) {
 }
 
 TEST(SceneRules, ToolsHaveTopicsOfTheirOwn) {
-  const auto tools = [](const std::string& second) {
+  const auto tools = [](const std::string& first, const std::string& second) {
     const std::string at = "point: [0, 0.002, 0], normal: [0, -1, 0]}\n";
-    return minimal_example() + "tools:\n  - {name: press.a, " + at + "  - {name: " + second + ", " + at;
+    return minimal_example() + "tools:\n  - {name: " + first + ", " + at + "  - {name: " + second + ", " + at;
   };
-  expect_fault(tools("press-a"), "tools[1].name", "tool_forces/press_a");
-  EXPECT_TRUE(faults_of(tools("press-b")).empty());
+  expect_fault(tools("press.a", "press-a"), "tools[1].name", "tool_forces/press_a");
+  expect_fault(tools("1a", "tool_1a"), "tools[1].name", "tool_forces/tool_1a");
+  EXPECT_TRUE(faults_of(tools("press.a", "press-b")).empty());
 }
 
 TEST(SceneRules, Stages) {

@@ -6,13 +6,6 @@
 namespace forming_sim {
 namespace {
 
-StageConfig settle(double limit) {
-  StageConfig stage;
-  stage.name = stage.kind = "settle";
-  stage.limit = limit;
-  return stage;
-}
-
 // Of a sheet with k t = .02 the law, integrated over the thickness, keeps .59401 of the curvature, without a strain along the width.
 TEST(LettingGo, ABentStripSpringsBackAsMuchAsItShould) {
   OneBody run = bent_strip(perfect_aluminium());

@@ -11,6 +11,13 @@ constexpr double kBentThickness = 0.93e-3;  // m
 /// k_after/k of k t = .02 (VERIFICATION 7): perfectly plastic, and with the hardening of aluminium().
 constexpr double kKeptPerfect = 0.59401, kKeptVoce = 0.57531;
 
+inline StageConfig settle(double limit) {
+  StageConfig stage;
+  stage.name = stage.kind = "settle";
+  stage.limit = limit;
+  return stage;
+}
+
 /// Turned from the upright, rad: the section at the right end of a strip.
 inline double turned(const Simulation& sim) {
   const auto& X = sim.initial_positions();
@@ -44,10 +51,7 @@ inline OneBody bent_strip(const MaterialConfig& metal) {
     end.spins_deg_s.push_back(Vec3(0, 0, rate * 180 / M_PI));
   }
   run.plan.bodies[0].boundaries = {symmetric("left", Vec3::UnitX()), corner, end};
-  StageConfig settle;
-  settle.name = settle.kind = "settle";
-  settle.limit = 20e-3;
-  run.plan.stages.push_back(settle);
+  run.plan.stages.push_back(settle(20e-3));
   return run;
 }
 inline MaterialConfig perfect_aluminium() {

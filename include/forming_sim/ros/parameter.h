@@ -10,8 +10,13 @@
 
 namespace forming_sim {
 
+/// Throws Error(invalid_scene) that names the parameter, what was given and what would be right.
+[[noreturn]] inline void refuse_parameter(const ros::NodeHandle& node, const std::string& name, const std::string& given, const std::string& remedy) {
+  throw Error(Code::invalid_scene, "parameter " + node.resolveName(name) + ": given " + given + "; " + remedy);
+}
+
 /// The parameter where it is set, else what `value` holds. kind: of the value, for the message ("a number").
-/// Throws Error(invalid_scene) for one of another kind, naming parameter and value.
+/// Refuses one of another kind.
 template <class T> void read_parameter(const ros::NodeHandle& node, const std::string& name, const std::string& kind, T& value) {
   XmlRpc::XmlRpcValue given;
   if (!node.getParam(name, given)) return;
@@ -19,7 +24,7 @@ template <class T> void read_parameter(const ros::NodeHandle& node, const std::s
   if (!rounded && node.getParam(name, value)) return;
   std::ostringstream text;
   given.write(text);
-  throw Error(Code::invalid_scene, "parameter " + node.resolveName(name) + ": given " + text.str() + "; give " + kind);
+  refuse_parameter(node, name, text.str(), "give " + kind);
 }
 
 }  // namespace forming_sim

@@ -54,7 +54,4 @@ class RunPublisher {
   std::chrono::steady_clock::time_point next_{};
 };
 
-/// A name of a tool as a name of a topic: letters, digits and _; others become _.
-std::string topic_name(const std::string& name);
-
 }  // namespace forming_sim

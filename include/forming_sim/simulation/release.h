@@ -1,5 +1,6 @@
 #pragma once
-// When a boundary lets go.
+// When a boundary lets go, and which tools a stage takes away.
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,11 @@ inline int release_stage(const std::string& until, const std::vector<StageConfig
   for (int k = 1; k < count && !until.empty(); ++k)
     if (stages[k].title() == until) return k;
   return count;
+}
+
+/// The stage takes the tool of this name away.
+inline bool takes_away(const StageConfig& stage, const std::string& tool) {
+  return stage.kind == "withdraw" && (stage.tools.empty() || std::find(stage.tools.begin(), stage.tools.end(), tool) != stage.tools.end());
 }
 
 }  // namespace forming_sim
