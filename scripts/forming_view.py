@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Opens rviz on a run: a node for launch files.
 
-usage: forming_view.py fit | VIEW  [options of rviz]
+usage: forming_view.py fit | VIEW [TOPICS] [options of rviz]
 
 VIEW is one of the shipped views, forming (a section in x-y) or forming_3d, shown at once. fit waits for the first
 run on the topics and frames its bodies, the legend beside them, in the one or the other by the run's dimension.
+TOPICS is the namespace of the topics, forming_server unless given, in the namespace of the node.
 """
 import os
+import re
 import sys
 
 import rospkg
@@ -15,6 +17,7 @@ import yaml
 
 from forming_sim.msg import PlasticStrainTopology
 
+SHIPPED = '/forming_server'  # the topics in the shipped views
 DISTANCE = 1.6  # of the camera, over the size of the bodies
 
 
@@ -31,30 +34,44 @@ def framed(view, low, high):
     return view
 
 
+def save(view):
+    """Writes the view where rviz can open it; returns the path."""
+    os.makedirs(rospkg.get_ros_home(), exist_ok=True)
+    path = os.path.join(rospkg.get_ros_home(), 'forming_view.rviz')
+    with open(path, 'w') as file:
+        yaml.safe_dump(view, file, sort_keys=False)
+    return path
+
+
+def load(path, topics):
+    """The shipped view, on these topics."""
+    with open(path) as file:
+        return yaml.safe_load(file.read().replace(SHIPPED + '/', topics + '/'))
+
+
 def main():
     name = sys.argv[1] if len(sys.argv) > 1 else ''
+    given, options = ('forming_server', sys.argv[2:]) if len(sys.argv) < 3 or re.match('-|__|.*:=', sys.argv[2]) else (sys.argv[2], sys.argv[3:])
+    topics = rospy.names.resolve_name(given, rospy.names.get_namespace() + 'view')
     views = os.path.join(rospkg.RosPack().get_path('forming_sim'), 'rviz')
     path = os.path.join(views, name + '.rviz')
     if name == 'fit':
         rospy.init_node('rviz')
         print('rviz opens with the first run', flush=True)
         try:
-            run = rospy.wait_for_message('/forming_server/plastic_strain_topology', PlasticStrainTopology)
+            run = rospy.wait_for_message(topics + '/plastic_strain_topology', PlasticStrainTopology)
         except rospy.ROSInterruptException:
             return
-        with open(os.path.join(views, 'forming.rviz' if run.dimension == 2 else 'forming_3d.rviz')) as file:
-            view = yaml.safe_load(file)
+        view = load(os.path.join(views, 'forming.rviz' if run.dimension == 2 else 'forming_3d.rviz'), topics)
         nodes = [(p.x, p.y, p.z) for p in run.nodes]
-        view = framed(view, [min(column) for column in zip(*nodes)], [max(column) for column in zip(*nodes)])
-        os.makedirs(rospkg.get_ros_home(), exist_ok=True)
-        path = os.path.join(rospkg.get_ros_home(), 'forming_view.rviz')
-        with open(path, 'w') as file:
-            yaml.safe_dump(view, file, sort_keys=False)
+        path = save(framed(view, [min(column) for column in zip(*nodes)], [max(column) for column in zip(*nodes)]))
         rospy.signal_shutdown('rviz takes its name')
     elif not os.path.exists(path):
         known = sorted(f[:-5] for f in os.listdir(views) if f.endswith('.rviz'))
         sys.exit(f"forming_view.py: given '{name}'; give fit or one of the views {', '.join(known)}")
-    os.execvp('rviz', ['rviz', '-d', path] + sys.argv[2:])
+    elif topics != SHIPPED:
+        path = save(load(path, topics))
+    os.execvp('rviz', ['rviz', '-d', path] + options)
 
 
 main()

@@ -4,6 +4,7 @@
 
 #include <ros/ros.h>
 
+#include "forming_sim/results/version.h"
 #include "forming_sim/ros/client.h"
 #include "forming_sim/ros/signals.h"
 
@@ -11,6 +12,9 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i)
     if (const std::string option = argv[i]; option == "--help" || option == "-h") {
       std::printf("%s", forming_sim::client_usage);
+      return 0;
+    } else if (option == "--version") {
+      std::printf("%s\n", forming_sim::package_version());
       return 0;
     }
   ros::init(argc, argv, "forming_client", ros::init_options::NoSigintHandler | ros::init_options::AnonymousName);

@@ -13,6 +13,7 @@
 #include "forming_sim/results/progress_line.h"
 #include "forming_sim/results/run_scene.h"
 #include "forming_sim/results/start.h"
+#include "forming_sim/results/version.h"
 #include "forming_sim/scene/schema.h"
 #include "forming_sim/scene/yaml.h"
 
@@ -23,8 +24,10 @@ using namespace forming_sim;
 std::atomic<bool> cancel{false};
 
 int run(const OfflineOptions& options, const Scene& scene, std::unique_ptr<Simulation> start) {
-  std::signal(SIGINT, [](int) { cancel = true; });
-  std::signal(SIGTERM, [](int) { cancel = true; });
+  const auto stop = [](int) { cancel = true; };
+  std::signal(SIGINT, stop);
+  std::signal(SIGTERM, stop);
+  if (std::signal(SIGHUP, stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup asks to be left alone
   ProgressLine progress(isatty(STDERR_FILENO));
   EndTable table;
   std::vector<Observer*> watchers;
@@ -38,6 +41,7 @@ int perform(const OfflineOptions& options) {
   using Task = OfflineOptions::Task;
   std::string text;
   if (options.task == Task::help) text = offline_usage();
+  else if (options.task == Task::version) text = package_version() + std::string("\n");
   else if (options.task == Task::schema) text = schema_text();
   else if (options.task == Task::schema_markdown) text = schema_markdown();
   else {

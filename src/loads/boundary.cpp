@@ -151,7 +151,7 @@ void BoundarySet::check(const Group& group, const std::vector<int>& members, con
     for (int other : members)
       if (other < b) others += (others.empty() ? "" : ", ") + ("\"" + boundaries[other].config.set + "\"");
     throw Error(Code::invalid_scene,
-                name_of(boundaries[b]) + ": node " + std::to_string(node) + " is also in set " +
+                name_of(boundaries[b]) + ": node " + std::to_string(node) + " is also in another boundary, on set " +
                     (others.empty() ? "\"" + boundaries[b].config.set + "\"" : others) +
                     ", which prescribes another velocity along the same direction" + when + "; " + remedy);
   };

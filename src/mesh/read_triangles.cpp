@@ -4,7 +4,11 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <cctype>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "forming_sim/config/fault.h"
 #include "mesh/read_apart.h"
@@ -12,6 +16,11 @@
 
 namespace forming_sim {
 namespace {
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
 
 using Transform = Eigen::Matrix<double, 3, 4>;
 
@@ -44,11 +53,36 @@ void append(const aiScene& scene, const aiNode& node, const Transform& to_root, 
     append(scene, *node.mChildren[c], times(to_root, node.mChildren[c]->mTransformation), all);
 }
 
+/// What assimp does not see in an STL file: that it was cut short.
+void check_stl(const std::string& path, const std::string& source) {
+  constexpr std::uintmax_t kHead = 84, kTriangle = 50;  // bytes, of a binary one
+  constexpr std::streamoff kEnd = 4096;
+  const std::uintmax_t size = std::filesystem::file_size(path);
+  std::ifstream file(path, std::ios::binary);
+  std::string head(kHead, '\0');
+  file.read(head.data(), kHead);
+  std::uint32_t triangles = 0;
+  std::memcpy(&triangles, &head[kHead - sizeof triangles], sizeof triangles);
+  if (size >= kHead && size == kHead + kTriangle * triangles) return;
+  const std::size_t begin = head.find_first_not_of(" \t\r\n");
+  if (begin == std::string::npos || head.compare(begin, 5, "solid") != 0)
+    throw Error(Code::mesh_error, source + ": it does not begin with solid, as an STL file of text does, and as a binary one it would have " + std::to_string(kHead + kTriangle * triangles) + " bytes for the " +
+                                      std::to_string(triangles) + " triangles that it announces, not " + std::to_string(size) + "; it is damaged or cut short: write it again");
+  file.clear();
+  file.seekg(std::max<std::streamoff>(0, static_cast<std::streamoff>(size) - kEnd));
+  const std::string end{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t closed = end.rfind("endsolid"), open = end.rfind("endfacet");
+  if (closed == std::string::npos || (open != std::string::npos && open > closed))
+    throw Error(Code::mesh_error, source + ": it begins with solid, and does not end with endsolid; it is cut short: write it again");
+}
+
 Triangles read(const std::string& path, double unit_scale) {
   Triangles all;
   all.source = "mesh file \"" + path + "\"";
   if (std::filesystem::file_size(path) == 0)
     throw Error(Code::mesh_error, all.source + ": the file is empty; a tool needs a surface of triangles");
+  const std::string extension = lower(std::filesystem::path(path).extension().string());
+  if (extension == ".stl") check_stl(path, all.source);
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
@@ -56,8 +90,7 @@ Triangles read(const std::string& path, double unit_scale) {
     throw Error(Code::mesh_error, all.source + ": assimp cannot read it: " + importer.GetErrorString() + "; write it again");
   // With the up direction left alone, the root of a COLLADA scene holds its unit
   // and nothing else; the user's unit_scale takes its place.
-  const bool collada = std::filesystem::path(path).extension().string().size() == 4 &&
-                       std::tolower(path[path.size() - 3]) == 'd';
+  const bool collada = extension == ".dae";
   Transform root = Transform::Zero();
   root.leftCols<3>().setIdentity();
   if (!collada) root = times(root, scene->mRootNode->mTransformation);

@@ -7,8 +7,6 @@
 #include <sstream>
 #include <vector>
 
-#include "forming_sim/config/fault.h"
-
 namespace forming_sim {
 namespace {
 
@@ -55,7 +53,7 @@ fs::path find_below(const fs::path& root, const std::string& name) {
   return {};
 }
 
-fs::path find_package(const std::string& name, const std::string& url) {
+fs::path find_package(const std::string& name, const std::string& url, Code code) {
   std::string tried;
   for (const std::string& root : paths_of("ROS_PACKAGE_PATH")) {
     const fs::path found = find_below(root, name);
@@ -67,7 +65,7 @@ fs::path find_package(const std::string& name, const std::string& url) {
     if (is_package(folder, name)) return folder;
     tried += ", " + folder.string();
   }
-  throw Error(Code::mesh_error,
+  throw Error(code,
               "file \"" + url + "\": the package " + name + " was not found" +
                   (tried.empty() ? "; ROS_PACKAGE_PATH and CMAKE_PREFIX_PATH are empty: source the setup.bash of the workspace"
                                  : " (tried " + tried.substr(2) +
@@ -88,7 +86,15 @@ std::string decode_percent(const std::string& text) {
   return out;
 }
 
-fs::path path_of(const std::string& url, const std::string& base_directory) {
+/// Shells see to ~/, but not behind `file:=`, in a scene or a goal.
+std::string from_home(const std::string& path) {
+  const char* home = std::getenv("HOME");
+  return home && starts_with(path, "~/") ? home + path.substr(1) : path;
+}
+
+fs::path path_of(const std::string& url, const std::string& base_directory, Code code) {
+  if (const auto nul = url.find('\0'); nul != std::string::npos)
+    throw Error(code, "file \"" + url.substr(0, nul) + "\": behind that the path has a NUL character; no file can");
   const auto scheme_end = url.find("://");
   if (scheme_end == std::string::npos) {
     const fs::path path(from_home(url));
@@ -98,29 +104,26 @@ fs::path path_of(const std::string& url, const std::string& base_directory) {
   if (starts_with(url, "file://")) {
     const std::string path = starts_with(rest, "localhost/") ? rest.substr(9) : rest;
     if (path.empty() || path[0] != '/')
-      throw Error(Code::mesh_error, "file \"" + url + "\": a file URL needs an absolute path, as in file:///folder/name.stl");
+      throw Error(code, "file \"" + url + "\": a file URL needs an absolute path, as in file:///folder/name.stl");
     return decode_percent(path);
   }
   if (starts_with(url, "package://")) {
     const auto slash = rest.find('/');
     if (slash == 0 || slash == std::string::npos || slash + 1 == rest.size())
-      throw Error(Code::mesh_error, "file \"" + url + "\": a package URL has the form package://NAME/PATH");
-    return find_package(rest.substr(0, slash), url) / rest.substr(slash + 1);
+      throw Error(code, "file \"" + url + "\": a package URL has the form package://NAME/PATH");
+    return find_package(rest.substr(0, slash), url, code) / rest.substr(slash + 1);
   }
-  throw Error(Code::mesh_error, "file \"" + url + "\": the scheme " + url.substr(0, scheme_end) +
+  throw Error(code, "file \"" + url + "\": the scheme " + url.substr(0, scheme_end) +
                                     ":// is not known; give a path, file:// or package://");
 }
 
 }  // namespace
 
-std::string from_home(const std::string& path) {
-  const char* home = std::getenv("HOME");
-  return home && starts_with(path, "~/") ? home + path.substr(1) : path;
-}
+std::string local_path(const std::string& given, Code code) { return given.empty() ? given : path_of(given, "", code).lexically_normal().string(); }
 
 std::string resolve_url(const std::string& url, const std::string& base_directory) {
   if (url.empty()) throw Error(Code::mesh_error, "file \"\": the path is empty; give a path, file:// or package://");
-  const fs::path path = path_of(url, base_directory).lexically_normal();
+  const fs::path path = path_of(url, base_directory, Code::mesh_error).lexically_normal();
   std::error_code error;
   if (fs::is_directory(path, error))
     throw Error(Code::mesh_error, "file \"" + url + "\": " + path.string() + " is a folder; name a file in it");

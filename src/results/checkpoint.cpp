@@ -13,16 +13,16 @@
 namespace forming_sim {
 namespace {
 
-/// "line 12: 'mu: 0.1' in the checkpoint, 'mu: 0.2' in the scene"
+/// "in contact: 'mu: 0.1' in the checkpoint, 'mu: 0.2' in the scene"; the texts are not those that users wrote, so that their lines say nothing.
 std::string first_difference(const std::string& a, const std::string& b) {
   std::istringstream first(a), second(b);
-  std::string left, right;
-  for (int line = 1;; ++line) {
+  std::string left, right, part;
+  for (;;) {
     const bool more_left = bool(std::getline(first, left)), more_right = bool(std::getline(second, right));
     if (!more_left) left = "(end)";
     if (!more_right) right = "(end)";
-    if (left != right || (!more_left && !more_right))
-      return "line " + std::to_string(line) + " is '" + left + "' in the checkpoint and '" + right + "' in the scene";
+    if (left != right || (!more_left && !more_right)) return part + "'" + left + "' in the checkpoint, '" + right + "' in the scene";
+    if (left.find_first_of(" -") != 0) part = "in " + left.substr(0, left.find(':')) + ": ";
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "forming_sim/config/fault.h"
 #include "forming_sim/config/words.h"
+#include "forming_sim/mesh/url.h"
 #include "forming_sim/parallel/team.h"
 
 namespace forming_sim {
@@ -21,12 +22,12 @@ std::string offline_usage() {
   forming_offline --plan SCENE.yaml [--threads N]
                                             what a step of the scene does and keeps, and nothing more
   forming_offline --schema [markdown]       every field that a scene may have
-  forming_offline --help
+  forming_offline --help | --version
 
   --output DIR     where result.h5, result.xdmf, history.csv and summary.json go
   --threads N      threads of the solver; all cores unless given; changes no result
   --resume FILE    goes on from a checkpoint of the same scene
-  --quiet          no progress line and no table at the end
+  --quiet          no progress line, no notes, no warnings and no table at the end: summary.json has them
 
 Exit code: 0 success; 2 a wrong command line or a scene with faults; 1 anything else.
 )";
@@ -62,16 +63,27 @@ std::string value_of(const std::vector<std::string>& arguments, std::size_t& i) 
 
 }  // namespace
 
-OfflineOptions read_options(const std::vector<std::string>& arguments) {
+std::vector<std::string> separated(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words;
+  for (const std::string& word : arguments) {
+    const std::size_t sign = word.rfind("--", 0) == 0 ? word.find('=') : std::string::npos;
+    words.push_back(word.substr(0, sign));
+    if (sign != std::string::npos) words.push_back(word.substr(sign + 1));
+  }
+  return words;
+}
+
+OfflineOptions read_options(const std::vector<std::string>& given_words) {
   using Task = OfflineOptions::Task;
-  static const std::vector<std::string> known{"--output", "--threads", "--resume", "--quiet", "--validate", "--estimate", "--plan", "--schema", "--help"};
+  static const std::vector<std::string> known{"--output", "--threads", "--resume", "--quiet", "--validate", "--estimate", "--plan", "--schema", "--help", "--version"};
+  const std::vector<std::string> arguments = separated(given_words);
   OfflineOptions options;
   std::set<std::string> given;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& word = arguments[i];
+    const std::string& word = arguments[i] == "-h" ? "--help" : arguments[i];
     if (word.rfind("-", 0) != 0) {
       if (!options.scene.empty()) refuse("Two scenes were given, '" + options.scene + "' and '" + word + "'; give one.");
-      options.scene = word;
+      options.scene = local_path(word, Code::invalid_scene);
       if (word.empty()) refuse("The path of the scene is empty; give a YAML file.");
       continue;
     }
@@ -80,23 +92,24 @@ OfflineOptions read_options(const std::vector<std::string>& arguments) {
       refuse("The option " + word + " does not exist" + (meant.empty() ? "." : meant));
     }
     if (!given.insert(word).second) refuse(word + " was given twice.");
-    if (word == "--output") options.output = value_of(arguments, i);
-    else if (word == "--resume") options.resume = value_of(arguments, i);
+    if (word == "--output") options.output = local_path(value_of(arguments, i), Code::invalid_scene);
+    else if (word == "--resume") options.resume = local_path(value_of(arguments, i), Code::invalid_scene);
     else if (word == "--threads") options.threads = read_threads(value_of(arguments, i));
     else if (word == "--quiet") options.quiet = true;
     else if (word == "--validate") options.task = Task::validate;
     else if (word == "--estimate") options.task = Task::estimate;
     else if (word == "--plan") options.task = Task::plan;
     else if (word == "--help") options.task = Task::help;
+    else if (word == "--version") options.task = Task::version;
     else if (word == "--schema") options.task = Task::schema;
   }
 
-  const int tasks = static_cast<int>(given.count("--validate") + given.count("--estimate") + given.count("--plan") + given.count("--schema") + given.count("--help"));
-  if (tasks > 1) refuse("Give one of --validate, --estimate, --plan, --schema and --help.");
+  const int tasks = static_cast<int>(given.count("--validate") + given.count("--estimate") + given.count("--plan") + given.count("--schema") + given.count("--help") + given.count("--version"));
+  if (tasks > 1) refuse("Give one of --validate, --estimate, --plan, --schema, --help and --version.");
   const std::set<std::string> allowed = options.task == Task::run        ? std::set<std::string>{"--output", "--threads", "--resume", "--quiet"}
                                         : options.task == Task::estimate ? std::set<std::string>{"--estimate", "--threads"}
                                        : options.task == Task::plan     ? std::set<std::string>{"--plan", "--threads"}
-                                                                         : std::set<std::string>{"--validate", "--schema", "--help"};
+                                                                         : std::set<std::string>{"--validate", "--schema", "--help", "--version"};
   for (const std::string& option : given) {
     if (allowed.count(option) == 0) refuse(option + " does not go with what is asked for.");
   }
@@ -104,7 +117,7 @@ OfflineOptions read_options(const std::vector<std::string>& arguments) {
     if (!options.scene.empty() && options.scene != "markdown") refuse("--schema was given '" + options.scene + "'; give markdown or nothing.");
     if (options.scene == "markdown") options.task = Task::schema_markdown;
     options.scene.clear();
-  } else if (options.task != Task::help && options.scene.empty()) {
+  } else if (options.task != Task::help && options.task != Task::version && options.scene.empty()) {
     refuse("No scene was given; give the path of a YAML file.");
   }
   if (options.task == Task::run && options.output.empty()) refuse("No --output was given; give a directory for the results.");

@@ -37,12 +37,12 @@ Peak greatest_surface_strain(const Simulation& simulation) {
   return peak;
 }
 
-/// thinning: per node, NaN on what is no sheet.
-Peak greatest_thinning(const Simulation& simulation, const std::vector<double>& thinning) {
+/// thinning: per node, NaN where it is not known. What lies below a node of top only has a copy of its value.
+Peak greatest_thinning(const Simulation& simulation, const std::vector<int>& top, const std::vector<double>& thinning) {
   Peak peak;
   peak.time = simulation.time();
   int node = -1;
-  for (int n = 0; n < static_cast<int>(thinning.size()); ++n)
+  for (const int n : top)
     if (thinning[n] > (node < 0 ? -std::numeric_limits<double>::infinity() : thinning[node])) node = n;
   if (node < 0) return peak;
   const auto& elements = simulation.elements();
@@ -56,7 +56,7 @@ Peak greatest_thinning(const Simulation& simulation, const std::vector<double>& 
 }  // namespace
 
 Gauge::Gauge(const Simulation& simulation, const std::vector<ProbeConfig>& probes)
-    : probes_(find_probes(probes, simulation.model(), simulation.elements())), sheets_(simulation.model()) {
+    : probes_(find_probes(probes, simulation.model(), simulation.elements())), sheets_(simulation.model()), top_(sheets_.top()) {
   for (Probe& probe : probes_) {
     probe.held = std::any_of(probe.nodes.begin(), probe.nodes.end(), [&](int n) { return simulation.once_held(n); });
     asked_.insert(asked_.end(), probe.elements.begin(), probe.elements.end());
@@ -72,7 +72,7 @@ const Measures& Gauge::at(const Simulation& simulation) {
     measures_.thickness_of_nodes = sheets_.at(simulation.positions());
     measures_.thinning_of_nodes = sheets_.thinning(measures_.thickness_of_nodes);
     measures_.thickness = smallest(measures_.thickness_of_nodes);
-    measures_.thinning = greatest_thinning(simulation, measures_.thinning_of_nodes);
+    measures_.thinning = greatest_thinning(simulation, top_, measures_.thinning_of_nodes);
   }
   measures_.probes.clear();
   const std::vector<Sym> stress = simulation.stress(asked_);

@@ -54,7 +54,7 @@ std::uint64_t most_bytes(const Frame& frame, const ResultHeader& header) {
   std::uint64_t bytes = 21 * 4096;
   bytes += frame.positions.size() * (6 * sizeof(double) + 5 * sizeof(float)) + frame.stress.size() * 9 * sizeof(float) +
            2 * frame.surface_strain.size() * sizeof(float);
-  for (const ToolShape& tool : header.tools) bytes += 5 * 4096 + tool.points.size() * 3 * sizeof(double);
+  for (const ToolShape& tool : header.tools) bytes += 6 * 4096 + tool.points.size() * 3 * sizeof(double);
   return bytes;
 }
 
@@ -135,7 +135,9 @@ void ResultFile::write_tool(Hdf5Group& tools, const Frame& frame, std::size_t in
   tool.write("position", pose.position.data(), {3}, "m", Storage::plain);
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rotation = pose.rotation;
   tool.write("rotation", rotation.data(), {3, 3}, "1", Storage::plain);
-  tool.write("force", pose.force.data(), {3}, header_.dimension == 2 && !header_.axisymmetric ? "N/m" : "N", Storage::plain);
+  const bool per_width = header_.dimension == 2 && !header_.axisymmetric;
+  tool.write("force", pose.force.data(), {3}, per_width ? "N/m" : "N", Storage::plain);
+  tool.write("moment", pose.moment.data(), {3}, per_width ? "N" : "N m", Storage::plain);
   const std::vector<Vec3>& shape = header_.tools.at(index).points;
   if (shape.empty()) return;
   const bool rests = index < last_poses_.size() && last_poses_[index].position == pose.position &&

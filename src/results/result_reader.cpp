@@ -154,6 +154,7 @@ Frame ResultReader::frame(std::size_t index) const {
     pose.position = vector(tool, "position");
     pose.rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values<double>(tool, "rotation", 9).data());
     pose.force = vector(tool, "force");
+    pose.moment = tool.has("moment") ? vector(tool, "moment") : Vec3(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));  // files of before it was kept
     pose.present = tool.integer("present") != 0;
     frame.tools.push_back(pose);
   }

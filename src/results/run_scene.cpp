@@ -32,7 +32,9 @@ Outcome run_valid(const Scene& scene, const std::string& directory, int threads,
     require_first_part(in_directory(directory, "result.h5"), take_header(simulation, scene));
   }
   std::error_code unknown;
-  std::filesystem::remove(in_directory(directory, "summary.json"), unknown);  // of another run; this one's comes at its end
+  // Of another run; this one's come later.
+  std::filesystem::remove(in_directory(directory, "summary.json"), unknown);
+  if (!checkpoint) std::filesystem::remove(in_directory(directory, "checkpoint.h5"), unknown);
   RunFiles files = open_run_files(simulation, scene, directory, checkpoint ? &*checkpoint : nullptr);
   for (const auto& observer : files.observers) simulation.add(*observer);
   for (Observer* observer : extra) simulation.add(*observer);

@@ -72,7 +72,7 @@ Frame take_frame(const Simulation& simulation, const Measures& measures) {
     frame.stress.push_back(row);
   }
   for (const ToolStatus& tool : simulation.tools())
-    frame.tools.push_back({tool.position, tool.rotation, tool.force, tool.present});
+    frame.tools.push_back({tool.position, tool.rotation, tool.force, tool.moment, tool.present});
   return frame;
 }
 

@@ -75,6 +75,12 @@ Thickness::Thickness(const Model& model) {
   if (any()) start_ = at(start);
 }
 
+std::vector<int> Thickness::top() const {
+  std::vector<int> nodes;
+  for (const Sheet& sheet : sheets_) nodes.insert(nodes.end(), sheet.top.begin(), sheet.top.end());
+  return nodes;
+}
+
 std::vector<double> Thickness::at(const NodeField& positions) const {
   std::vector<double> thickness(positions.size(), std::numeric_limits<double>::quiet_NaN());
   const auto known = [&](int node) { return positions[node].allFinite(); };

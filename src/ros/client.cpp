@@ -3,6 +3,7 @@
 #include <actionlib/client/simple_action_client.h>
 #include <ros/ros.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -11,10 +12,13 @@
 #include "forming_sim/ResultCode.h"
 #include "forming_sim/SimulateFormingAction.h"
 #include "forming_sim/config/fault.h"
+#include "forming_sim/mesh/url.h"
+#include "forming_sim/results/command_line.h"
 #include "forming_sim/ros/convert.h"
 #include "forming_sim/ros/client_progress.h"
 #include "forming_sim/ros/signals.h"
 #include "forming_sim/scene/yaml.h"
+#include "forming_sim/config/words.h"
 
 namespace forming_sim {
 namespace {
@@ -22,13 +26,13 @@ namespace {
 using Client = actionlib::SimpleActionClient<SimulateFormingAction>;
 
 SimulateFormingGoal goal_of(const ClientRequest& request) {
-  Scene scene = read_scene_file(request.scene_file);
+  Scene scene = read_scene_file(local_path(request.scene_file, Code::invalid_scene));
   SimulateFormingGoal goal;
   goal.scene_text = scene.text;
   make_urls_absolute(scene);
   goal.scene = scene_message(scene);
   const auto absolute = [](const std::string& path) {
-    return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string();
+    return path.empty() ? path : std::filesystem::absolute(local_path(path, Code::invalid_scene)).lexically_normal().string();
   };
   goal.output_directory = absolute(request.output_directory);
   goal.resume = absolute(request.resume);
@@ -102,7 +106,7 @@ int run_client(const ClientRequest& request) {
     for (const Fault& fault : error.faults()) std::fprintf(stderr, "  %s\n", fault.sentence().c_str());
     return 2;
   }
-  const std::string name = request.server + "/simulate_forming";
+  const std::string name = ros::NodeHandle(request.server).resolveName("simulate_forming");
   const ros::NodeHandle starts_the_time;  // of ROS: until that begins actionlib's client would wait for ever
   if (!wait_for(ros::Time::isValid, request.wait_s)) {
     std::fprintf(stderr, "forming_client: use_sim_time is set and in %g s nobody has published /clock, without which actions do not answer: `rosparam set use_sim_time false`\n", request.wait_s);
@@ -143,19 +147,22 @@ int run_client(const ClientRequest& request) {
 
 const char* const client_usage =
     "usage: forming_client SCENE.yaml [--output DIR] [--resume CHECKPOINT] [--server NAME] [--threads N] [--wait SECONDS]\n"
+    "       forming_client --help | --version\n"
     "Sends the scene to a forming_server and follows the run. Exit code 0: it succeeded.\n";
 
 ClientRequest read_arguments(int argc, char** argv) {
   ClientRequest request;
-  for (int i = 1; i < argc; ++i) {
-    const std::string option = argv[i];
-    if (option.rfind("--", 0) != 0) {
+  const std::vector<std::string> words = separated({argv + 1, argv + argc}), known{"--output", "--resume", "--server", "--threads", "--wait"};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& option = words[i];
+    if (option.rfind("-", 0) != 0) {
       if (!request.scene_file.empty()) throw std::invalid_argument("one scene at a time: given " + request.scene_file + " and " + option);
       request.scene_file = option;
       continue;
     }
-    if (i + 1 >= argc) throw std::invalid_argument("option " + option + " needs a value");
-    const std::string value = argv[++i];
+    if (std::find(known.begin(), known.end(), option) == known.end()) throw std::invalid_argument("the option " + option + " does not exist" + did_you_mean(option, known));
+    if (i + 1 >= words.size() || words[i + 1].empty()) throw std::invalid_argument("option " + option + " needs a value");
+    const std::string& value = words[++i];
     const auto number = [&] {
       std::size_t used = 0;
       double parsed = -1;
@@ -175,7 +182,6 @@ ClientRequest read_arguments(int argc, char** argv) {
       if (request.threads != threads) throw std::invalid_argument("option --threads: given " + value + "; give a whole number");
     }
     else if (option == "--wait") request.wait_s = number();
-    else throw std::invalid_argument("unknown option " + option);
   }
   if (request.scene_file.empty()) throw std::invalid_argument("no scene given");
   return request;

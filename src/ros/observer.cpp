@@ -50,11 +50,12 @@ void RosObserver::tell(const Simulation& simulation, bool always, Code code, con
     if (publisher_.wants_thinning()) frame.thinning = sheets_.thinning(thickness);
   }
   RunStatus status = status_of(simulation, frame, scene_, clock_.left(simulation.progress(), now_s()), thinnest);
+  status.header = publisher_.header();
   status.running = code == Code::none;
   status.code = static_cast<int>(code);
   status.message = message;
   feedback_(status);
-  publisher_.publish(frame, std::move(status), always);
+  publisher_.publish(frame, status, always);
 }
 
 }  // namespace forming_sim

@@ -39,20 +39,22 @@ Prepared prepare(const SceneSpec& message, const std::string& scene_text, int th
 }
 
 std::string make_output_directory(const std::string& given, const std::string& output_root, const std::string& scene) {
-  fs::path path = from_home(given);
+  fs::path path = local_path(given, Code::output_error);
+  std::error_code error;
   if (given.empty()) {
     const std::time_t now = std::time(nullptr);
     std::tm local{};
     localtime_r(&now, &local);
     char stamp[32];
     std::strftime(stamp, sizeof stamp, "%Y%m%d_%H%M%S", &local);
-    const fs::path base = fs::path(from_home(output_root)) / (topic_name(scene) + "_" + stamp);
+    constexpr std::size_t kLongest = 100;  // of the 255 bytes that a name may have
+    const fs::path base = fs::path(local_path(output_root, Code::output_error)) / (topic_name(scene).substr(0, kLongest) + "_" + stamp);
     path = base;
-    for (int n = 2; fs::exists(path); ++n) path = base.string() + "_" + std::to_string(n);
+    for (int n = 2; fs::exists(path, error); ++n) path = base.string() + "_" + std::to_string(n);
   }
-  std::error_code error;
   fs::create_directories(path, error);
-  if (error || !fs::is_directory(path)) {
+  std::error_code unknown;
+  if (error || !fs::is_directory(path, unknown)) {
     throw Error(Code::output_error, "cannot make the directory " + path.string() + " (" + error.message() + ")");
   }
   if (access(path.c_str(), W_OK | X_OK) != 0) {
@@ -66,14 +68,18 @@ bool is_readable_file(const std::string& path) {
   return fs::is_regular_file(path, unknown) && access(path.c_str(), R_OK) == 0;
 }
 
-void check_resume(const std::string& file, Prepared& prepared) {
-  const auto refuse = [&](const std::string& remedy) { prepared.faults.push_back({Code::resume_error, "resume", '"' + file + '"', remedy}); };
-  if (!is_readable_file(file)) return refuse("give the checkpoint file of an earlier run on the server's machine");
+std::string check_resume(const std::string& given, Prepared& prepared) {
+  if (given.empty()) return given;
+  std::string file;
+  const auto refuse = [&](const std::string& remedy) { prepared.faults.push_back({Code::resume_error, "resume", '"' + given + '"', remedy}); };
   try {
-    require_same_run(load_checkpoint(file), prepared.scene, file);
+    file = local_path(given, Code::resume_error);
+    if (is_readable_file(file)) require_same_run(load_checkpoint(file), prepared.scene, file);
+    else refuse("give the checkpoint file of an earlier run on the server's machine");
   } catch (const Error& error) {
     refuse(error.what());
   }
+  return file;
 }
 
 int choose_threads(int asked, int standard) {

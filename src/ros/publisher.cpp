@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+#include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 
 #include "forming_sim/ContactFields.h"
@@ -14,6 +16,11 @@
 #include "geometry.h"
 
 namespace forming_sim {
+
+const std::vector<std::string>& PublishOptions::parameters() {
+  static const std::vector<std::string> names{"publish_rate", "triangle_budget", "colour_by", "colour_max", "frame"};
+  return names;
+}
 
 PublishOptions PublishOptions::read(const ros::NodeHandle& node) {
   PublishOptions options;
@@ -43,7 +50,7 @@ PublishOptions PublishOptions::read(const ros::NodeHandle& node) {
 RunPublisher::RunPublisher(const ros::NodeHandle& node, const PublishOptions& options)
     : node_(node), options_(options) {
   mesh_ = node_.advertise<visualization_msgs::MarkerArray>("deformed_mesh", 2, true);
-  strain_ = node_.advertise<PlasticStrain>("plastic_strain", 2);
+  strain_ = node_.advertise<PlasticStrain>("plastic_strain", 2, true);
   topology_ = node_.advertise<PlasticStrainTopology>("plastic_strain_topology", 1, true);
   contact_ = node_.advertise<ContactFields>("contact", 2, true);
   status_ = node_.advertise<RunStatus>("status", 2, true);
@@ -58,8 +65,10 @@ void RunPublisher::start(const RunShape& shape) {
   surface_nodes_.erase(std::unique(surface_nodes_.begin(), surface_nodes_.end()), surface_nodes_.end());
   // A tool of the last run keeps its topic, and with it those who listen.
   std::vector<ros::Publisher> forces;
+  tools_.clear();
   for (const ToolModel& tool : shape.tools) {
-    forces.push_back(node_.advertise<geometry_msgs::WrenchStamped>("tool_forces/" + topic_name(tool.name), 10, true));
+    tools_.push_back(topic_name(tool.name));
+    forces.push_back(node_.advertise<geometry_msgs::WrenchStamped>("tool_forces/" + tools_.back(), 10, true));
   }
   forces_ = std::move(forces);
   PlasticStrainTopology topology;
@@ -76,27 +85,31 @@ void RunPublisher::start(const RunShape& shape) {
   topology_.publish(topology);
 }
 
-void RunPublisher::publish(const RunFrame& frame, RunStatus status, bool always) {
+void RunPublisher::publish(const RunFrame& frame, const RunStatus& status, bool always) {
   next_ = std::chrono::steady_clock::now() +
           std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(1 / options_.rate));
-  const ros::Time stamp = ros::Time::now();
+  const ros::Time stamp = status.header.stamp;
   if (frame.is_finite()) {
     if (always || mesh_.getNumSubscribers() > 0) mesh_.publish(markers_.at(frame, stamp));
-    publish_strain(frame, stamp);
+    publish_strain(frame, stamp, always);
     publish_contact(frame, stamp, always);
   }
+  publish_poses(frame, stamp);
   publish_forces(frame, stamp, always);
-  publish(std::move(status));
+  publish(status);
 }
 
-void RunPublisher::publish(RunStatus status) {
-  status.header.stamp = ros::Time::now();
-  status.header.frame_id = options_.markers.frame;
-  status_.publish(status);
+std_msgs::Header RunPublisher::header() const {
+  std_msgs::Header header;
+  header.stamp = ros::Time::now();
+  header.frame_id = options_.markers.frame;
+  return header;
 }
 
-void RunPublisher::publish_strain(const RunFrame& frame, const ros::Time& stamp) {
-  if (strain_.getNumSubscribers() == 0) return;
+void RunPublisher::publish(const RunStatus& status) { status_.publish(status); }
+
+void RunPublisher::publish_strain(const RunFrame& frame, const ros::Time& stamp, bool always) {
+  if (!always && strain_.getNumSubscribers() == 0) return;
   PlasticStrain message;
   message.header.stamp = stamp;
   message.header.frame_id = options_.markers.frame;
@@ -125,16 +138,33 @@ void RunPublisher::publish_contact(const RunFrame& frame, const ros::Time& stamp
   contact_.publish(message);
 }
 
+void RunPublisher::publish_poses(const RunFrame& frame, const ros::Time& stamp) {
+  std::vector<geometry_msgs::TransformStamped> poses;
+  for (std::size_t k = 0; k < tools_.size(); ++k) {
+    const ToolStatus& tool = frame.tools[k];
+    if (!tool.present || !tool.position.allFinite()) continue;
+    const geometry_msgs::Pose pose = pose_message(tool.position, tool.rotation);
+    geometry_msgs::TransformStamped message;
+    message.header.stamp = stamp;
+    message.header.frame_id = options_.markers.frame;
+    message.child_frame_id = options_.markers.frame + "/" + tools_[k];
+    message.transform.translation = vector_message(tool.position);
+    message.transform.rotation = pose.orientation;
+    poses.push_back(message);
+  }
+  poses_.sendTransform(poses);
+}
+
 void RunPublisher::publish_forces(const RunFrame& frame, const ros::Time& stamp, bool always) {
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     if (!always && forces_[k].getNumSubscribers() == 0) continue;
     const ToolStatus& tool = frame.tools[k];
-    if (!tool.force.allFinite() || !tool.moment.allFinite()) continue;
+    if (!tool.force.allFinite()) continue;
     geometry_msgs::WrenchStamped message;
     message.header.stamp = stamp;
     message.header.frame_id = options_.markers.frame;
     message.wrench.force = vector_message(tool.force);
-    message.wrench.torque = vector_message(tool.moment);
+    message.wrench.torque = vector_message(Vec3(tool.moment + tool.position.cross(tool.force)));  // about the origin of the frame that it is told in
     forces_[k].publish(message);
   }
 }

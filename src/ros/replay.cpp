@@ -1,6 +1,7 @@
 #include "forming_sim/ros/replay.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "forming_sim/ros/signals.h"
 #include "forming_sim/ros/status.h"
@@ -35,6 +36,8 @@ RunShape shape_of(const ResultHeader& header) {
   return shape;
 }
 
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
 RunFrame run_frame(const Frame& stored) {
   RunFrame frame;
   frame.time = stored.time;
@@ -48,17 +51,22 @@ RunFrame run_frame(const Frame& stored) {
   frame.thinning.assign(stored.thinning.begin(), stored.thinning.end());
   for (const FrameTool& pose : stored.tools) {
     ToolStatus status;
+    for (Vec3* vector : {&status.velocity, &status.peak_force}) vector->setConstant(kUnknown);
+    status.radial_force = status.peak_radial_force = kUnknown;
     status.position = pose.position;
     status.rotation = pose.rotation;
     status.force = pose.force;
+    status.moment = pose.moment;
     status.present = pose.present;
     frame.tools.push_back(status);
   }
   return frame;
 }
 
-RunStatus status_of(const RunShape& shape, const RunFrame& frame, const std::vector<float>& thickness, double progress) {
+/// What a file does not tell is NaN.
+RunStatus status_of(const std_msgs::Header& header, const RunShape& shape, const RunFrame& frame, const std::vector<float>& thickness, double progress) {
   RunStatus status;
+  status.header = header;
   status.scene = shape.scene;
   status.message = "replay of a result";
   status.stage = frame.stage;
@@ -66,6 +74,8 @@ RunStatus status_of(const RunShape& shape, const RunFrame& frame, const std::vec
   status.eta_s = -1;
   status.step = frame.step;
   status.time_s = frame.time;
+  EnergyLedger& e = status.energies;
+  for (double* value : {&status.dt_s, &status.min_gap_over_layer, &status.contact_layer_m, &e.kinetic, &e.elastic, &e.plastic, &e.contact, &e.friction, &e.damping, &e.work, &e.initial, &e.balance_error}) *value = kUnknown;
   for (std::size_t k = 0; k < shape.tools.size(); ++k) {
     status.tools.push_back(tool_message(shape.tools[k].name, frame.tools[k]));
   }
@@ -82,6 +92,13 @@ bool wait_until(const ros::WallTime& time) {
 
 }  // namespace
 
+bool are_published(const ros::NodeHandle& place) {
+  ros::master::V_TopicInfo topics;
+  ros::master::getTopics(topics);
+  const std::string status = place.resolveName("status");
+  return std::any_of(topics.begin(), topics.end(), [&](const ros::master::TopicInfo& topic) { return topic.name == status; });
+}
+
 void replay(RunPublisher& publisher, const ReplayOptions& options) {
   const ResultReader reader(options.file);
   const auto& entries = reader.frames();
@@ -96,7 +113,7 @@ void replay(RunPublisher& publisher, const ReplayOptions& options) {
       if (!wait_until(begin + ros::WallDuration(progress * options.duration_s))) return;
       const Frame stored = reader.frame(i);
       const RunFrame frame = run_frame(stored);
-      publisher.publish(frame, status_of(shape, frame, stored.thickness, progress), true);
+      publisher.publish(frame, status_of(publisher.header(), shape, frame, stored.thickness, progress), true);
     }
   } while (options.loop);
 }

@@ -3,7 +3,6 @@
 #include <cstdlib>
 
 #include "forming_sim/ResultCode.h"
-#include "forming_sim/mesh/url.h"
 #include "forming_sim/parallel/team.h"
 #include "forming_sim/ros/convert.h"
 #include "forming_sim/ros/observer.h"
@@ -70,7 +69,9 @@ FormingServer::FormingServer(const ros::NodeHandle& node)
   validate_ = services.advertiseService("validate_scene", &FormingServer::on_validate, this);
   estimate_ = services.advertiseService("estimate_run", &FormingServer::on_estimate, this);
   service_threads_.start();
+  warn_of_unknown_parameters(node_, {"threads", "output_root"});
   RunStatus idle;
+  idle.header = publisher_.header();
   idle.message = "no run so far";
   publisher_.publish(idle);
   worker_ = std::thread([this] { work(); });
@@ -171,12 +172,12 @@ void FormingServer::serve(Goal goal, Clock::time_point received) {
 SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
   const auto request = goal.getGoal();
   const int threads = choose_threads(request->threads, threads_);
-  const std::string resume = request->resume.empty() ? "" : from_home(request->resume);
+  std::string resume;
   Scene scene;
   std::unique_ptr<Simulation> simulation;
   {
     Prepared prepared = prepare(request->scene, request->scene_text, threads);
-    if (!resume.empty()) check_resume(resume, prepared);
+    resume = check_resume(request->resume, prepared);
     if (!prepared.faults.empty()) return rejection(prepared.faults);
     scene = std::move(prepared.scene);
     simulation = std::move(prepared.simulation);
@@ -186,8 +187,9 @@ SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
     if (cancel_) return result_of(Code::cancelled, "cancelled before the first step");
     directory = make_output_directory(request->output_directory, output_root_, scene.name);
   } catch (const Error& error) {
-    return rejection({{error.code(), request->output_directory.empty() ? "output_root" : "output_directory",
-                       error.what(), "give a directory that the server may write to"}});
+    const bool chosen = request->output_directory.empty();
+    return rejection({{error.code(), chosen ? "output_root" : "output_directory", '"' + (chosen ? output_root_ : request->output_directory) + '"',
+                       std::string(error.what()) + "; give a directory that the server may write to"}});
   }
 
   goal.setAccepted("running; files go to " + directory);

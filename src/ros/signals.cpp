@@ -18,6 +18,7 @@ extern "C" void forming_sim_on_stop(int) { stop_flag = 1; }
 void catch_stop_signals() {
   std::signal(SIGINT, forming_sim_on_stop);
   std::signal(SIGTERM, forming_sim_on_stop);
+  if (std::signal(SIGHUP, forming_sim_on_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup asks to be left alone
   std::signal(SIGXFSZ, SIG_IGN);
 }
 

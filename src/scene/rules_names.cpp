@@ -42,6 +42,10 @@ void check_names(const Scene& scene, FaultList& faults) {
   check_names_of(scene.bodies, "bodies", faults);
   check_names_of(scene.tools, "tools", faults);
   check_topics(scene.tools, faults);
+  for (std::size_t i = 0; i < scene.tools.size(); ++i)
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+      if (!scene.tools[i].name.empty() && scene.tools[i].name == scene.bodies[b].name)
+        faults.add(join_path(join_path("tools", i), "name"), given_text(scene.tools[i].name), "give a name of its own: " + body_path(b) + " has this one, and contact.pairs tells them apart by their names");
   check_names_of(scene.stages, "stages", faults);
   check_names_of(scene.output.probes, "output.probes", faults);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

@@ -35,6 +35,9 @@ leave a field out: there 0, "" and [] mean "not given", and the default holds.
   go along y. Of the force on a tool what goes along the axis is its force; what presses outward holds itself in balance, and is told as its `radial_force`, summed around the circle.
 - `dimension: 3` is a solid of tetrahedra or one-point hexahedra.
 - Relative file names refer to the directory of the scene file; `package://NAME/PATH` and `file://` URLs are understood.
+- Names of bodies, tools, stages, probes and sets are of letters, digits, `_`, `-` and `.`; a tool has another name than a body.
+- What is said twice can be said once: keys that begin with `x-` at the top of a scene are free, for groups of fields with an
+  anchor (`x-steel: &steel {density: 7850, ...}`), which `material: *steel` or `<<: *steel` take; fields beside `<<` win over its.
 
 ## Bodies and their sets
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -18,6 +19,14 @@ bool lies_in(const std::string& inner, const std::string& outer) {
 /// A fault of a whole list says nothing new where an entry of it is at fault.
 bool is_list_of(const std::string& list, const std::string& entry) {
   return lies_in(entry, list) && entry.size() > list.size() && entry[list.size()] == '[';
+}
+
+/// Characters that YAML does not bear and nobody sees.
+std::string odd_characters(const std::string& text) {
+  const auto line_of = [&](std::size_t place) { return std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<long>(place), '\n')); };
+  if (const auto nul = text.find('\0'); nul != std::string::npos) return "; line " + line_of(nul) + " has a NUL character: the file is no text, or damaged";
+  if (const auto tab = text.find('\t'); tab != std::string::npos) return "; line " + line_of(tab) + " has a tab: YAML is indented with spaces";
+  return "";
 }
 
 }  // namespace
@@ -46,7 +55,7 @@ Scene read_scene(const std::string& yaml_text, const std::string& base_directory
     }
   } catch (const YAML::Exception& error) {
     found.clear();
-    FaultList(found).add("scene", "a text that is not YAML at line " + std::to_string(error.mark.line + 1) + ", column " + std::to_string(error.mark.column + 1), error.msg);
+    FaultList(found).add("scene", "a text that is not YAML at line " + std::to_string(error.mark.line + 1) + ", column " + std::to_string(error.mark.column + 1), error.msg + odd_characters(yaml_text));
   }
   for (Fault& fault : found) {
     const int line = reader.line_of(fault.field);

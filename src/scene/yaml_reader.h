@@ -46,6 +46,8 @@ class YamlReader {
         faults_.add(here, "nothing", "it is required" + (field.when_field().empty() ? "" : " " + when_text(field)) + ": " + wanted<T>(field));
       } else if (found != members.end() && where == Applies::no) {
         faults_.add(here, told(found->second), "leave it out: it applies only " + when_text(field));
+      } else if constexpr (std::is_same_v<T, Vec3>) {
+        if (found != members.end() && field.is_required() && !field.zero_is_given() && is_zero(found->second)) faults_.add(here, told(found->second) + " zeros", wanted<T>(field));
       }
     });
   }
@@ -63,8 +65,16 @@ class YamlReader {
   template <class Config> std::map<std::string, YAML::Node> members_of(const YAML::Node& node, const std::string& path) {
     const std::vector<std::string> names = field_names<Config>();
     std::map<std::string, YAML::Node> members;
+    std::vector<YAML::Node> merged;
     for (const auto& pair : node) {
       const std::string key = pair.first.IsScalar() ? pair.first.Scalar() : "?";
+      if (path.empty() && key.rfind("x-", 0) == 0) continue;  // of the user, to be named by an alias
+      if (key == "<<") {
+        if (!pair.second.IsSequence()) merged.push_back(pair.second);
+        else
+          for (const YAML::Node& other : pair.second) merged.push_back(other);
+        continue;
+      }
       const std::string here = join_path(path, key);
       const bool twice = members.count(key) > 0;
       if (!twice) lines_[here] = pair.first.Mark().line + 1;
@@ -76,7 +86,24 @@ class YamlReader {
         members.emplace(key, pair.second);
       }
     }
+    for (const YAML::Node& other : merged) merge(other, names, path, members);
     return members;
+  }
+
+  /// What `<<: *other` brings: the members of other that were not given here.
+  void merge(const YAML::Node& other, const std::vector<std::string>& names, const std::string& path, std::map<std::string, YAML::Node>& members) {
+    if (!other.IsMap()) {
+      faults_.add(join_path(path, "<<"), told(other), "give the alias of a group of fields, as in <<: *steel, or a list of such");
+      return;
+    }
+    for (const auto& pair : other) {
+      const std::string key = pair.first.IsScalar() ? pair.first.Scalar() : "?", here = join_path(path, key);
+      if (std::find(names.begin(), names.end(), key) == names.end()) {
+        faults_.add(here, "a key that does not exist, by <<", "the keys here are " + one_of(names, ", ") + did_you_mean(key, names));
+      } else if (members.emplace(key, pair.second).second) {
+        lines_[here] = pair.first.Mark().line + 1;
+      }
+    }
   }
 
   template <class T> void read_value(const YAML::Node& node, T& value, const std::string& path, const Field& field) {
@@ -115,6 +142,11 @@ class YamlReader {
     } else if constexpr (is_number<T>) {  // a zero that is not allowed: for all that comes later it would not be there
       if (value == 0 && !field.contains(0)) faults_.add(path, told(node), wanted<T>(field));
     }
+  }
+
+  static bool is_zero(const YAML::Node& vector) {
+    double value = 1;
+    return vector.IsSequence() && std::all_of(vector.begin(), vector.end(), [&](const auto& entry) { return convert(entry, value) && value == 0; });
   }
 
   static bool convert(const YAML::Node& node, double& value) {

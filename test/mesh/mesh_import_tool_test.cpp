@@ -233,7 +233,11 @@ TEST(MeshImportTool, BrokenFilesAreRefused) {
   EXPECT_TRUE(has(error_of_file("points.obj", "v 0 0 0\nv 1 0 0\n"), "points.obj"));
   EXPECT_TRUE(has(error_of_file("noise.ply", "no ply at all\n"), "noise.ply"));
   EXPECT_TRUE(has(error_of_file("noise.dae", "<no collada"), "noise.dae"));
-  EXPECT_TRUE(has(error_of_file("cut.stl", binary_stl().substr(0, 300)), "cut.stl"));
+  EXPECT_TRUE(has(error_of_file("cut.stl", binary_stl().substr(0, 300)), "684 bytes for the 12 triangles that it announces, not 300"));
+  EXPECT_TRUE(has(error_of_file("longer.stl", binary_stl() + "x"), "not 685"));
+  const std::string text = ascii_stl();
+  EXPECT_TRUE(has(error_of_file("cut.stl", text.substr(0, text.rfind("endsolid"))), "does not end with endsolid"));
+  EXPECT_TRUE(has(error_of_file("two.stl", text + text.substr(0, text.size() / 2)), "does not end with endsolid"));
   EXPECT_TRUE(has(error_of_file("flat.stl", ascii_stl(std::vector<Vec3>(8, Vec3(1, 2, 3)))), "none of its 12 triangles has an area"));
   std::vector<Vec3> x = kCorners;
   x[6].y() = std::nan("");

@@ -38,8 +38,19 @@ TEST(MeshUrl, TildeIsTheHomeDirectory) {
   const std::string file = dir.write("meshes/die.stl", "x");
   const Variable home("HOME", dir.str());
   EXPECT_EQ(resolve_url("~/meshes/die.stl", "/nowhere"), file);
-  EXPECT_EQ(from_home("~/runs"), dir.str() + "/runs");
-  for (const char* path : {"~runs", "a/~/b", "~", "/a", ""}) EXPECT_EQ(from_home(path), path);
+  EXPECT_EQ(local_path("~/runs", Code::output_error), dir.str() + "/runs");
+  for (const char* path : {"~runs", "a/~/b", "~", "/a", "", "runs"}) EXPECT_EQ(local_path(path, Code::output_error), path);
+}
+
+TEST(MeshUrl, APathNeedNotExist) {
+  EXPECT_EQ(local_path("file:///none/of%20these", Code::output_error), "/none/of these");
+  for (const std::string& wrong : {std::string("http://a/b"), std::string("package://no_such_package/runs"), std::string("a\0b", 3)}) {
+    try {
+      ADD_FAILURE() << local_path(wrong, Code::resume_error);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), Code::resume_error) << error.what();
+    }
+  }
 }
 
 TEST(MeshUrl, FileUrlsAreAbsolute) {

@@ -80,6 +80,7 @@ class Features(SceneRun):
         self.assertAlmostEqual(summary['thinning']['max'] / thinning, 1, delta=0.05)
         self.assertAlmostEqual(summary['thinning']['max'], 1 - summary['thickness_m']['min'] / summary['thickness_m']['initial'], delta=1e-9)
         self.assertEqual(summary['thinning']['where']['body'], 'strip')
+        self.assertGreater(summary['thinning']['where']['position'][1], 0.5 * summary['thickness_m']['min'])  # on top
         self.assertAlmostEqual(float(self.history()[-1]['max_thinning']), summary['thinning']['at_end']['max'], delta=1e-9)
         with h5py.File(self.path('out/result.h5')) as result:
             last = result['frames'][sorted(result['frames'])[-1]]

@@ -28,10 +28,14 @@ TEST(CommandLine, ARun) {
   EXPECT_EQ(options.thread_count(), 3);
   EXPECT_TRUE(options.quiet);
   EXPECT_GE(read_options({"--output", "out", "a.yaml"}).thread_count(), 1);
+  const auto by_signs = read_options({"a.yaml", "--output=file:///runs/a=b", "--threads=2"});
+  EXPECT_EQ(by_signs.output, "/runs/a=b");
+  EXPECT_EQ(by_signs.threads, 2);
 }
 
 TEST(CommandLine, OtherTasks) {
-  EXPECT_EQ(read_options({"--help"}).task, Task::help);
+  for (const char* help : {"--help", "-h"}) EXPECT_EQ(read_options({help}).task, Task::help);
+  EXPECT_EQ(read_options({"--version"}).task, Task::version);
   EXPECT_EQ(read_options({"--schema"}).task, Task::schema);
   EXPECT_EQ(read_options({"--schema", "markdown"}).task, Task::schema_markdown);
   EXPECT_EQ(read_options({"--validate", "a.yaml"}).task, Task::validate);
@@ -48,6 +52,8 @@ TEST(CommandLine, WrongOnesAreRefused) {
   expect_refused({"a.yaml", "--output", "o", "--treads", "2"}, "did you mean --threads?");
   expect_refused({"a.yaml", "--output", "o", "-q"}, "-q does not exist");
   expect_refused({"a.yaml", "b.yaml", "--output", "o"}, "Two scenes");
+  expect_refused({"a.yaml", "--output", "ftp://host/o"}, "ftp:// is not known");
+  expect_refused({"a.yaml", "--output="}, "without its value");
   expect_refused({"a.yaml", "--output", "o", "--output", "p"}, "twice");
   for (const char* threads : {"0", "-1", "two", "2x", "99999999999"}) expect_refused({"a.yaml", "--output", "o", "--threads", threads}, "--threads");
   expect_refused({"--validate", "--estimate", "a.yaml"}, "one of");

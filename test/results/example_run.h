@@ -85,6 +85,7 @@ inline Frame example_frame(const ResultHeader& header, int index) {
   frame.tools.resize(2);
   frame.tools[0].position = Vec3(0, 0.01 * (index / 2), 0);  // it rests every other frame
   frame.tools[0].force = Vec3(0, 100 + index, 0);
+  frame.tools[0].moment = Vec3(0, 0, index - 3);
   frame.tools[0].present = index < 4;
   return frame;
 }

@@ -40,6 +40,7 @@ void expect_frame(const Frame& frame, const ResultHeader& header, int index) {
   ASSERT_EQ(frame.tools.size(), 2u);
   EXPECT_EQ(frame.tools[0].position, expected.tools[0].position);
   EXPECT_EQ(frame.tools[0].force, expected.tools[0].force);
+  EXPECT_EQ(frame.tools[0].moment, expected.tools[0].moment);
   EXPECT_EQ(frame.tools[0].present, expected.tools[0].present);
 }
 

@@ -306,7 +306,18 @@ TEST_F(Resume, OfAnotherSceneIsRefusedWithTheDifference) {
   EXPECT_EQ(outcome.code, Code::resume_error);
   EXPECT_NE(outcome.message.find("was written for another scene"), std::string::npos) << outcome.message;
   EXPECT_NE(outcome.message.find("0.25"), std::string::npos) << outcome.message;
+  EXPECT_NE(outcome.message.find("in tools"), std::string::npos) << outcome.message;
   EXPECT_EQ(read_json(directory.file("summary.json"))["status"]["message"], outcome.message);
+}
+
+TEST_F(Resume, ARunFromItsStartTakesAwayTheCheckpointOfAnother) {
+  const TemporaryDirectory directory;
+  std::filesystem::copy_file(whole_.file("checkpoint.h5"), directory.file("checkpoint.h5"));
+  Scene other = small_scene();
+  other.output.checkpoint_interval = 0;
+  const Outcome outcome = run_scene(other, directory.path(), 1, "", kNever);
+  EXPECT_EQ(outcome.code, Code::limit_reached) << outcome.message;
+  EXPECT_FALSE(std::filesystem::exists(directory.file("checkpoint.h5")));
 }
 
 TEST(RunScene, ThatIsInvalidIsRefusedWithAllFaultsInTheSummary) {

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """The topics of a run, recorded in a bag and kept in a result file, can be seen again."""
+import math
 import os
 import shutil
 import signal
@@ -124,6 +125,33 @@ class ReplayTest(unittest.TestCase):
         self.assertGreater(states[0].max_plastic_strain, 0)
         player.send_signal(signal.SIGINT)
         self.assertEqual(player.wait(10), 0)
+
+    def test_beside_a_server_it_asks_for_a_name_of_its_own(self):
+        play = [executable('forming_replay'), os.path.join(self.directory, 'result.h5'), '_duration:=1']
+        refused = subprocess.run(play + ['__name:=second', '_topics:=forming_server'], stderr=subprocess.PIPE, text=True, timeout=20)
+        self.assertEqual(refused.returncode, 1, refused.stderr)
+        self.assertIn('parameter /second/topics: given /forming_server; a node publishes there already', refused.stderr)
+        states, event = self.wait_for_last('/apart/status', lambda s: s.progress == 1)
+        player = subprocess.Popen(play + ['__name:=third', '_topics:=apart'])
+        self.addCleanup(player.kill)
+        self.assertTrue(event.wait(20))
+        # What the file does not tell is no number.
+        self.assertTrue(math.isnan(states[0].energies.kinetic) and math.isnan(states[0].dt_s) and math.isnan(states[0].tools[0].peak_force.y))
+        self.assertNotEqual(states[0].tools[0].force.y, 0)
+        self.assertFalse(math.isnan(states[0].tools[0].moment.z))
+        player.send_signal(signal.SIGINT)
+        self.assertEqual(player.wait(10), 0)
+
+    def test_launched_beside_a_server_it_leaves_it_alone(self):
+        launch = subprocess.run(['roslaunch', 'forming_sim', 'replay.launch', 'rviz:=false', 'file:=' + os.path.join(self.directory, 'result.h5')],
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=40)
+        self.assertIn('a node publishes there already', launch.stdout)
+        client = Client()
+        self.assertTrue(client.wait_for_server(rospy.Duration(20)))
+        goal = SimulateFormingGoal(scene=scenes.message(scenes.pressed_strip(1e-5)), output_directory=os.path.join(self.directory, 'after'))
+        client.send_goal(goal)
+        self.assertTrue(client.wait_for_result(rospy.Duration(30)))
+        self.assertEqual(client.get_result().code, ResultCode.SUCCESS)
 
     def test_a_file_that_is_none_is_told(self):
         path = os.path.join(self.directory, 'summary.json')

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 
 import actionlib
@@ -17,10 +18,12 @@ import numpy
 import rospy
 import yaml
 from actionlib_msgs.msg import GoalID, GoalStatus
-from forming_sim.msg import (ContactFields, PlasticStrainTopology, ResultCode, RunStatus, SimulateFormingAction,
+from forming_sim.msg import (ContactFields, PlasticStrain, PlasticStrainTopology, ResultCode, RunStatus, SimulateFormingAction,
                              SimulateFormingActionGoal, SimulateFormingActionResult, SimulateFormingFeedback,
                              SimulateFormingGoal, SimulateFormingResult)
 from forming_sim.srv import EstimateRun, ValidateScene
+from geometry_msgs.msg import WrenchStamped
+from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -220,7 +223,80 @@ class ServiceTest(unittest.TestCase):
         self.assert_rejected(scene, 'threads', threads=-1)
         self.assert_rejected(scene, 'threads', threads=2**31 - 1)
         self.assert_rejected(scene, 'resume', code=ResultCode.RESUME_ERROR, resume='/nowhere/checkpoint.h5')
+        self.assert_rejected(scene, 'resume', code=ResultCode.RESUME_ERROR, resume='http://nowhere/checkpoint.h5')
         self.assert_rejected(scene, 'output_directory', code=ResultCode.OUTPUT_ERROR, output_directory='/proc/nowhere')
+        self.assert_rejected(scene, 'output_directory', code=ResultCode.OUTPUT_ERROR, output_directory='ftp://nowhere/runs')
+        self.assert_rejected(scene, 'output_directory', code=ResultCode.OUTPUT_ERROR, output_directory=self.path('a\0b'))
+        self.assertEqual(os.listdir(self.directory), [])
+
+    def test_long_names_and_urls_of_directories(self):
+        scene = scenes.pulled_strip()
+        scene['name'] = 300 * 'n'
+        self.assertEqual(run(scene)[1].code, ResultCode.SUCCESS)
+        result = run(scenes.pulled_strip(), output_directory='file://' + self.path('two%20words'))[1]
+        self.assertEqual(result.directory, self.path('two words'))
+        self.assertTrue(os.path.exists(self.path('two words/result.h5')))
+
+    def test_what_belongs_together_has_one_stamp(self):
+        names = ('status', 'plastic_strain', 'contact', 'tool_forces/press')
+        kinds = (RunStatus, PlasticStrain, ContactFields, WrenchStamped)
+        run(scenes.pressed_strip())  # then the tool has its topic
+        stamps, wrenches, states, poses = {name: set() for name in names}, {}, {}, {}
+
+        def keep(message, name):
+            stamps[name].add(message.header.stamp)
+            if name == 'status':
+                states[message.header.stamp] = message
+            if name == 'tool_forces/press':
+                wrenches[message.header.stamp] = message
+        listeners = [rospy.Subscriber('/forming_server/' + name, kind, keep, name, queue_size=1000) for name, kind in zip(names, kinds)]
+        frames = rospy.Subscriber('/tf', TFMessage, lambda m: poses.update((t.header.stamp, t) for t in m.transforms), queue_size=1000)
+        for listener in listeners + [frames]:
+            self.addCleanup(listener.unregister)
+        while any(listener.get_num_connections() == 0 for listener in listeners + [frames]):
+            rospy.sleep(0.02)
+        followed = Followed(goal_of(scenes.pressed_strip()))
+        self.assertEqual(followed.result()[1].code, ResultCode.SUCCESS)
+        last = max(status.header.stamp for status in followed.feedback)
+        deadline = time.time() + 10
+        while time.time() < deadline and not (all(last in times for times in stamps.values()) and last in poses):
+            rospy.sleep(0.02)
+        for name in names:
+            self.assertIn(last, stamps[name], name)
+        tool, wrench, pose = states[last].tools[0], wrenches[last].wrench, poses[last]
+        self.assertEqual(pose.header.frame_id, 'forming_world')
+        self.assertEqual(pose.child_frame_id, 'forming_world/press')
+        self.assertEqual(pose.transform.translation.y, tool.pose.position.y)
+        # About the origin of the frame in which it is told.
+        self.assertNotEqual(tool.force.y, 0)
+        about_origin = tool.moment.z + tool.pose.position.x * tool.force.y - tool.pose.position.y * tool.force.x
+        self.assertAlmostEqual(wrench.torque.z, about_origin, delta=1e-9 * abs(tool.force.y))
+
+    def test_unknown_parameters_are_told(self):
+        rospy.set_param('/spelt/publish_rte', 5)
+        self.addCleanup(rospy.delete_param, '/spelt')
+        server = subprocess.Popen([executable('forming_server'), '__name:=spelt'], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.addCleanup(server.kill)
+        told = ''
+        while 'publish_rte' not in told:
+            line = server.stdout.readline()
+            self.assertTrue(line, told)
+            told += line
+        self.assertIn('did you mean publish_rate?', told)
+        server.terminate()
+        server.communicate(timeout=20)
+
+    def test_client_finds_the_server_of_its_namespace(self):
+        environment = dict(os.environ, ROS_NAMESPACE='cell')
+        server = subprocess.Popen([executable('forming_server'), '_output_root:=' + self.path('root')], env=environment)
+        self.addCleanup(server.kill)
+        with open(self.path('scene.yaml'), 'w') as file:
+            yaml.safe_dump(scenes.pulled_strip(), file)
+        client = subprocess.run([executable('forming_client'), self.path('scene.yaml'), '--output=' + self.path('there')], env=environment, stderr=subprocess.PIPE, text=True, timeout=60)
+        self.assertEqual(client.returncode, 0, client.stderr)
+        self.assertTrue(os.path.exists(self.path('there/result.h5')))
+        server.terminate()
+        server.wait(20)
 
     def test_client_tells_all_faults_and_fails(self):
         scene = scenes.pulled_strip()

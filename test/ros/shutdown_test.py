@@ -63,6 +63,9 @@ class ShutdownTest(unittest.TestCase):
     def test_terminate(self):
         self.stop_cleanly('terminated', lambda server: server.send_signal(signal.SIGTERM))
 
+    def test_hang_up(self):
+        self.stop_cleanly('hung_up', lambda server: server.send_signal(signal.SIGHUP))
+
     def test_rosnode_kill(self):
         self.stop_cleanly('killed_by_name', lambda server: subprocess.check_call(['rosnode', 'kill', '/killed_by_name']))
 

@@ -204,6 +204,7 @@ TEST(SceneRules, ToolsHaveTopicsOfTheirOwn) {
   expect_fault(tools("press.a", "press-a"), "tools[1].name", "tool_forces/press_a");
   expect_fault(tools("1a", "tool_1a"), "tools[1].name", "tool_forces/tool_1a");
   EXPECT_TRUE(faults_of(tools("press.a", "press-b")).empty());
+  expect_fault(tools("press", "strip"), "tools[1].name", "bodies[0] has this one");
 }
 
 TEST(SceneRules, Stages) {

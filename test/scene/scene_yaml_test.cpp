@@ -94,6 +94,23 @@ TEST(SceneYaml, SyntaxErrorNamesItsLine) {
   expect_fault("", "scene", "0 YAML documents");
   expect_fault(minimal_example() + "---\nname: b\n", "scene", "2 YAML documents");
   expect_fault("just words", "scene", "give its fields");
+  expect_fault("name: a\nbodies:\n\t- name: b\n", "scene", "line 3 has a tab");
+  expect_fault(std::string("name: a\nbodies: \"\0", 18), "scene", "line 2 has a NUL");
+}
+
+TEST(SceneYaml, WhatIsSaidTwiceCanBeSaidOnce) {
+  const std::string text = minimal_example();
+  const std::size_t from = text.find("    material:"), to = text.find("    boundaries:");
+  const std::string members = text.substr(text.find('\n', from) + 1, to - text.find('\n', from) - 1);
+  const auto with = [&](const std::string& material) { return "x-alloy: &alloy\n" + members + text.substr(0, from) + "    material: " + material + text.substr(to); };
+  EXPECT_TRUE(same(scene_of(with("*alloy\n")), scene_of(text)));
+  EXPECT_TRUE(same(scene_of(with("{<<: *alloy}\n")), scene_of(text)));
+  Scene denser = scene_of(text);
+  denser.bodies[0].material.density = 8000;
+  EXPECT_TRUE(same(scene_of(with("{density: 8000, <<: [*alloy]}\n")), denser));
+  expect_fault(with("{<<: *alloy, <<: 3}\n"), "bodies[0].material.<<", "give the alias");
+  expect_fault("x-odd: &odd {densty: 1}\n" + replaced(text, "density: 2710", "density: 2710\n      <<: *odd"), "bodies[0].material.densty", "did you mean density?");
+  expect_fault(replaced(text, "density: 2710", "density: 2710\n      x-free: 1"), "bodies[0].material.x-free", "the keys here are");
 }
 
 TEST(SceneYaml, WrongTypes) {
@@ -103,6 +120,7 @@ TEST(SceneYaml, WrongTypes) {
   expect_fault(replaced(minimal_example(), "name: strip\n", "name:\n"), "bodies[0].name", "given nothing");
   expect_fault(replaced(minimal_example(), "axes: [x]", "axes: x"), "bodies[0].boundaries[0].axes", "give a list");
   expect_fault(replaced(minimal_example(), "normal: [0, 1]", "normal: [0, 1, 0, 0]"), "bodies[0].boundaries[2].normal", "[x, y, z]");
+  expect_fault(replaced(minimal_example(), "normal: [0, 1]", "normal: [0, 0]"), "bodies[0].boundaries[2].normal", "a list of 2 zeros");
   expect_fault(replaced(minimal_example(), "normal: [0, 1]", "normal: [0, up]"), "bodies[0].boundaries[2].normal[1]", "'up'");
   expect_fault(replaced(minimal_example(), "times: [0, 1e-4]", "times: [0, soon]"), "bodies[0].boundaries[1].times[1]", "'soon'");
   expect_fault(replaced(minimal_example(), "hardening: {curve: linear, yield_stress: 150e6, modulus: 500e6}", "hardening: voce"),

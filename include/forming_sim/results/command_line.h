@@ -6,7 +6,7 @@
 namespace forming_sim {
 
 struct OfflineOptions {
-  enum class Task { help, schema, schema_markdown, validate, estimate, plan, run };
+  enum class Task { help, version, schema, schema_markdown, validate, estimate, plan, run };
   Task task = Task::run;
   std::string scene;   ///< path of the YAML file
   std::string output;  ///< directory
@@ -22,6 +22,9 @@ struct OfflineOptions {
 /// Throws Error(invalid_scene) with a sentence for an unknown or repeated option, a
 /// value that is missing or cannot be one, and for options that do not go together.
 OfflineOptions read_options(const std::vector<std::string>& arguments);
+
+/// --option=value as two words, as most programs take it.
+std::vector<std::string> separated(const std::vector<std::string>& arguments);
 
 /// What `--help` prints.
 std::string offline_usage();

@@ -40,6 +40,7 @@ struct FrameTool {
   Vec3 position = Vec3::Zero();        ///< m
   Mat3 rotation = Mat3::Identity();
   Vec3 force = Vec3::Zero();           ///< on the tool; N (N/m in plane strain)
+  Vec3 moment = Vec3::Zero();          ///< about `position`, N m (N in plane strain)
   bool present = true;                 ///< false once withdrawn
 };
 

@@ -31,6 +31,7 @@ class Gauge {
   std::vector<Probe> probes_;
   std::vector<int> asked_;  ///< elements of the probes, one probe's after the other's
   Thickness sheets_;
+  std::vector<int> top_;  ///< nodes of the sheets
   Measures measures_;
   long step_ = -1;
 };

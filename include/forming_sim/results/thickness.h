@@ -15,6 +15,8 @@ class Thickness {
   Thickness() = default;
   explicit Thickness(const Model& model);
   bool any() const { return !sheets_.empty(); }
+  /// Nodes of `top` of all sheets.
+  std::vector<int> top() const;
 
   /// Per node of the model, m: that of a node of `top`, and below it that of the nearest node of `top` at the start.
   /// NaN on bodies that are no sheets, or are lost to numbers that are not finite. Positions in the joined numbering.

@@ -6,7 +6,7 @@ namespace forming_sim {
 
 struct ClientRequest {
   std::string scene_file;
-  std::string server = "/forming_server";
+  std::string server = "forming_server";  ///< in the namespace of the client, or with / from the root
   std::string output_directory;  ///< empty: the server chooses
   std::string resume;            ///< checkpoint file; empty: from the start
   int threads = 0;               ///< 0: the server's

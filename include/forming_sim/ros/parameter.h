@@ -3,6 +3,7 @@
 #include <sstream>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include <ros/ros.h>
 
@@ -26,5 +27,8 @@ template <class T> void read_parameter(const ros::NodeHandle& node, const std::s
   given.write(text);
   refuse_parameter(node, name, text.str(), "give " + kind);
 }
+
+/// Warns of parameters of the node that it does not know: a misspelt one would do nothing.
+void warn_of_unknown_parameters(const ros::NodeHandle& node, std::vector<std::string> known);
 
 }  // namespace forming_sim

@@ -28,8 +28,8 @@ Prepared prepare(const SceneSpec& message, const std::string& scene_text, int th
 /// Throws Error(output_error).
 std::string make_output_directory(const std::string& given, const std::string& output_root, const std::string& scene);
 
-/// Adds a fault where the run that is prepared cannot go on from this checkpoint file.
-void check_resume(const std::string& file, Prepared& prepared);
+/// Path of the checkpoint file that a goal names, empty where it names none; adds a fault where the run that is prepared cannot go on from it.
+std::string check_resume(const std::string& given, Prepared& prepared);
 
 /// True for a file that can be opened for reading.
 bool is_readable_file(const std::string& path);

@@ -1,11 +1,13 @@
 #pragma once
 // The topics of a run: deformed_mesh, plastic_strain with its topology, contact,
-// tool_forces/<name>, status. Used by the server and by the replay of a result.
+// tool_forces/<name>, status; and the frames of the tools, <frame>/<name>, on /tf. Used by the server and by the replay of a result.
 #include <chrono>
 #include <functional>
 #include <vector>
 
 #include <ros/ros.h>
+#include <std_msgs/Header.h>
+#include <tf2_ros/transform_broadcaster.h>
 
 #include "forming_sim/RunStatus.h"
 #include "forming_sim/ros/markers.h"
@@ -19,6 +21,7 @@ struct PublishOptions {
   /// Parameters publish_rate, triangle_budget, colour_by, colour_max, frame.
   /// Throws Error(invalid_scene) naming a parameter out of range.
   static PublishOptions read(const ros::NodeHandle& node);
+  static const std::vector<std::string>& parameters();
 };
 
 class RunPublisher {
@@ -36,19 +39,25 @@ class RunPublisher {
   /// Sends what somebody listens to; `always`: also to the latched topics that
   /// nobody listens to yet.
   /// Messages are built only here; nothing waits for a subscriber.
-  void publish(const RunFrame& frame, RunStatus status, bool always);
+  /// status: its stamp is that of all of them, so that what belongs together can be found.
+  void publish(const RunFrame& frame, const RunStatus& status, bool always);
   /// Sends a status alone (latched).
-  void publish(RunStatus status);
+  void publish(const RunStatus& status);
+  /// With the time now and the frame of the runs.
+  std_msgs::Header header() const;
 
  private:
-  void publish_strain(const RunFrame& frame, const ros::Time& stamp);
+  void publish_strain(const RunFrame& frame, const ros::Time& stamp, bool always);
   void publish_contact(const RunFrame& frame, const ros::Time& stamp, bool always);
+  void publish_poses(const RunFrame& frame, const ros::Time& stamp);
   void publish_forces(const RunFrame& frame, const ros::Time& stamp, bool always);
 
   ros::NodeHandle node_;
   PublishOptions options_;
   ros::Publisher mesh_, strain_, topology_, contact_, status_;
+  std::vector<std::string> tools_;  ///< as in topics and frames
   std::vector<ros::Publisher> forces_;
+  tf2_ros::TransformBroadcaster poses_;
   RunMarkers markers_;
   std::vector<int> surface_nodes_;
   std::chrono::steady_clock::time_point next_{};
