@@ -295,7 +295,7 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
   if (refused.empty()) return;
   std::ostringstream text;
   text << refused.size() << " pairs of tools and bodies overlap at the start by more than " << 2 * layer
-       << " m: move the tool's position, or the body, so that they at most touch.";
+       << " m: move the tool's position, or where its motion begins, or the body, so that they at most touch.";
   for (size_t i = 0; i < std::min<size_t>(refused.size(), 10); ++i) text << "\n  " << refused[i];
   if (refused.size() > 10) text << "\n  ...";
   throw Error(Code::initial_penetration, text.str());

@@ -240,8 +240,13 @@ template <class Cell>
   refer_to_apex<Cell>(x);
   Vector<Pack, D> drawn_x[kDrawn<Cell>];
   const bool drawn = Cell::drawn && !g.edge_omega2;
+  Pack middle_w[4], lambda(0.0);
   if constexpr (Cell::drawn)
-    if (drawn) draw<Cell>(constants, x, drawn_x);
+    if (drawn) {
+      draw<Cell>(constants, x, drawn_x);
+      for (int b = 0; b < 4; ++b) lambda -= weight(constants, kCrossedApex + b);
+      for (int b = 0; b < 4; ++b) middle_w[b] = weight(constants, kCrossedApex + b) / larger(lambda, Pack(1e-9));  // with beta = 0 there are none
+    }
   CellBound<Cell> bound(g, inertia);
   for (int s = 0; s < Cell::simplices; ++s) {
     CellEdges<Cell> e;
@@ -260,10 +265,12 @@ template <class Cell>
       if (drawn) {
         law_edges<Cell>(constants, x, drawn_x, s, e.x);
         find_reciprocal(e);
-        bound.add_law(e, memory, initial_volume(g, memory), Cell::table[s]);
+        bound.add_law(e, memory, initial_volume(g, memory), lambda * (Pack(1.0) - weight(constants, kCrossedFreed + s)), Cell::table[s]);
       }
     }
   }
+  if constexpr (Cell::drawn)
+    if (drawn) bound.add_middle(middle_w);
   Pack rate(0.0);
   if (g.quadratic_viscosity > 0) {
     Vector<Pack, D> v[Cell::nodes];

@@ -86,12 +86,15 @@ const Measures& Gauge::at(const Simulation& simulation) {
 
 double springback_angle_deg(const SpringbackConfig& config, int dimension, const std::vector<Probe>& probes,
                             const std::vector<ProbeValue>& values) {
-  const auto find = [&](const std::string& name) {
+  const auto find = [&](const std::string& name) -> std::size_t {
     return std::find_if(probes.begin(), probes.end(), [&](const Probe& p) { return p.name == name; }) - probes.begin();
   };
-  const std::size_t from = find(config.from), to = find(config.to);
-  if (from >= values.size() || to >= values.size() || values[from].position == values[to].position) return std::numeric_limits<double>::quiet_NaN();
-  return line_angle_deg(dimension, values[from].position, values[to].position);
+  const auto angle = [&](std::size_t from, std::size_t to) {
+    if (from >= values.size() || to >= values.size() || values[from].position == values[to].position) return std::numeric_limits<double>::quiet_NaN();
+    return line_angle_deg(dimension, values[from].position, values[to].position);
+  };
+  const double of_line = angle(find(config.from), find(config.to));
+  return config.has_reference() ? angle_change_deg(angle(find(config.reference_from), find(config.reference_to)), of_line) : of_line;
 }
 
 }  // namespace forming_sim

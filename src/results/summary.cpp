@@ -165,11 +165,13 @@ Json springback(const Simulation& simulation, const Scene& scene, const RunRecor
   const double released = ended ? springback_angle_deg(config, simulation.model().dimension, gauge.probes(),
                                                        gauge.at(simulation).probes)
                                 : NAN;
+  Json probes{{"from", config.from}, {"to", config.to}};
+  if (config.has_reference()) probes.update({{"reference_from", config.reference_from}, {"reference_to", config.reference_to}});
   const Energies& e = simulation.energies();
   return {{"angle_deg_formed", number(formed)},
           {"angle_deg_released", number(released)},
           {"change_deg", number(std::isfinite(formed) && std::isfinite(released) ? angle_change_deg(formed, released) : NAN)},
-          {"probe", {{"from", config.from}, {"to", config.to}}},
+          {"probe", probes},
           {"kinetic_over_internal", number(ended ? ratio(e.kinetic, e.elastic + e.plastic) : NAN)}};
 }
 

@@ -121,7 +121,7 @@ bool make_body(const Scene& scene, std::size_t i, const std::vector<Fault>& know
   if (!made) return false;
   if (mesh.dimension != scene.dimension && (scene.dimension == 2 || scene.dimension == 3)) {
     faults.push_back({Code::invalid_scene, source, origin_of(body.mesh, "this blank") + ", whose cells have dimension " + std::to_string(mesh.dimension),
-                      scene.dimension == 2 ? "give a mesh of triangles or quadrilaterals, or set dimension to 3" : "give a mesh of tetrahedra or hexahedra, or set dimension to 2"});
+                      scene.dimension == 2 ? "give a mesh of triangles or quadrilaterals, or set dimension to 3" : "give a mesh of tetrahedra or hexahedra (bodies are solids: a surface is to be extruded through the thickness), or set dimension to 2"});
     return false;
   }
   return true;

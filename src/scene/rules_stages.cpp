@@ -83,11 +83,16 @@ void check_output(const Scene& scene, FaultList& faults) {
     if (name.empty() || holds(probes, name)) return;
     faults.add("output.springback." + field, given_text(name), probes.empty() ? "declare the probe under output.probes" : "the probes are " + one_of(probes, ", ") + did_you_mean(name, probes));
   };
-  check_end(output.springback->from, "from");
-  check_end(output.springback->to, "to");
-  if (!output.springback->from.empty() && output.springback->from == output.springback->to) {
-    faults.add("output.springback.to", given_text(output.springback->to), "give another probe than from: a line needs two points");
-  }
+  const auto check_line = [&](const std::string& from, const std::string& to, const std::string& before) {
+    check_end(from, before + "from");
+    check_end(to, before + "to");
+    if (!from.empty() && from == to) faults.add("output.springback." + before + "to", given_text(to), "give another probe than " + before + "from: a line needs two points");
+  };
+  const SpringbackConfig& springback = *output.springback;
+  check_line(springback.from, springback.to, "");
+  check_line(springback.reference_from, springback.reference_to, "reference_");
+  if (springback.reference_from.empty() != springback.reference_to.empty())
+    faults.add(springback.reference_from.empty() ? "output.springback.reference_from" : "output.springback.reference_to", "nothing", "give both reference_from and reference_to, or neither: a line needs two points");
 }
 
 }  // namespace forming_sim

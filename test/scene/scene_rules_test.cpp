@@ -223,6 +223,9 @@ TEST(SceneRules, Stages) {
 
 TEST(SceneRules, Output) {
   expect_flange_fault("to: leg_far", "to: leg_near", "output.springback.to", "another probe");
+  expect_flange_fault("to: leg_far", "to: leg_far, reference_from: leg_near", "output.springback.reference_to", "give both");
+  expect_flange_fault("to: leg_far", "to: leg_far, reference_from: leg_near, reference_to: leg_near", "output.springback.reference_to", "another probe");
+  expect_flange_fault("to: leg_far", "to: leg_far, reference_from: leg_near, reference_to: leg_fur", "output.springback.reference_to", "did you mean leg_far?");
   expect_flange_fault("to: leg_far", "to: leg_fur", "output.springback.to", "did you mean leg_far?");
   expect_flange_fault("frames: 100", "interval: 1e-15", "output.interval", "at most 100000 outputs");
 }

@@ -88,6 +88,28 @@ TEST_P(EveryFamily, AfterPlasticFlow) {
   });
 }
 
+// What a cell keeps of its initial shape stays when it has flowed into another one: long cells become square, and long the other way.
+TEST_P(EveryFamily, FarFromTheInitialShape) {
+  const int D = dimension();
+  for (double ratio : {4., .25}) {
+    Mesh long_cells = mesh();
+    for (Vec3& X : long_cells.nodes) X.x() *= ratio;
+    const BodyModel b = body_of(std::move(long_cells), aluminium(true), GetParam().average);
+    NodeField x = positions_of(b.mesh), f(x.size());
+    const NodeField rest(x.size(), Node::Zero());
+    shake(x, D, .01, 3);
+    Elements elements({b}, D, x, with_shares(), 1);
+    constexpr int kSteps = 60;
+    const double a = std::pow(ratio, -1. / kSteps);  // of a step
+    for (int step = 1; step <= 2 * kSteps; ++step) {
+      for (Node& n : x) n[0] *= std::sqrt(a), n[1] /= std::sqrt(a);
+      elements.forces(x, rest, 0, 0, f);
+      if (step % kSteps == 0) expect_right(limits_of(elements, x, D, step), "cells of " + std::to_string(ratio) + " flowed to " + std::to_string(ratio * std::pow(a, step)));
+    }
+    EXPECT_GT(elements.plastic_work(), 0);
+  }
+}
+
 TEST_P(EveryFamily, StretchedRubber) {
   check(rubber(500e6), 0.02, "rubber", [](Elements&, NodeField& x) {
     for (Node& n : x) n[0] *= 1.6, n[1] /= 1.6, n[0] += 0.3 * n[1];

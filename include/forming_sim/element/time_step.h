@@ -15,7 +15,11 @@
 //   With a share theta of the element's own pressure, and with a guard (element/guard.h), the two add up. With p per element it is the element's own; with p per node the element's
 //   own bounds it (the squares of means do not exceed the means of squares), with what its guard adds (element/guard.h).
 // * Crossed triangles whose law sees drawn strains (element/crossed.h): the larger of the deviatoric parts of the triangles and of those that
-//   the law sees. For one strain a body the first is enough: sum_s V_s F~_s^2 <= sum_s V_s F_s^2.
+//   the law sees, and what the middle node has more than in the former. With dF = sum_s V_s dF_s/V, dF_s = dF + q (x) a_s + z (x) g_s,
+//     sum_s V_s |dF~_s|^2 = V |dF|^2 + sum_s V_s |lambda q (x) a_s + lambda (1 - beta_s) z (x) g_s|^2,
+//   q of the corners, z of the middle: at most sum_s V_s |dF_s|^2 unless S = sum_s V_s (lambda^2 (1 - beta_s)^2 - 1) g_s g_s^T is positive
+//   somewhere. It is not in the initial shape, and is where a long cell has become short, whose beta_s are those of the long one. There z has, more than without them,
+//     mu (tr S + max eigenvalue of S/3) (1/m_z + sum_b w_b^2/m_b),   |dev sym z (x) g|^2 = (|z|^2 |g|^2 + (z.g)^2/3)/2.
 // * Where the law is at the edges (element/edge_points.h), the deviatoric part of a simplex is the mean over
 //   its edges of theirs: K = sum_e K_e, K_e <= omega_e^2 M_e, M_e = sum_s M_s/k over the simplices around e.
 //   omega_e^2 = mu/rho max(...) with S = sum_a g_a g_a^T V_e rho/m_ea; of a ring with M of element/ring_step.h.
@@ -79,6 +83,7 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
   /// node's own, 0 where it is held; null elsewhere.
   StepBound(const CellGroup& g, const Vector<T, D>* inertia)
       : g_(g), inertia_(inertia), deviatoric_(0.0), element_(0.0), V_(0.0), V0_(0.0), extent_(0.0) {
+    for (int i = 0; i < Symmetric<T, D>::size; ++i) more_[i] = T(0.0);
     for (int a = 0; a < Nodes; ++a) {
       mass_[a] = T(0.0);
       for (int i = 0; i < D; ++i) gradient_[a][i] = T(0.0);
@@ -90,7 +95,7 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
   void add(const Edges<T, D, Ring>& e, const double* memory, const T* at_edges, const T& V0, const T& free, const Corners& corner) {
     const Shapes shapes = shapes_of(e, corner);
     const T J = e.volume / V0;
-    const T omega2 = at_edges ? *at_edges : deviatoric(e, J, memory, shapes);
+    const T omega2 = at_edges ? *at_edges : deviatoric(point_tangent(g_.solid, e, J, memory), shapes);
     const T volumetric = T((D + 1) * g_.solid.K / g_.density) * J * J * shapes.volumetric;
     const T guard = T(g_.guard) * guard_slope(J, free);  // over K
     deviatoric_ = larger(deviatoric_, omega2);
@@ -106,9 +111,23 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
     }
   }
 
-  /// Where the law sees other edges than the volume (element/crossed.h): the deviatoric part of those.
-  template <class Corners> void add_law(const Edges<T, D, Ring>& e, const double* memory, const T& V0, const Corners& corner) {
-    deviatoric_ = larger(deviatoric_, deviatoric(e, e.volume / V0, memory, shapes_of(e, corner)));
+  /// Where the law sees other edges than the volume (element/crossed.h): the deviatoric part of those. middle: lambda (1 - beta_s).
+  template <class Corners> void add_law(const Edges<T, D, Ring>& e, const double* memory, const T& V0, const T& middle, const Corners& corner) {
+    const T tangent = point_tangent(g_.solid, e, e.volume / V0, memory);
+    deviatoric_ = larger(deviatoric_, deviatoric(tangent, shapes_of(e, corner)));
+    law_tangent_ = larger(law_tangent_, tangent);
+    Vector<T, D> g = e.up[0];
+    for (int m = 1; m < D; ++m) g += e.up[m];
+    add_product(more_, V0 * (middle * middle - T(1)), g, g);
+  }
+  /// After the last of them: what the middle node, whose way is z = x_m - sum_b w_b x_b, has more. w: of the other nodes.
+  void add_middle(const T* w) {
+    static_assert(D == 2);
+    T inverse_mass = inverse_mass_of(Nodes - 1);
+    for (int b = 0; b < Nodes - 1; ++b) inverse_mass += w[b] * w[b] * inverse_mass_of(b);
+    const T half = T(0.5) * (more_[0] + more_[1]), apart = T(0.5) * (more_[0] - more_[1]);
+    const T largest = half + sqrt(apart * apart + more_[3] * more_[3]);
+    middle_ = T(g_.solid.mu) * law_tangent_ * larger(T(2) * half + T(1.0 / 3) * largest, T(0.0)) * inverse_mass;
   }
 
   /// rate: |dV/dt|/V, for the quadratic viscosity.
@@ -124,7 +143,7 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
     const T cell_volumetric = T(g_.solid.K) / (g_.solid.law == Law::classical ? V_ : V0_) * sum;
     const bool per_cell = g_.pressure == PressureMode::cell;
     const T omega2 = per_cell ? deviatoric_ + T(1 - g_.element_share) * cell_volumetric + own_ : element_;
-    return {omega2, viscous_damping<T, D>(g_, sum, V_, extent_, rate)};
+    return {omega2 + middle_, viscous_damping<T, D>(g_, sum, V_, extent_, rate)};
   }
 
  private:
@@ -155,8 +174,10 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
     }
     return s;
   }
-  T deviatoric(const Edges<T, D, Ring>& e, const T& J, const double* memory, const Shapes& shapes) const {
-    return T((D + 1) / g_.density * g_.solid.mu) * point_tangent(g_.solid, e, J, memory) * shapes.deviatoric;
+  T deviatoric(const T& tangent, const Shapes& shapes) const { return T((D + 1) / g_.density * g_.solid.mu) * tangent * shapes.deviatoric; }
+  T inverse_mass_of(int a) const {
+    if constexpr (Ring) return inertia_[a][1] / mass_[a];
+    else return T(1) / mass_[a];
   }
   static T deviatoric_bound(const Vector<T, D>* g, T& I1) {
     Symmetric<T, D> S;
@@ -166,7 +187,8 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
   }
   const CellGroup& g_;
   const Vector<T, D>* inertia_;
-  T deviatoric_, element_, own_{0.0}, V_, V0_, extent_;
+  T deviatoric_, element_, own_{0.0}, V_, V0_, extent_, law_tangent_{0.0}, middle_{0.0};
+  Symmetric<T, D> more_;  ///< S of the middle node
   Vector<T, D> gradient_[Nodes];
   T mass_[Nodes];
 };

@@ -26,11 +26,14 @@ struct ProbeConfig {
 
 /// Angle of the line through two probes, formed and released.
 struct SpringbackConfig {
-  std::string from, to;
+  std::string from, to, reference_from, reference_to;
+  bool has_reference() const { return !reference_from.empty() && !reference_to.empty(); }
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(from), Field().required().doc("probe at which the line starts"));
     visit(FORMING_SIM_FIELD(to), Field().required().doc("probe through which it goes; the angle is that of the line in the x-y plane (dimension 2) or in the x-z plane (3D)"));
+    visit(FORMING_SIM_FIELD(reference_from), Field().computed("the x axis").doc("probe at which a second line starts, against which the angle counts: one on another leg of the part, which may turn as a whole"));
+    visit(FORMING_SIM_FIELD(reference_to), Field().computed("the x axis").doc("probe through which the second line goes"));
   }
 };
 
