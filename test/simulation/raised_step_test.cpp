@@ -28,7 +28,7 @@ TEST(RaisedStep, IsTakenAndCostsTheMassThatItSays) {
   OneBody without(body_of(generate_blank(strip_of(60e-3, 2e-3, 60, 2)), aluminium()), 1e-4);
   without.plan.time_step.limit = "element";
   const double even = without.start()->dt();
-  run.plan.time_step.raise_to = 0.7 * even;
+  run.plan.time_step.raise_to = 0.68 * even;
   ASSERT_GT(run.plan.time_step.raise_to, 2 * plain->dt());
   auto raised = run.start();
   EXPECT_GE(raised->dt(), run.plan.time_step.raise_to * (1 - 1e-12));
