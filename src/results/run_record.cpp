@@ -68,6 +68,7 @@ std::string RunRecord::to_json() const {
             {"thickness_min", of(thickness_min)},
             {"surface_strain", of(surface_strain)},
             {"thinning", of(thinning)},
+            {"pressed", of(pressed)},
             {"surface_strain_formed", surface_strain_formed ? of(*surface_strain_formed) : json(nullptr)},
             {"angle_formed_deg", of(angle_formed_deg)},
             {"kinetic_over_internal_formed", of(kinetic_over_internal_formed)},
@@ -93,6 +94,7 @@ RunRecord RunRecord::from_json(const std::string& text) {
     record.thickness_min = number(j.at("thickness_min"));
     record.surface_strain = peak(j.at("surface_strain"));
     record.thinning = peak(j.at("thinning"));
+    record.pressed = peak(j.at("pressed"));
     if (!j.at("surface_strain_formed").is_null()) record.surface_strain_formed = peak(j.at("surface_strain_formed"));
     record.angle_formed_deg = number(j.at("angle_formed_deg"));
     record.kinetic_over_internal_formed = number(j.at("kinetic_over_internal_formed"));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <nlohmann/json.hpp>
 
 #include "forming_sim/config/words.h"
@@ -144,6 +145,26 @@ void tell_flat_layers(const ContactStatus& contact, std::vector<std::string>& wa
   warnings.push_back("contact layers were pressed to " + three_digits(contact.min_gap_over_layer) + " of their thickness h0, " + three_digits(contact.layer) + " m, by pressures far above their stiffness: a body that is shut in is too soft by that much room; give contact.stiffness its bulk modulus, or a smaller contact.layer");
 }
 
+/// Metals that are pressed as forming never does: what cannot flow out and is pushed on, or corners of tools that hold a node of it.
+void tell_jams(const Simulation& simulation, const Peak& pressed, std::vector<std::string>& warnings) {
+  constexpr double kMuch = 0.1;  // of the bulk modulus: 16 GPa in steel
+  if (!(pressed.value > kMuch)) return;
+  const std::vector<BodyModel>& bodies = simulation.model().bodies;
+  const auto body = std::find_if(bodies.begin(), bodies.end(), [&](const BodyModel& b) { return pressed.element < b.first_element + b.element_count; });
+  std::ostringstream text;
+  text.precision(3);
+  text << "at " << pressed.time << " s body " << body->name << " was pressed by " << pressed.value * body->material.K() << " Pa, " << 100 * pressed.value << " % of its bulk modulus, in element "
+       << pressed.element << " at (" << pressed.position.transpose() << ") m: metal that is formed is not, that of a fast impact may be. Look whether it has room to flow to, and whether a concave corner of a tool holds one of its nodes: give such corners a radius, or finer cells there";
+  warnings.push_back(text.str());
+}
+
+/// Does a tool or a boundary let go of the bodies?
+bool anything_leaves(const RunPlan& plan) {
+  const auto ends = [](const BoundaryConfig& boundary) { return !boundary.until.empty(); };
+  return std::any_of(plan.stages.begin(), plan.stages.end(), [](const StageConfig& stage) { return stage.kind == "withdraw"; }) ||
+         std::any_of(plan.bodies.begin(), plan.bodies.end(), [&](const auto& body) { return std::any_of(body.boundaries.begin(), body.boundaries.end(), ends); });
+}
+
 /// Bodies that went on flowing when forming was over: they may not have sprung back as they would, let go slowly.
 void tell_late_flow(const Simulation& simulation, const RunRecord& record, std::vector<std::string>& warnings) {
   constexpr double kMuch = 0.05;  // of the energy that they could spring back by
@@ -153,7 +174,9 @@ void tell_late_flow(const Simulation& simulation, const RunRecord& record, std::
   const double flow = simulation.energies().plastic - formed->plastic;
   if (!(flow > kMuch * formed->elastic)) return;
   warnings.push_back("after the stage " + formed->name + " the plastic work grew by " + three_digits(flow) + (simulation.model().per_width() ? " J/m, " : " J, ") + three_digits(100 * flow / formed->elastic) +
-                     " % of the elastic energy that the bodies then had: tools that leave dragged on them, or they flowed as they sprang back. Let a longer stages[].duration or stages[].release_time show whether springback depends on how they are let go");
+                     " % of the elastic energy that the bodies then had: " +
+                     (anything_leaves(simulation.plan()) ? "tools that leave dragged on them, or they flowed as they sprang back. Let a longer stages[].duration or stages[].release_time show whether springback depends on how they are let go"
+                                                                          : "they still flowed under what loads them when the stage ended. A longer stages[].duration of forming lets them come to rest"));
 }
 
 /// The released angle is that of a run that came to its end.
@@ -250,6 +273,7 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
   j["springback"] = springback(simulation, scene, record, gauge, code);
   j["stages"] = stages(record);
   std::vector<std::string> warnings = simulation.warnings();
+  tell_jams(simulation, record.pressed, warnings);
   if (came_to_its_end(code)) {
     tell_idle_tools(simulation, warnings);
     tell_unfinished_motions(simulation, warnings);

@@ -215,8 +215,6 @@ void note_polygonal_bar(const BodyConfig& config, const Mesh& mesh, Model& model
 }
 
 void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
-  if (const std::size_t held = model.axisymmetric ? axis_nodes(mesh).size() : 0; held > 0)
-    model.notes.push_back(std::to_string(held) + " nodes of body " + config.name + " lie on the axis of symmetry and stay on it");
   if (const int parts = config.self_contact ? 1 : count_parts(mesh); parts > 1)
     model.notes.push_back("body " + config.name + " consists of " + std::to_string(parts) +
                           " parts that share no node, and they pass through each other: set its self_contact to true, or give them as bodies of their own");

@@ -11,6 +11,7 @@
 #include "forming_sim/results/directory_lock.h"
 #include "forming_sim/results/run_scene.h"
 #include "forming_sim/results/start.h"
+#include "forming_sim/config/words.h"
 #include "results/small_scene.h"
 
 namespace forming_sim {
@@ -108,6 +109,37 @@ TEST(RunScene, TellsToolsThatTouchedNothing) {
       EXPECT_NE(warning.get<std::string>().find("tool idle "), std::string::npos) << warning;
     }
   EXPECT_EQ(told, 1);
+}
+
+/// Warnings that hold the words, of a strip shut in between symmetries whose top goes down by this part of its height.
+long told_of_a_press(double part, const std::string& words) {
+  const std::string text = R"(
+name: press
+dimension: 2
+bodies:
+  - name: strip
+    blank: {shape: strip, length: 0.001, thickness: 0.001, cells_along: 2, cells_through: 2}
+    material: {density: 2700, youngs_modulus: 70e9, poissons_ratio: 0.3, hardening: {curve: perfect, yield_stress: 50e6}}
+    boundaries:
+      - {set: left, kind: symmetric, normal: [1, 0]}
+      - {set: right, kind: symmetric, normal: [1, 0]}
+      - {set: bottom, kind: symmetric, normal: [0, 1]}
+      - {set: top, kind: velocity, axes: [y], times: [0, 2e-5], velocities: [[0, )" + number_text(-part * 50) + "], [0, " + number_text(-part * 50) + R"(]]}
+stages:
+  - {name: press, kind: form, duration: 2e-5}
+)";
+  const TemporaryDirectory directory;
+  std::vector<Fault> faults;
+  const Scene scene = read_scene(text, ".", faults);
+  EXPECT_TRUE(faults.empty());
+  run_scene(scene, directory.path(), 1, "", kNever);
+  const json summary = read_json(directory.file("summary.json"));
+  return std::count_if(summary["warnings"].begin(), summary["warnings"].end(), [&](const json& warning) { return warning.get<std::string>().find(words) != std::string::npos; });
+}
+
+TEST(RunScene, TellsMetalThatIsPressedAsItNeverIs) {
+  EXPECT_EQ(told_of_a_press(.15, "% of its bulk modulus, in element"), 1);
+  EXPECT_EQ(told_of_a_press(.05, "% of its bulk modulus, in element"), 0);
 }
 
 // Two sweeps are too few for the forces to come to their end, a hundred are not; nothing is said where nothing is near.
