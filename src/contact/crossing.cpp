@@ -85,28 +85,30 @@ class Finder {
       const std::array<int, 1> vertex{v};
       if (seen[pa.of_facet[i]] || f_.about_ties(f_.relation(a, b), vertex, vertex)) continue;
       seen[pa.of_facet[i]] = 1;
-      for (size_t part = 0; part < pb.closed.size(); ++part)
-        if (pb.closed[part] && is_inside(at(v), b, pb, static_cast<int>(part))) found.push_back({std::min(a, b), std::max(a, b), {v, -1}, -1});
+      if (is_inside(at(v), b, pb)) found.push_back({std::min(a, b), std::max(a, b), {v, -1}, -1});
     }
   }
 
   std::vector<Crossing> found;
 
  private:
-  // Parity of the crossings of a ray in a direction that no mesh is aligned with.
-  bool is_inside(const Node& p, int surface, const Parts& parts, int part) const {
+  // Parity of the crossings with all closed parts of a ray in a direction that no mesh is aligned with: what lies in a hole, or between two shells, is outside.
+  bool is_inside(const Node& p, int surface, const Parts& parts) const {
     const auto& s = f_.surfaces[surface];
     Box box;
-    for (size_t i = 0; i < parts.of_facet.size(); ++i)
-      if (parts.of_facet[i] == part)
-        for (int k = 0; k < f_.corners(); ++k) box.add(at(f_.facets[s.first_facet + i][k]));
+    for (size_t i = 0; i < parts.of_facet.size(); ++i) {
+      if (!parts.closed[parts.of_facet[i]]) continue;
+      const auto& c = f_.facets[s.first_facet + i];
+      for (int k = 0; k < f_.corners(); ++k) box.add(at(c[k]));
+    }
+    if (box.empty()) return false;
     for (int k = 0; k < f_.dimension; ++k)
       if (p[k] < box.low[k] || p[k] > box.high[k]) return false;
     const double far = 2 * (box.high - box.low).norm();
-    Node q = p + far * Node(0.7548776662466927, 0.5698402909980532, f_.dimension == 2 ? 0 : 0.3247179572447461, 0);
+    const Node q = p + far * Node(0.7548776662466927, 0.5698402909980532, f_.dimension == 2 ? 0 : 0.3247179572447461, 0);
     bool odd = false;
     for (size_t i = 0; i < parts.of_facet.size(); ++i) {
-      if (parts.of_facet[i] != part) continue;
+      if (!parts.closed[parts.of_facet[i]]) continue;
       const auto& c = f_.facets[s.first_facet + i];
       if (f_.dimension == 2 ? segments_cross(p, q, at(c[0]), at(c[1]), false) : pierces(p, q, at(c[0]), at(c[1]), at(c[2]), false)) odd = !odd;
     }

@@ -23,6 +23,7 @@ inline void store3(const Triple& a, double (*to)[kLanes], int at) {
 inline Triple operator*(Pack s, const Triple& a) { return {s * a.x, s * a.y, s * a.z}; }
 inline Triple operator+(const Triple& a, const Triple& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline Triple operator-(const Triple& a, const Triple& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Triple choose(Mask where, const Triple& a, const Triple& b) { return {select(where, a.x, b.x), select(where, a.y, b.y), select(where, a.z, b.z)}; }
 inline Triple only(Mask where, const Triple& a) { return {select(where, a.x, Pack(0.0)), select(where, a.y, Pack(0.0)), select(where, a.z, Pack(0.0))}; }
 inline Pack dot(const Triple& a, const Triple& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
@@ -86,7 +87,17 @@ inline Pack visit(double dt, const Movers& movers, PairPack& p, RubPack* rub, in
     const Pack size = sqrt(dot(q, q));
     q = only(movable, select(size > most, most / size, Pack(1.0)) * q);
     const Triple end = Pack(1.0) / (Pack(1.0) + beta * rub_w) * (free + rub_w * q);
-    const Triple e = only(movable, beta * (steady - end));
+    Triple e = only(movable, beta * (steady - end));
+    // What waves bring back pushes the slip on by no more than friction holds it: both together never do work on the body.
+    const Pack radiated = sqrt(dot(e, e));
+    const Mask feeds = (dot(e, end) > zero) & (radiated > most);
+    if (any(feeds)) {
+      e = choose(feeds, most / radiated * e, e);
+      const Triple rest = slip - rub_w * (had_q + had_e) + rub_w * e;
+      const Triple stick = Pack(-1.0) / rub_w * rest;
+      const Pack of_stick = sqrt(dot(stick, stick));
+      q = choose(feeds, only(movable, select(of_stick > most, most / of_stick, Pack(1.0)) * stick), q);
+    }
     store3(q, rub->slip, at);
     store3(e, rub->radiated, at);
     const Triple more = (q - had_q) + (e - had_e);

@@ -283,6 +283,7 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
     text << start.vertex_name(c.edge[0], at(c.edge[0]));
     if (c.facet < 0) {
       text << " lies inside " << start.surface_name(pierced);
+      if (pierced >= f.bodies) text << " (a container is given with the outside of its walls too, or open)";
     } else {
       const auto& corner = f.facets[c.facet];
       const Node n = facet_normal(f.dimension, at(corner[0]), at(corner[1]), at(corner[f.corners() - 1]));

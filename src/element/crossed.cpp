@@ -44,7 +44,27 @@ double crossed_lambda(const SolidConstants& solid, const Vec3* corners, bool rin
   return 1 - (1 - lambda) * (1 - q * q);
 }
 
-std::array<double, kCrossedItems> crossed_weights(const Vec3* corners, bool ring, double lambda, bool by_shape) {
+double crossed_ratio(const Vec3* corners) {
+  const Medians m(corners);
+  return m.a.norm() / m.b.norm();
+}
+
+double renewed_ratio(double first, double of_weights, double now) {
+  const auto shortness = [&](double r) { return of_weights > 1 ? 1 / r : r; };  // below 1: long, as the weights have it
+  if (is_mild(of_weights) || !(shortness(now) > kStale * shortness(of_weights))) return of_weights;
+  return shortness(now) < 1 && shortness(now) < kFlowed * shortness(first) ? now : 1;
+}
+
+std::array<double, 4> moved_memory(const std::array<double, 4>& G, const Eigen::Matrix2d& before, const Eigen::Matrix2d& after) {
+  const Eigen::Matrix2d A = after.inverse() * before;
+  Eigen::Matrix2d in_plane;
+  in_plane << G[0], G[3], G[3], G[1];
+  const double scale = std::cbrt(1 / (A.determinant() * A.determinant()));  // (J after/J before)^(2/3)
+  const Eigen::Matrix2d moved = scale * A * in_plane * A.transpose();
+  return {moved(0, 0), moved(1, 1), scale * G[2], moved(0, 1)};
+}
+
+std::array<double, kCrossedItems> crossed_weights(const Vec3* corners, bool ring, double lambda, bool by_shape, double ratio) {
   const Vec3& apex = corners[kCrossed[0][0]];
   const Medians m(corners);
   Eigen::Matrix2d up[4];
@@ -71,10 +91,10 @@ std::array<double, kCrossedItems> crossed_weights(const Vec3* corners, bool ring
   for (int s = 0; s < 4; ++s) items[kCrossedGuard + s] = kFreeOfGuard;
   if (!by_shape) return items;
   const Eigen::Vector4d w = affine.transpose() * (affine * affine.transpose()).inverse().col(0);
-  const double r = m.a.norm() / m.b.norm(), q = near_axis(corners, ring);
+  const double q = near_axis(corners, ring);
   Eigen::Vector4d beta;
   for (int s = 0; s < 4; ++s) {
-    const double own = s % 2 == 0 ? r : 1 / r;
+    const double own = s % 2 == 0 ? ratio : 1 / ratio;
     beta[s] = (1 - tau_of(own)) * (1 - q * q);
     items[kCrossedGuard + s] = free_of(own);
   }

@@ -96,6 +96,12 @@ struct ElementStart {
   }
 };
 
+/// By the law of material/von_mises.h.
+bool may_flow(const SolidConstants& solid) {
+  const auto flows = [](const auto& layer) { return layer.hardening.kind != HardeningCurve::elastic; };
+  return (solid.law == Law::green_elastic || solid.law == Law::paper) && std::any_of(solid.layer, solid.layer + solid.layers, flows);
+}
+
 }  // namespace
 
 const Kernels& kernels_of(Isa isa) {
@@ -170,8 +176,14 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
             Vec3 corners[5];
             for (int a = 0; a < 5; ++a) corners[a] = vec3(x[of_cell[a] + body.first_node]);
             const bool by_cell = g.pressure == PressureMode::cell;
-            const auto items = crossed_weights(corners, g.ring, by_cell ? crossed_lambda(g.solid, corners, g.ring) : 1, by_cell);
+            const double ratio = crossed_ratio(corners);
+            const auto items = crossed_weights(corners, g.ring, by_cell ? crossed_lambda(g.solid, corners, g.ring) : 1, by_cell, ratio);
             for (int i = 0; i < kCrossedItems; ++i) constants[i][l] = items[i];
+            if (by_cell && may_flow(g.solid)) {
+              if (first) g.first_corners.push_back({corners[0], corners[1], corners[2], corners[3], corners[4]});
+              g.weight_ratio.resize(g.blocks);
+              g.weight_ratio[b][l] = ratio;
+            }
           }
           for (int s = 0; s < shape.points; ++s) {
             const int element = g.element(cell, s);
@@ -257,26 +269,34 @@ template <class Asked, class Work> void Elements::over_tiles(Asked&& asked, Work
   });
 }
 
-void Elements::clear_slots(const Group& g, long t) const {
-  std::fill(g.sums + g.tile_start[t] * record_size_, g.sums + g.tile_start[t + 1] * record_size_, 0.0);
+void Elements::clear_slots(const Group& g, long t, double* sums) const {
+  std::fill(sums + g.tile_start[t] * record_size_, sums + g.tile_start[t + 1] * record_size_, 0.0);
 }
 
-void Elements::nodal_pressure(const NodalView& view) const {
-  over_tiles([](const Group& g) { return g.nodal(); }, [&](const Group& g, long t) {
-    clear_slots(g, t);
-    kernels_.nodal.volumes(g, view, g.first_block(t), g.last_block(t));
+void Elements::observe_pressure(const NodalView& view) const {
+  if (!any_nodal_) return;
+  volume_storage_.resize(slot_storage_.size());
+  nodal_pressure(view, reinterpret_cast<double*>(volume_storage_.data()));
+}
+
+void Elements::nodal_pressure(const NodalView& view, double* slots) const {
+  over_tiles([](const Group& g) { return g.nodal(); }, [&](const Group& own, long t) {
+    CellGroup g = own;
+    g.sums = slots + own.first_slot * record_size_;
+    clear_slots(own, t, g.sums);
+    kernels_.nodal.volumes(g, view, own.first_block(t), own.last_block(t));
   });
   team_->share(static_cast<long>(mass_.size()), kNodesOfAThread, [&](long first, long last) {
     for (long n = first; n < last; ++n) {
       double V = 0;
-      for (int k = slot_start_[n]; k < nodal_slots_[n]; ++k) V += slots_[static_cast<long>(slot_index_[k]) * record_size_];
+      for (int k = slot_start_[n]; k < nodal_slots_[n]; ++k) V += slots[static_cast<long>(slot_index_[k]) * record_size_];
       pressure_[n] = nodal_volume0_[n] > 0 ? nodal_bulk_[n] * (V / nodal_volume0_[n] - 1) : 0;
     }
   });
 }
 
 void Elements::forces_of_tile(const CellGroup& cells, const Group& g, const NodalView& view, long t) const {
-  clear_slots(g, t);
+  clear_slots(g, t, g.sums);
   const auto forces = g.at_edges ? kernels_.edge.forces : g.nodal() ? kernels_.nodal.forces : kernels_.forces;
   forces(cells, view, g.first_block(t), g.last_block(t));
 }
@@ -307,7 +327,7 @@ void Elements::find_forces(const NodeField& x, const NodeField& v, double last_d
   if (axisymmetric_) check_axis(x);
   StageClock clock(times_);
   NodalView view{x.data()->data(), v.data()->data(), nullptr, pressure_.data(), last_kick, last_dt};
-  if (any_nodal_) nodal_pressure(view);
+  if (any_nodal_) nodal_pressure(view, slots_);
   clock.ends(&StepTimes::pressure);
   if (may_sleep_) stillness_.look(x, *team_);
   if (stillness_.any()) {

@@ -100,7 +100,7 @@ void Elements::observe_blocks(const Group& g, long first_block, long last_block,
 
 double Elements::stored_energy(const NodeField& x, const NodeField* v, double since) const {
   const NodalView view{x.data()->data(), v ? v->data()->data() : nullptr, nullptr, pressure_.data(), 0, since};
-  if (any_nodal_) nodal_pressure(view);
+  observe_pressure(view);
   double sum = 0;
   for (const Group& g : groups_) {
     std::vector<double> energy(g.blocks);
@@ -114,7 +114,7 @@ double Elements::stored_energy(const NodeField& x, const NodeField* v, double si
 
 ElementFields Elements::observe(const NodeField& x) const {
   const NodalView view{x.data()->data(), nullptr, nullptr, pressure_.data(), 0, 0};
-  if (any_nodal_) nodal_pressure(view);
+  observe_pressure(view);
   ElementFields fields;
   fields.stress.resize(simplices_.size());
   fields.volume_ratio.resize(simplices_.size());
@@ -175,7 +175,7 @@ std::vector<Sym> Elements::stress_of(const std::vector<int>& elements, const Nod
 
 void Elements::append_state(std::vector<double>& to) const {
   for (const Group& g : groups_) {
-    for (const LargeArray<Lane>* storage : {&g.memory_storage, &g.hourglass_storage, &g.viscosity_storage}) {
+    for (const LargeArray<Lane>* storage : {&g.memory_storage, &g.hourglass_storage, &g.viscosity_storage, &g.weight_ratio}) {
       const double* memory = reinterpret_cast<const double*>(storage->data());
       to.insert(to.end(), memory, memory + storage->size() * kLanes);
     }
@@ -191,10 +191,13 @@ const double* Elements::read_state(const double* from) {
     from += count;
   };
   for (Group& g : groups_) {
-    for (LargeArray<Lane>* storage : {&g.memory_storage, &g.hourglass_storage, &g.viscosity_storage})
+    const LargeArray<Lane> ratios = g.weight_ratio;
+    for (LargeArray<Lane>* storage : {&g.memory_storage, &g.hourglass_storage, &g.viscosity_storage, &g.weight_ratio})
       take(reinterpret_cast<double*>(storage->data()), storage->size() * kLanes);
     take(g.plastic.data(), g.plastic.size());
     take(g.viscous.data(), g.viscous.size());
+    for (std::size_t block = 0; block < ratios.size(); ++block)
+      if (!std::equal(ratios[block].value, ratios[block].value + kLanes, g.weight_ratio[block].value)) g.set_weights(static_cast<int>(block));
   }
   return from;
 }

@@ -142,7 +142,7 @@ void Elements::add_mass(const std::vector<double>& kg) {
 
 void Elements::elastic_forces(const NodeField& x, NodeField& f) {
   const NodalView view{x.data()->data(), nullptr, nullptr, pressure_.data(), 0, 0};
-  if (any_nodal_) nodal_pressure(view);
+  if (any_nodal_) nodal_pressure(view, slots_);
   std::vector<double> unused;
   for (const Group& g : groups_) unused.resize(std::max<std::size_t>(unused.size(), static_cast<std::size_t>(g.blocks)));
   const std::unique_ptr<bool[]> unread = std::make_unique<bool[]>(unused.size());

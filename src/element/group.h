@@ -22,6 +22,9 @@ struct Elements::Group : CellGroup {
   enum Rest : char { changed, kept, passed_over };  ///< a tile's memory by the last evaluation, or none was needed
   std::vector<Rest> rest;  ///< per tile; empty where all are evaluated
   CurveTables curves;
+  // Of crossed triangles whose weights go with the shape (element/crossed.h), where the law is one of plastic flow:
+  std::vector<std::array<Vec3, 5>> first_corners;  ///< [cell] at the start
+  LargeArray<Lane> weight_ratio;                   ///< [block] r of the weights
   LargeArray<Lane> memory_storage, constants_storage, hourglass_storage, node_share_storage, viscosity_storage;
   std::vector<double> share;  ///< [cell][node] kg, with ElementOptions::shares
   int parts = 0;  ///< simplices of a cell, all of them its one point's in a one-point cell; none of points at edges
@@ -57,6 +60,9 @@ struct Elements::Group : CellGroup {
     if (dimension == 2) start_memory<2>(solid, {{G(0, 0), G(1, 1), G(2, 2), G(0, 1)}}, axes.data(), put);
     else start_memory<3>(solid, {{G(0, 0), G(1, 1), G(2, 2), G(0, 1), G(1, 2), G(2, 0)}}, axes.data(), put);
   }
+  const std::array<Vec3, 5>& first_corners_of(int block, int lane) const { return first_corners[std::min(block * kLanes + lane, cells - 1)]; }
+  /// The weights of a block as its weight_ratio says, in a set of its own.
+  void set_weights(int block);
   /// A constant of a one-point cell.
   double constant(int block, int item, int lane) const { return constants_storage[static_cast<std::size_t>(constant_sets[block]) * one_point_items(dimension, ring) + item][lane]; }
   /// Number of a part of a cell among all elements.

@@ -28,7 +28,7 @@ void check_point(const std::string& where, const Vec3& x) {
 void append_arc(std::vector<Vec3>& nodes, const Vec3& to, double radius, double chord_error, double longest, const std::string& where) {
   const Vec3 from = nodes.back(), chord = to - from;
   const double half = chord.norm() / 2, r = std::abs(radius);
-  if (r < half * (1 - 1e-9)) {
+  if (r < half * (1 - 1e-6)) {  // half a circle may be given in six digits
     std::ostringstream text;
     text << "given a radius of " << r << " m for an arc from " << place(from) << " to " << place(to)
          << "; at least half their distance, " << half << " m, is needed";

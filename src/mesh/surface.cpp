@@ -75,10 +75,11 @@ std::vector<Candidate> candidates_of(const Mesh& mesh) {
 
 // The facet runs the other way round in the element on its other side, or the
 // two lie on the same side of it.
-bool same_side(const Mesh& mesh, const Candidate& one, const Candidate& other) {
-  const Facet &a = one.facet, &b = other.facet;
+bool same_side(const Mesh& mesh, const Candidate* one, const Candidate* other) {
+  const Facet &a = one->facet, &b = other->facet;
   const int d = mesh.dimension;
-  if (one.key[0] >= 0) return area_vector(mesh, a).dot(area_vector(mesh, b)) > 0;
+  // Of four corners: of the whole face, since the halves of a warped one are turned against each other.
+  if (one->key[0] >= 0) return (area_vector(mesh, a) + area_vector(mesh, one[1].facet)).dot(area_vector(mesh, b) + area_vector(mesh, other[1].facet)) > 0;
   for (int turn = 0; turn < (d == 2 ? 1 : 3); ++turn) {
     bool same = true;
     for (int k = 0; k < d; ++k) same = same && a.nodes[k] == b.nodes[(k + turn) % d];
@@ -109,7 +110,7 @@ void find_surface(Mesh& mesh) {
     const std::size_t of_a_side = all[i].key[0] >= 0 ? 2 : 1, sides = (end - i) / of_a_side;
     if (sides > 2) refuse_shared(mesh, all[i], static_cast<int>(sides));
     if (sides == 1) once.insert(once.end(), all.begin() + i, all.begin() + end);
-    else if (same_side(mesh, all[i], all[end - 1])) refuse_folded(mesh, all[i].facet, all[end - 1].facet);
+    else if (same_side(mesh, &all[i], &all[end - of_a_side])) refuse_folded(mesh, all[i].facet, all[end - 1].facet);
     i = end;
   }
   std::sort(once.begin(), once.end(), [](const Candidate& a, const Candidate& b) { return a.order < b.order; });

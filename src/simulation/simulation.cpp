@@ -19,7 +19,14 @@ void Simulation::Impl::begin_stage() {
   rests = false;
   const BoundarySet held_before = boundaries;
   const bool ended = release_boundaries();
-  if (steps > 0 && !stages.finished()) let_go(held_before, ended);
+  if (steps > 0 && !stages.finished()) {
+    let_go(held_before, ended);
+    // What is free at once begins to swing, often faster than what the last step was for: its first kick is that of its own steps. A longer one would give it energy.
+    if (ended && release_time() == 0) {
+      find_stable_step();
+      previous_dt = std::min(previous_dt, full_dt());
+    }
+  }
   if (!stages.settling()) return;
   settle = Settle(time, slowness(), stages.stage().kinetic_fraction, least_energy());
 }

@@ -27,6 +27,7 @@ void Simulation::Impl::choose_dt() {
   if (departure.sudden() || elements.corners_pressed()) control.hurry();
   if (control.due()) find_stable_step();
   const TimeStepConfig& config = plan.time_step;
+  watch.follow();
   dt = config.safety * watch.factor() * control.stable_dt;
   if (previous_dt > 0) dt = std::min(dt, kRise * previous_dt);
   limit.dt = dt;
@@ -55,6 +56,7 @@ double Simulation::Impl::full_dt() const {
 }
 
 void Simulation::Impl::find_stable_step() {
+  elements.renew_weights(x);
   elements.find_rates(x, v, rates);
   const CellLimit cell = elements.slowest_cell(rates);
   if (first_element_dt == 0) first_element_dt = cell.dt;

@@ -119,7 +119,7 @@ TEST(ShippedScenes, cup_is_closed_by_its_punch_and_clears_its_die) {
   EXPECT_EQ(punch_axis, 0);
   EXPECT_NEAR(die_wall - punch_wall, 1.3e-3, 1e-12);
   EXPECT_NEAR(holder, 1e-3, 1e-12);
-  EXPECT_EQ(model.notes.size(), 1u);  // the nodes on the axis
+  EXPECT_TRUE(model.notes.empty());
 }
 
 TEST(ShippedScenes, impact_has_the_moduli_it_states) {

@@ -2,6 +2,8 @@
 // and tools that close much too far do not make it cross them.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "support/runs.h"
 
 namespace forming_sim {
@@ -51,7 +53,47 @@ Found squeeze(double less, double layer, bool plastic, int cells = 4, bool walls
   return found;
 }
 
+/// Half of a billet of 20 x 20 mm, of cells four times as high as wide, is upset by a plane with friction to 40 % of its height.
+std::unique_ptr<Simulation> upset() {
+  MaterialConfig material = aluminium(true);
+  HardeningConfig swift;
+  swift.curve = "swift";
+  swift.strength = 500e6;
+  swift.prestrain = .01;
+  swift.exponent = .2;
+  material.hardening = swift;
+  OneBody run(body_of(generate_blank(strip_of(10e-3, 20e-3, 20, 10)), material), 1e-3);
+  run.model.axisymmetric = true;
+  run.plan.bodies[0].boundaries = {symmetric("bottom", Vec3::UnitY())};
+  ToolModel plane = plane_at("punch", 2, Vec3::Zero(), Vec3(0, -1, 0));
+  plane.position = Vec3(0, 20e-3, 0);
+  plane.friction = .1;
+  lead(plane, 1e-3, Vec3(0, -12e-3, 0));
+  run.model.tools.push_back(plane);
+  return run.start();
+}
+
 }  // namespace
+
+// What winds its way down in zigzag does not get there: rows of nodes stay rows.
+TEST(Squeeze, ABilletOfTallCellsIsUpsetEvenly) {
+  auto sim = upset();
+  while (sim->step()) {}
+  EXPECT_EQ(sim->contact_status().crossings, 0);
+  EXPECT_LT(std::abs(sim->balance_error()), 1e-3);
+  // Along the middle row, away from the rim: how far nodes lie off the middle of their neighbours.
+  const NodeField& X = sim->initial_positions();
+  std::map<double, double> row;  // x at the start, y at the end
+  for (std::size_t n = 0; n < X.size(); ++n)
+    if (std::abs(X[n][1] - 10e-3) < 1e-9 && X[n][0] < 7e-3) row[X[n][0]] = sim->positions()[n][1];
+  ASSERT_EQ(row.size(), 14u);
+  std::vector<double> y;
+  for (const auto& [x, place] : row) y.push_back(place);
+  double off = 0;
+  for (std::size_t i = 1; i + 1 < y.size(); ++i) off = std::max(off, std::abs(y[i] - .5 * (y[i - 1] + y[i + 1])));
+  std::printf("  off the row %.2g of the height of a cell\n", off / .8e-3);
+  EXPECT_LT(off, .1 * .8e-3);  // .8 with the weights of the start, .02 of square cells
+}
 
 // The tools are set back by h0: nothing is felt at the sheet's own thickness, and h0 less gives the strain h0/t, less what
 // the two layers give themselves: p (t/E' + 2 h0/E) = h0, E' = E/(1 - nu^2).

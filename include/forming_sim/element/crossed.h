@@ -40,6 +40,7 @@
 //   y_c = sum_b W_cb x_b,  W_cb = lambda delta_cb + (1 - lambda) sum_s V_s/V X_s^b . X_c,
 // X_s^b reciprocal to the edge X_b in s, nothing where s has not got it; z = -sum_b w_b x_b, the least w with sum_b w_b = 1, sum_b w_b X_b = 0.
 // The forces on these edges come back through the same weights.
+#include <Eigen/Core>
 #include <array>
 
 #include "forming_sim/material/constants.h"
@@ -52,7 +53,22 @@ double crossed_lambda(const SolidConstants& solid, const Vec3* corners, bool rin
 
 /// What a cell keeps of the above: W_cb at c 4 + b, then -lambda w_b, then beta_s, then up to which |J - 1| triangle s is free of its guard (element/guard.h). by_shape: false for beta = 0.
 constexpr int kCrossedApex = 16, kCrossedFreed = 20, kCrossedGuard = 24, kCrossedItems = 28;
-std::array<double, kCrossedItems> crossed_weights(const Vec3* corners, bool ring, double lambda, bool by_shape);
+/// ratio: r for beta, that of the corners or a later one.
+std::array<double, kCrossedItems> crossed_weights(const Vec3* corners, bool ring, double lambda, bool by_shape, double ratio);
+/// r: how much longer the first median of a cell is than the second.
+double crossed_ratio(const Vec3* corners);
+
+/// The r that a cell is to have in its weights, which now have `of_weights`, when it has flowed from the shape `first` to `now`. What is r times as long as high sees the
+/// middle node by r at its short edges. When it has become shorter that is too much: cells that are upset from their ends wind their way down in zigzag (`squeeze`), the
+/// faster the more their weights ask for. So these follow where they ask for more than kStale times what the shape does, and are those of a square cell from kFlowed times on:
+/// that is no sheet that bends any more. What has become longer keeps its weights, which are those of less.
+constexpr double kStale = 1.25, kFlowed = 2, kMildRatio = 1.2;
+double renewed_ratio(double first, double of_weights, double now);
+inline bool is_mild(double of_weights) { return of_weights < kMildRatio && of_weights * kMildRatio > 1; }  ///< these stay as they are
+
+/// Memory of a layer in plane strain or of a ring, G^11, G^22, G^33, G^12, that goes on with other edges of the law: the same B where the volume is the same, and
+/// scaled so that J^(-2/3) B, and with it energy and J S, stay what they are. before, after: the two edges as columns.
+std::array<double, 4> moved_memory(const std::array<double, 4>& G, const Eigen::Matrix2d& before, const Eigen::Matrix2d& after);
 
 /// sum_b item(first + b) x_b.
 template <class Item, class Way> Way crossed_mix(const Item& item, int first, const Way* x) {

@@ -86,6 +86,8 @@ class Elements {
   CellLimit slowest_cell(const CellRates& rates) const;
   /// Sums over the cells at each node; only with ElementOptions::shares.
   NodalRates sum_rates(const CellRates& rates) const;
+  /// The weights of crossed triangles follow shapes that have left theirs (element/crossed.h), at x: to be asked now and then. Energies stay what they are.
+  void renew_weights(const NodeField& x);
   /// kg more on each node, for good. It changes no cell's own rates.
   void add_mass(const std::vector<double>& kg);
 
@@ -125,7 +127,9 @@ class Elements {
   /// Throws where a point at an edge is inside out although the simplices around it are not.
   void report_edge_inversion(const NodeField& x) const;
   void check_axis(const NodeField& x) const;
-  void nodal_pressure(const NodalView& view) const;
+  void nodal_pressure(const NodalView& view, double* slots) const;
+  /// Likewise, in room of its own: the forces that the cells found last stay.
+  void observe_pressure(const NodalView& view) const;
   /// What the kernels observe of these blocks; stress and ratio: null where the energy is asked for alone.
   void observe_blocks(const Group& g, long first_block, long last_block, const NodalView& view, double* stress, double* ratio, double* energy) const;
   /// A group of the points at the edges of the body's simplices whose pressures are in the nodes.
@@ -138,7 +142,7 @@ class Elements {
   void add_bytes(const Group& group, GroupPlan& plan) const;
   /// Cuts the groups into tiles, gives every node of each tile a slot, and tells the nodes theirs.
   void lay_tiles(int nodes);
-  void clear_slots(const Group& group, long tile) const;
+  void clear_slots(const Group& group, long tile, double* sums) const;
   /// cells: the group, or what differs from it in its law only.
   void forces_of_tile(const CellGroup& cells, const Group& group, const NodalView& view, long tile) const;
   /// Those of the tiles whose nodes moved, or whose memory the last evaluation changed.
@@ -163,6 +167,7 @@ class Elements {
   int points_ = 0;                                   ///< lanes of the points at edges
   LargeArray<Lane> slot_storage_;
   double* slots_ = nullptr;                          ///< [slot][kRecord]
+  mutable LargeArray<Lane> volume_storage_;          ///< likewise, of nodal pressure only
   int record_size_ = 0;
   mutable std::vector<double> pressure_, nodal_volume0_, nodal_bulk_;  ///< nodal pressure only
   bool any_nodal_ = false;

@@ -18,7 +18,7 @@
 //   the law sees, and what the middle node has more than in the former. With dF = sum_s V_s dF_s/V, dF_s = dF + q (x) a_s + z (x) g_s,
 //     sum_s V_s |dF~_s|^2 = V |dF|^2 + sum_s V_s |lambda q (x) a_s + lambda (1 - beta_s) z (x) g_s|^2,
 //   q of the corners, z of the middle: at most sum_s V_s |dF_s|^2 unless S = sum_s V_s (lambda^2 (1 - beta_s)^2 - 1) g_s g_s^T is positive
-//   somewhere. It is not in the initial shape, and is where a long cell has become short, whose beta_s are those of the long one. There z has, more than without them,
+//   somewhere. It is not in the shape that the weights are for, and is where a long cell has become short and has still those of a long one. There z has, more than without them,
 //     mu (tr S + max eigenvalue of S/3) (1/m_z + sum_b w_b^2/m_b),   |dev sym z (x) g|^2 = (|z|^2 |g|^2 + (z.g)^2/3)/2.
 // * Where the law is at the edges (element/edge_points.h), the deviatoric part of a simplex is the mean over
 //   its edges of theirs: K = sum_e K_e, K_e <= omega_e^2 M_e, M_e = sum_s M_s/k over the simplices around e.

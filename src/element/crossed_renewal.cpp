@@ -1,0 +1,83 @@
+// Weights of crossed triangles that follow the shape of their cells (element/crossed.h).
+#include <cmath>
+
+#include "element/group.h"
+#include "forming_sim/element/crossed.h"
+#include "forming_sim/mesh/cell_tables.h"
+
+namespace forming_sim {
+
+void Elements::Group::set_weights(int block) {
+  std::vector<Lane> items(kCrossedItems);
+  for (int l = 0; l < kLanes; ++l) {
+    const Vec3* corners = first_corners_of(block, l).data();
+    const auto weights = crossed_weights(corners, ring, crossed_lambda(solid, corners, ring), true, weight_ratio[block][l]);
+    for (int i = 0; i < kCrossedItems; ++i) items[i][l] = weights[i];
+  }
+  int& set = constant_sets[block];
+  if (const bool shared = std::count(constant_sets.begin(), constant_sets.end(), set) > 1; shared) {
+    set = static_cast<int>(constants_storage.size() / kCrossedItems);
+    constants_storage.insert(constants_storage.end(), items.begin(), items.end());
+    constants = reinterpret_cast<double*>(constants_storage.data());
+  } else {
+    std::copy(items.begin(), items.end(), constants_storage.begin() + static_cast<std::ptrdiff_t>(set) * kCrossedItems);
+  }
+}
+
+namespace {
+
+/// Edges of the law of triangle s, as columns. item(i): of the cell's weights; way: from its middle to its corners.
+template <class Item> Eigen::Matrix2d law_edges_of(const Item& item, const Eigen::Vector2d* way, int s) {
+  Eigen::Matrix2d edges;
+  const Eigen::Vector2d drawn = crossed_mix(item, kCrossedApex, way);
+  for (int m = 0; m < 2; ++m) edges.col(m) = crossed_mix(item, kCrossed[s][m + 1] * 4, way) + item(kCrossedFreed + s) * drawn;
+  return edges;
+}
+
+}  // namespace
+
+void Elements::renew_weights(const NodeField& x) {
+  constexpr int triangles = 4;
+  for (Group& g : groups_) {
+    for (int block = 0; block < static_cast<int>(g.weight_ratio.size()); ++block) {
+      const Lane before = g.weight_ratio[block];
+      Lane now = before;
+      bool any = false;
+      for (int l = 0; l < kLanes; ++l) {
+        if (is_mild(before[l])) continue;
+        Vec3 corners[5];
+        const int cell = std::min(block * kLanes + l, g.cells - 1);
+        for (int a = 0; a < 5; ++a) corners[a] = vec3(x[g.node(cell, a)]);
+        const double ratio = crossed_ratio(corners);
+        if (std::isfinite(ratio)) now[l] = renewed_ratio(crossed_ratio(g.first_corners_of(block, l).data()), before[l], ratio);
+        any = any || now[l] != before[l];
+      }
+      if (!any) continue;
+      Eigen::Matrix2d edges[triangles][kLanes];
+      Eigen::Vector2d way[kLanes][4];
+      const auto item_of = [&](int l) { return [&g, block, l](int i) { return g.constants_storage[static_cast<std::size_t>(g.constant_sets[block]) * kCrossedItems + i][l]; }; };
+      for (int l = 0; l < kLanes; ++l) {
+        const int cell = std::min(block * kLanes + l, g.cells - 1);
+        for (int b = 0; b < 4; ++b) way[l][b] = (vec3(x[g.node(cell, b)]) - vec3(x[g.node(cell, 4)])).head<2>();
+        for (int s = 0; s < triangles; ++s) edges[s][l] = law_edges_of(item_of(l), way[l], s);
+      }
+      g.weight_ratio[block] = now;
+      g.set_weights(block);
+      for (int l = 0; l < kLanes; ++l) {
+        if (now[l] == before[l]) continue;
+        for (int s = 0; s < triangles; ++s) {
+          const Eigen::Matrix2d after = law_edges_of(item_of(l), way[l], s);
+          Lane* memory = g.memory_storage.data() + (static_cast<std::size_t>(block) * triangles + s) * g.items;
+          for (int k = 0; k < g.solid.layers; ++k) {
+            Lane* layer = memory + k * kLayerItems<2>;
+            const auto G = moved_memory({layer[0][l], layer[1][l], layer[2][l], layer[3][l]}, edges[s][l], after);
+            for (int i = 0; i < 4; ++i) layer[i][l] = G[i];
+          }
+        }
+      }
+      stillness_.forget();  // the forces that are kept are those of before
+    }
+  }
+}
+
+}  // namespace forming_sim
