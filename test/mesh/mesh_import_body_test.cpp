@@ -246,6 +246,18 @@ TEST(MeshImportBody, InlineCells) {
   EXPECT_EQ(mesh.dimension, 2);
 }
 
+// The halves of a warped face look more than a right angle apart, and the cells on either side of it are sound.
+TEST(MeshImportBody, HexahedraMayShareAWarpedFace) {
+  const double w = .08, h = .1;
+  const std::vector<Vec3> points{{0, -1, 0}, {1, -1, 0}, {1, -w, 0}, {0, w, 0}, {0, -1, h}, {1, -1, h}, {1, w, h}, {0, -w, h}, {0, 1, 0}, {1, 1, 0}, {0, 1, h}, {1, 1, h}};
+  MeshConfig config = given("hexahedron", points, {0, 1, 2, 3, 4, 5, 6, 7, 3, 2, 9, 8, 7, 6, 11, 10});
+  config.pattern = "one_point";
+  EXPECT_NEAR(volume(load_body_mesh(config, "")), 2 * h, 1e-12);
+  std::vector<Vec3> folded = points;
+  for (int n = 8; n < 12; ++n) folded[n].y() = -.7;  // the second on the side of the first
+  EXPECT_NE(error_of([&] { load_body_mesh(given("hexahedron", folded, config.cells), ""); }), "");
+}
+
 // Cells that lie against each other and share no node there: two quadrilaterals one over the other, whose meeting sides
 // have nodes of their own; half joined; two over one of twice the length; and apart by a gap that contact can keep.
 TEST(MeshImportBody, CellsThatTouchAreJoined) {

@@ -1,5 +1,6 @@
 // Whatever the numbers of a scene are, it is refused with a reason or starts, and its steps end with a named error if not well.
 #include "forming_sim/results/start.h"
+#include "forming_sim/config/words.h"
 
 #include <gtest/gtest.h>
 
@@ -102,6 +103,29 @@ TEST_P(AbsurdNumbers, AreRefusedOrEndWithANamedError) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, AbsurdNumbers, testing::Values(kSection, kSolid));
+
+std::string ring(const std::string& name, double inner, double outer) {
+  constexpr int n = 12;
+  std::string points, cells;
+  for (int i = 0; i < n; ++i) {
+    const double c = std::cos(2 * M_PI * i / n), s = std::sin(2 * M_PI * i / n);
+    for (double r : {inner, outer}) points += "[" + number_text(r * c) + ", " + number_text(r * s) + "], ";
+    const int next = (i + 1) % n;
+    for (int corner : {2 * i, 2 * i + 1, 2 * next + 1, 2 * next}) cells += std::to_string(corner) + ", ";
+  }
+  return "  - {name: " + name + ", mesh: {unit_scale: 1, points: [" + points + "], cells: [" + cells + "], cell_type: quadrilateral}, material: {density: 7850, youngs_modulus: 2e11, poissons_ratio: 0.3}}\n";
+}
+
+// What lies in the hole of a body is not in the body; in its metal it is.
+TEST(StartCheck, ABodyMayLieInTheHoleOfAnother) {
+  const auto faults = [](double outer) {
+    std::vector<Fault> found;
+    const Scene scene = read_scene("name: rings\ndimension: 2\nbodies:\n" + ring("outside", 5e-3, 8e-3) + ring("inside", 1e-3, outer) + "stages:\n  - {kind: form, duration: 1e-6}\n", ".", found);
+    return check_start(scene, found, 1).faults.size();
+  };
+  EXPECT_EQ(faults(4e-3), 0u);
+  EXPECT_EQ(faults(6e-3), 1u);
+}
 
 }  // namespace
 }  // namespace forming_sim

@@ -15,7 +15,9 @@
 // as if masses of z A T were dragged along by dashpots: over a long time they take no impulse, however contact comes and goes.
 // Across the surface v_s follows as where phi is 0. dv_r is the change of the velocity that the body has there as a whole (body_motion.h):
 // a body that gathers speed, turns or follows its grips and tools feels nothing. phi grows as contact lasts: a strike that is over long before T keeps Coulomb's impulse.
-// (A washout of first order, rho c_s sT/(1 + sT): it takes energy at every frequency and gives it at none.)
+// (A washout of first order, rho c_s sT/(1 + sT): of small motion about steady sliding it takes energy at every frequency and gives it at none. But u_s begins
+// with the speed of the surface, an energy that nobody paid, which comes back where the surface slows down: so where tau pushes the slip on it is no more than
+// friction is, mu N, and both together do no work on the body; what is left over comes back later.)
 //
 // And friction answers to a change of the normal force with a delay T_N (friction_delay.h; Prakash and Clifton 1993; that sliding is
 // well-posed with it: Ranjith and Rice, J. Mech. Phys. Solids 49, 2001).
