@@ -311,11 +311,11 @@ void aim_tie(const Tie& tie, const Workspace& work, const std::vector<ToolMotion
 }
 
 double sweep_tie(double dt, Workspace& work, TiePair& pair) {
-  const Node change = pair.missing / dt - relative(pair, work.v);
+  const Node before = relative(pair, work.v), change = pair.missing / dt - before;
   const Node impulse = node(pair.mass * vec3(change));
   pair.impulse += impulse;
   push(pair, impulse, work, work.v);
-  return dt * vec3(change).norm();  // the fourth components hold masses
+  return dt * vec3(Node(relative(pair, work.v) - before)).norm();  // what boundaries hold stays open; the fourth components hold masses
 }
 
 }  // namespace forming_sim

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include "forming_sim/scene/build.h"
+#include "forming_sim/scene/yaml.h"
 #include "support/runs.h"
 
 namespace forming_sim {
@@ -241,6 +243,38 @@ TEST(ContactScenes, ASharpGrooveGivesNothing) {
       EXPECT_GT(most, 1e-6);
       EXPECT_EQ(sim->contact_status().crossings, 0);
     }
+}
+
+// Ties on nodes that boundaries hold: what these cannot do the sweeps do not wait for.
+TEST(ContactScenes, TiesOnAPlaneOfSymmetrySettle) {
+  std::vector<Fault> faults;
+  const Scene scene = read_scene(R"yaml(
+name: tied
+dimension: 2
+bodies:
+  - name: a
+    blank: {shape: strip, length: 0.004, thickness: 0.001, cells_along: 4, cells_through: 2}
+    material: {density: 2800, youngs_modulus: 70e9, poissons_ratio: 0.32}
+    initial_velocity: [0, -1]
+    boundaries: [{set: left, kind: symmetric, normal: [1, 0]}]
+  - name: b
+    blank: {shape: strip, origin: [0, 0.001001], length: 0.003, thickness: 0.001, cells_along: 6, cells_through: 2}
+    material: {density: 2800, youngs_modulus: 70e9, poissons_ratio: 0.32}
+    initial_velocity: [0, -1]
+    boundaries: [{set: left, kind: symmetric, normal: [1, 0]}]
+tools:
+  - name: anvil
+    profile: {start: [0.0045, -0.005], pieces: [{to: [0.0045, -1e-5]}, {to: [0.003, -1e-5]}, {to: [0.003, -0.005]}]}
+contact: {pairs: [{first: a, second: b, kind: tied}]}
+stages: [{kind: form, duration: 1e-4}]
+)yaml", ".", faults);
+  ASSERT_TRUE(faults.empty());
+  Simulation sim(build_plan(scene), build_model(scene), 1);
+  while (sim.step()) {}
+  const ContactStatus contact = sim.contact_status();
+  std::printf("  %.1f sweeps a step, %ld steps ended at the most\n", static_cast<double>(contact.sweeps) / static_cast<double>(contact.swept_steps), contact.unsettled_steps);
+  EXPECT_EQ(contact.unsettled_steps, 0);
+  EXPECT_LT(sim.balance_error(), 1e-3);
 }
 
 }  // namespace forming_sim
