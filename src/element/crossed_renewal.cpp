@@ -3,7 +3,6 @@
 
 #include "element/group.h"
 #include "forming_sim/element/crossed.h"
-#include "forming_sim/mesh/cell_tables.h"
 
 namespace forming_sim {
 
@@ -15,7 +14,7 @@ void Elements::Group::set_weights(int block) {
     for (int i = 0; i < kCrossedItems; ++i) items[i][l] = weights[i];
   }
   int& set = constant_sets[block];
-  if (const bool shared = std::count(constant_sets.begin(), constant_sets.end(), set) > 1; shared) {
+  if (set < shared_sets) {
     set = static_cast<int>(constants_storage.size() / kCrossedItems);
     constants_storage.insert(constants_storage.end(), items.begin(), items.end());
     constants = reinterpret_cast<double*>(constants_storage.data());
@@ -23,18 +22,6 @@ void Elements::Group::set_weights(int block) {
     std::copy(items.begin(), items.end(), constants_storage.begin() + static_cast<std::ptrdiff_t>(set) * kCrossedItems);
   }
 }
-
-namespace {
-
-/// Edges of the law of triangle s, as columns. item(i): of the cell's weights; way: from its middle to its corners.
-template <class Item> Eigen::Matrix2d law_edges_of(const Item& item, const Eigen::Vector2d* way, int s) {
-  Eigen::Matrix2d edges;
-  const Eigen::Vector2d drawn = crossed_mix(item, kCrossedApex, way);
-  for (int m = 0; m < 2; ++m) edges.col(m) = crossed_mix(item, kCrossed[s][m + 1] * 4, way) + item(kCrossedFreed + s) * drawn;
-  return edges;
-}
-
-}  // namespace
 
 void Elements::renew_weights(const NodeField& x) {
   constexpr int triangles = 4;
@@ -53,20 +40,25 @@ void Elements::renew_weights(const NodeField& x) {
         any = any || now[l] != before[l];
       }
       if (!any) continue;
-      Eigen::Matrix2d edges[triangles][kLanes];
+      Eigen::Matrix2d edges[triangles][kLanes];  // of the law, with the weights of before
       Eigen::Vector2d way[kLanes][4];
-      const auto item_of = [&](int l) { return [&g, block, l](int i) { return g.constants_storage[static_cast<std::size_t>(g.constant_sets[block]) * kCrossedItems + i][l]; }; };
+      const auto law_edges = [&](int l, int s) {
+        const auto y = crossed_edges([&](int i) { return g.constant(block, i, l); }, way[l], s);
+        Eigen::Matrix2d columns;
+        columns << y[0], y[1];
+        return columns;
+      };
       for (int l = 0; l < kLanes; ++l) {
         const int cell = std::min(block * kLanes + l, g.cells - 1);
         for (int b = 0; b < 4; ++b) way[l][b] = (vec3(x[g.node(cell, b)]) - vec3(x[g.node(cell, 4)])).head<2>();
-        for (int s = 0; s < triangles; ++s) edges[s][l] = law_edges_of(item_of(l), way[l], s);
+        for (int s = 0; s < triangles; ++s) edges[s][l] = law_edges(l, s);
       }
       g.weight_ratio[block] = now;
       g.set_weights(block);
       for (int l = 0; l < kLanes; ++l) {
         if (now[l] == before[l]) continue;
         for (int s = 0; s < triangles; ++s) {
-          const Eigen::Matrix2d after = law_edges_of(item_of(l), way[l], s);
+          const Eigen::Matrix2d after = law_edges(l, s);
           Lane* memory = g.memory_storage.data() + (static_cast<std::size_t>(block) * triangles + s) * g.items;
           for (int k = 0; k < g.solid.layers; ++k) {
             Lane* layer = memory + k * kLayerItems<2>;

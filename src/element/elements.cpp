@@ -214,6 +214,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
         }
         if (!constants.empty()) g.constant_sets.push_back(alike.find(constants, g.constants_storage));
       }
+      if (!constants.empty()) g.shared_sets = static_cast<int>(g.constants_storage.size() / constants.size());
       groups_.push_back(std::move(g));
     }
   }
@@ -371,10 +372,10 @@ double Elements::volume_ratio(const NodeField& x, int element) const {
     const double own = shape.volume / V0;
     if (g.constants_storage.empty()) return own;
     const auto node = [&](int a) { return vec3(x[g.node(where.cell, a)]); };
-    const auto item = [&](int i) { return g.constants_storage[static_cast<std::size_t>(g.constant_sets[block]) * kCrossedItems + i][l]; };
-    Vec3 way[4], y[2];  // the edges of the law, the hoop of a ring its own
+    const auto item = [&](int i) { return g.constant(block, i, l); };
+    Vec3 way[4];
     for (int b = 0; b < 4; ++b) way[b] = node(b) - node(4);
-    for (int m = 0; m < 2; ++m) y[m] = crossed_mix(item, kCrossed[point][m + 1] * 4, way) + item(kCrossedFreed + point) * crossed_mix(item, kCrossedApex, way);
+    const std::array<Vec3, 2> y = crossed_edges(item, way, point);  // the hoop of a ring is its own
     return std::min(own, own * y[0].cross(y[1]).z() / shape.edges.col(0).cross(shape.edges.col(1)).z());
   }
   return with_dimension(dimension_, axisymmetric_, [&](auto d, auto ring) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "forming_sim/element/crossed.h"
 #include "forming_sim/element/elements.h"
 #include "forming_sim/element/one_point_sums.h"
 #include "forming_sim/material/law.h"
@@ -16,6 +17,7 @@ namespace forming_sim {
 struct Elements::Group : CellGroup {
   LargeArray<int> node_storage, row_storage, slot_storage;
   std::vector<int> constant_sets;
+  int shared_sets = 0;           ///< so many of the start, which blocks that are alike share; those behind are of one block each
   std::vector<long> tile_start;  ///< first slot of each tile, and behind the last
   std::vector<double> plastic, viscous;
   std::unique_ptr<bool[]> upright_storage, pressed_storage;
@@ -63,8 +65,11 @@ struct Elements::Group : CellGroup {
   const std::array<Vec3, 5>& first_corners_of(int block, int lane) const { return first_corners[std::min(block * kLanes + lane, cells - 1)]; }
   /// The weights of a block as its weight_ratio says, in a set of its own.
   void set_weights(int block);
-  /// A constant of a one-point cell.
-  double constant(int block, int item, int lane) const { return constants_storage[static_cast<std::size_t>(constant_sets[block]) * one_point_items(dimension, ring) + item][lane]; }
+  /// A constant of a one-point cell or of crossed triangles.
+  double constant(int block, int item, int lane) const {
+    const int count = static_cast<CellKind>(kind) == CellKind::crossed ? kCrossedItems : one_point_items(dimension, ring);
+    return constants_storage[static_cast<std::size_t>(constant_sets[block]) * count + item][lane];
+  }
   /// Number of a part of a cell among all elements.
   int element(int cell, int part) const { return first_element + order[cell] * parts + part; }
   /// Of a simplex, counted through the cells.

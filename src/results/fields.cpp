@@ -9,27 +9,6 @@
 #include "forming_sim/results/text_file.h"
 
 namespace forming_sim {
-namespace {
-
-/// Where the pressure of a metal is the largest part of its bulk modulus.
-Peak most_pressed(const Simulation& simulation, const std::vector<std::array<float, 6>>& stress) {
-  Peak most;
-  const Model& model = simulation.model();
-  for (const BodyModel& body : model.bodies) {
-    if (body.material.law == "hyperelastic") continue;
-    for (int e = body.first_element; e < body.first_element + body.element_count; ++e) {
-      const std::array<float, 6>& s = stress[e];
-      most.rise_to({-(double(s[0]) + s[1] + s[2]) / (3 * body.material.K()), e, Vec3::Zero(), simulation.time()});
-    }
-  }
-  if (most.element < 0) return most;
-  const int corners = model.dimension + 1;
-  for (int k = 0; k < corners; ++k) most.position += vec3(simulation.positions()[simulation.elements()[most.element][k]]) / corners;
-  return most;
-}
-
-}  // namespace
-
 void Fields::on_start(const Simulation& simulation) {
   schedule_.start(simulation.time());
   const std::string path = in_directory(directory_, "result.h5");
@@ -82,7 +61,7 @@ void Fields::write(const Simulation& simulation, bool interrupted) {
   Frame frame = take_frame(simulation, gauge_.at(simulation));
   frame.interrupted = interrupted;
   file_->write(frame);
-  record_.pressed.rise_to(most_pressed(simulation, frame.stress));
+  record_.pressed.rise_to(greatest_pressure(simulation, frame.stress));
   if (Clock::now() >= xdmf_due_) write_xdmf();
 }
 

@@ -55,6 +55,20 @@ Peak greatest_thinning(const Simulation& simulation, const std::vector<int>& top
 
 }  // namespace
 
+Peak greatest_pressure(const Simulation& simulation, const std::vector<std::array<float, 6>>& stress) {
+  Peak peak;
+  const Model& model = simulation.model();
+  for (const BodyModel& body : model.bodies) {
+    if (body.material.law == "hyperelastic") continue;
+    for (int e = body.first_element; e < body.first_element + body.element_count; ++e) {
+      const std::array<float, 6>& s = stress[e];
+      peak.rise_to({-(double(s[0]) + s[1] + s[2]) / (3 * body.material.K()), e, Vec3::Zero(), simulation.time()});
+    }
+  }
+  if (peak.element >= 0) peak.position = centre(simulation.elements()[peak.element], model.dimension + 1, simulation.positions());
+  return peak;
+}
+
 Gauge::Gauge(const Simulation& simulation, const std::vector<ProbeConfig>& probes)
     : probes_(find_probes(probes, simulation.model(), simulation.elements())), sheets_(simulation.model()), top_(sheets_.top()) {
   for (Probe& probe : probes_) {

@@ -72,8 +72,7 @@ void RunPublisher::start(const RunShape& shape) {
   }
   forces_ = std::move(forces);
   PlasticStrainTopology topology;
-  topology.header.frame_id = options_.markers.frame;
-  topology.header.stamp = ros::Time::now();
+  topology.header = header();
   topology.scene = shape.scene;
   topology.dimension = shape.dimension;
   for (const Node& x : shape.initial_positions) topology.nodes.push_back(point_message(vec3(x)));
@@ -88,14 +87,14 @@ void RunPublisher::start(const RunShape& shape) {
 void RunPublisher::publish(const RunFrame& frame, const RunStatus& status, bool always) {
   next_ = std::chrono::steady_clock::now() +
           std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(1 / options_.rate));
-  const ros::Time stamp = status.header.stamp;
+  const std_msgs::Header& header = status.header;
   if (frame.is_finite()) {
-    if (always || mesh_.getNumSubscribers() > 0) mesh_.publish(markers_.at(frame, stamp));
-    publish_strain(frame, stamp, always);
-    publish_contact(frame, stamp, always);
+    if (always || mesh_.getNumSubscribers() > 0) mesh_.publish(markers_.at(frame, header.stamp));
+    publish_strain(frame, header, always);
+    publish_contact(frame, header, always);
   }
-  publish_poses(frame, stamp);
-  publish_forces(frame, stamp, always);
+  publish_poses(frame, header);
+  publish_forces(frame, header, always);
   publish(status);
 }
 
@@ -108,11 +107,10 @@ std_msgs::Header RunPublisher::header() const {
 
 void RunPublisher::publish(const RunStatus& status) { status_.publish(status); }
 
-void RunPublisher::publish_strain(const RunFrame& frame, const ros::Time& stamp, bool always) {
+void RunPublisher::publish_strain(const RunFrame& frame, const std_msgs::Header& header, bool always) {
   if (!always && strain_.getNumSubscribers() == 0) return;
   PlasticStrain message;
-  message.header.stamp = stamp;
-  message.header.frame_id = options_.markers.frame;
+  message.header = header;
   message.time_s = frame.time;
   message.step = frame.step;
   message.values = frame.plastic_strain;
@@ -122,11 +120,10 @@ void RunPublisher::publish_strain(const RunFrame& frame, const ros::Time& stamp,
 bool RunPublisher::wants_contact() const { return contact_.getNumSubscribers() > 0 || options_.markers.colour_by.rfind("contact_", 0) == 0; }
 bool RunPublisher::wants_thinning() const { return options_.markers.colour_by == "thinning"; }
 
-void RunPublisher::publish_contact(const RunFrame& frame, const ros::Time& stamp, bool always) {
+void RunPublisher::publish_contact(const RunFrame& frame, const std_msgs::Header& header, bool always) {
   if ((!always && contact_.getNumSubscribers() == 0) || frame.contact_gap.empty()) return;
   ContactFields message;
-  message.header.stamp = stamp;
-  message.header.frame_id = options_.markers.frame;
+  message.header = header;
   message.time_s = frame.time;
   message.step = frame.step;
   message.nodes.assign(surface_nodes_.begin(), surface_nodes_.end());
@@ -138,15 +135,14 @@ void RunPublisher::publish_contact(const RunFrame& frame, const ros::Time& stamp
   contact_.publish(message);
 }
 
-void RunPublisher::publish_poses(const RunFrame& frame, const ros::Time& stamp) {
+void RunPublisher::publish_poses(const RunFrame& frame, const std_msgs::Header& header) {
   std::vector<geometry_msgs::TransformStamped> poses;
   for (std::size_t k = 0; k < tools_.size(); ++k) {
     const ToolStatus& tool = frame.tools[k];
     if (!tool.present || !tool.position.allFinite()) continue;
     const geometry_msgs::Pose pose = pose_message(tool.position, tool.rotation);
     geometry_msgs::TransformStamped message;
-    message.header.stamp = stamp;
-    message.header.frame_id = options_.markers.frame;
+    message.header = header;
     message.child_frame_id = options_.markers.frame + "/" + tools_[k];
     message.transform.translation = vector_message(tool.position);
     message.transform.rotation = pose.orientation;
@@ -155,14 +151,13 @@ void RunPublisher::publish_poses(const RunFrame& frame, const ros::Time& stamp) 
   poses_.sendTransform(poses);
 }
 
-void RunPublisher::publish_forces(const RunFrame& frame, const ros::Time& stamp, bool always) {
+void RunPublisher::publish_forces(const RunFrame& frame, const std_msgs::Header& header, bool always) {
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     if (!always && forces_[k].getNumSubscribers() == 0) continue;
     const ToolStatus& tool = frame.tools[k];
     if (!tool.force.allFinite()) continue;
     geometry_msgs::WrenchStamped message;
-    message.header.stamp = stamp;
-    message.header.frame_id = options_.markers.frame;
+    message.header = header;
     message.wrench.force = vector_message(tool.force);
     message.wrench.torque = vector_message(Vec3(tool.moment + tool.position.cross(tool.force)));  // about the origin of the frame that it is told in
     forces_[k].publish(message);

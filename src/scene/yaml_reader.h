@@ -79,7 +79,7 @@ class YamlReader {
       const bool twice = members.count(key) > 0;
       if (!twice) lines_[here] = pair.first.Mark().line + 1;
       if (std::find(names.begin(), names.end(), key) == names.end()) {
-        faults_.add(here, "a key that does not exist", "the keys here are " + one_of(names, ", ") + did_you_mean(key, names));
+        refuse_key(here, "a key that does not exist", key, names);
       } else if (twice) {
         faults_.add(here, "twice, again on line " + std::to_string(pair.first.Mark().line + 1), "give it once");
       } else {
@@ -88,6 +88,10 @@ class YamlReader {
     }
     for (const YAML::Node& other : merged) merge(other, names, path, members);
     return members;
+  }
+
+  void refuse_key(const std::string& here, const std::string& given, const std::string& key, const std::vector<std::string>& names) {
+    faults_.add(here, given, "the keys here are " + one_of(names, ", ") + did_you_mean(key, names));
   }
 
   /// What `<<: *other` brings: the members of other that were not given here.
@@ -99,7 +103,7 @@ class YamlReader {
     for (const auto& pair : other) {
       const std::string key = pair.first.IsScalar() ? pair.first.Scalar() : "?", here = join_path(path, key);
       if (std::find(names.begin(), names.end(), key) == names.end()) {
-        faults_.add(here, "a key that does not exist, by <<", "the keys here are " + one_of(names, ", ") + did_you_mean(key, names));
+        refuse_key(here, "a key that does not exist, by <<", key, names);
       } else if (members.emplace(key, pair.second).second) {
         lines_[here] = pair.first.Mark().line + 1;
       }

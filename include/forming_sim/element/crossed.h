@@ -44,6 +44,7 @@
 #include <array>
 
 #include "forming_sim/material/constants.h"
+#include "forming_sim/mesh/cell_tables.h"
 #include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
@@ -75,6 +76,13 @@ template <class Item, class Way> Way crossed_mix(const Item& item, int first, co
   Way y = item(first) * x[0];
   for (int b = 1; b < 4; ++b) y += item(first + b) * x[b];
   return y;
+}
+/// The two edges of the law of triangle s. x: the ways from the middle to the corners.
+template <class Item, class Way> std::array<Way, 2> crossed_edges(const Item& item, const Way* x, int s) {
+  const Way drawn = crossed_mix(item, kCrossedApex, x);
+  std::array<Way, 2> edges;
+  for (int m = 0; m < 2; ++m) edges[m] = crossed_mix(item, kCrossed[s][m + 1] * 4, x) + item(kCrossedFreed + s) * drawn;
+  return edges;
 }
 
 }  // namespace forming_sim

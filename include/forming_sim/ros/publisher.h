@@ -47,10 +47,10 @@ class RunPublisher {
   std_msgs::Header header() const;
 
  private:
-  void publish_strain(const RunFrame& frame, const ros::Time& stamp, bool always);
-  void publish_contact(const RunFrame& frame, const ros::Time& stamp, bool always);
-  void publish_poses(const RunFrame& frame, const ros::Time& stamp);
-  void publish_forces(const RunFrame& frame, const ros::Time& stamp, bool always);
+  void publish_strain(const RunFrame& frame, const std_msgs::Header& header, bool always);
+  void publish_contact(const RunFrame& frame, const std_msgs::Header& header, bool always);
+  void publish_poses(const RunFrame& frame, const std_msgs::Header& header);
+  void publish_forces(const RunFrame& frame, const std_msgs::Header& header, bool always);
 
   ros::NodeHandle node_;
   PublishOptions options_;
