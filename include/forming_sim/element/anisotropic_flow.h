@@ -36,7 +36,6 @@ template <class T, int D, class Metric> Products<T> products(const Symmetric<T, 
 template <class T, int D, class Metric>
 [[gnu::always_inline]] inline T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli& moduli, const Plane<T>& strain, const T& share, Plane<T>& ep, T& rise,
                                                 const PlaneOf<T, D>& at, const Metric& A, const Symmetric<T, D>& end) {
-  constexpr int size = Symmetric<T, D>::size;
   const Plane<T> before = ep;
   {
     const Normal<T> far = normal(products(mean.S, moduli.stress(strain - ep), at, A), T(1) / mean.sigma, mean.slope * rise / mean.sigma);
@@ -52,17 +51,11 @@ template <class T, int D, class Metric>
   const T resistance = mean.modulus * contract(here.by_S(n), by_S) + T(3) * work(softer, here.by_s(n)) +
                        mean.slope * over * over * (T(4) * n.root * n.root * n.root + T(3) * n.varied * n.varied);
   T L = share * T(2) * n.root * (n.root - T(1)) / resistance;
-  const auto moved = [&](const T& by) {
-    Symmetric<T, D> S;
-    repeat<size>([&](auto i) { S[i] = mean.S[i] - by * mean.modulus * by_S[i]; });
-    return S;
-  };
-  const Symmetric<T, D> S = moved(L);
-  const T three = T(3) * L, after = work({s.a - three * softer.a, s.b - three * softer.b, s.shear - three * softer.shear}, at.part(A(S))) - back * contract(S, A(S));  // S : m/h
-  const auto turned = (n.Sm * after < T(0)) & (n.edge > T(0));
-  if (any(turned)) L *= select(turned, n.Sm / select(turned, n.Sm - after, T(1)), T(1));
-  const Symmetric<T, D> left = moved(L);
-  repeat<size>([&](auto i) { mean.S[i] = left[i]; });
+  // S : m/h of the end, which s follows: the edge lies where S will, not where its trial does
+  const T after = to.Sm - T(3) * L * work(softer, there.part);
+  const auto turned = (to.Sm * after < T(0)) & (to.edge > T(0));
+  if (any(turned)) L *= select(turned, to.Sm / select(turned, to.Sm - after, T(1)), T(1));
+  repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] -= L * mean.modulus * by_S[i]; });
   ep = {ep.a + T(3) * L * by_s.a, ep.b + T(3) * L * by_s.b, ep.shear + T(3) * L * by_s.shear};
   rise += T(3) * L * to.varied * over * to.over_root;
   mean.harden(T(2) * L * over * to.root);

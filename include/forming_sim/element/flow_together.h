@@ -209,7 +209,16 @@ template <class T, int D, bool Ring, class Metric = Isotropic> class FlowTogethe
       repeat<size>([&](auto i) { B[i] = i < 3 ? over * after[i] + (s - fall) : over * after[i]; });
       pull(B);
     }
-    dissipation_ = dissipation_ * (along / larger(SS, T(1e-30) * T(m.mu * m.mu))) + J_ * flowed;
+    T share;  // of what the law returned
+    if constexpr (Metric::is_one) {
+      share = along / larger(SS, T(1e-30) * T(m.mu * m.mu));
+    } else {
+      Symmetric<T, D> returned;
+      repeat<size>([&](auto i) { returned[i] = trial_[i] - S_[i]; });
+      const T own = contract(S_, returned);
+      share = select(own > T(0), contract(after, returned) / select(own > T(0), own, T(1)), T(1));
+    }
+    dissipation_ = dissipation_ * share + J_ * flowed;
   }
 
   Edges<T, D, Ring> edges_;
