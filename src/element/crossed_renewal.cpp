@@ -65,6 +65,13 @@ void Elements::renew_weights(const NodeField& x) {
             const auto G = moved_memory({layer[0][l], layer[1][l], layer[2][l], layer[3][l]}, edges[s][l], after);
             for (int i = 0; i < 4; ++i) layer[i][l] = G[i];
           }
+          if (g.solid.law != Law::hill) continue;
+          Lane* axes = memory + g.solid.layers * kLayerItems<2>;  // the fibres stay where they are
+          for (int fibre = 0; fibre < 2; ++fibre) {
+            const auto item = [&](int m) -> double& { return axes[fibre * 2 + m][l]; };
+            const Eigen::Vector2d d = after.inverse() * (edges[s][l] * Eigen::Vector2d(item(0), item(1)));
+            for (int m = 0; m < 2; ++m) item(m) = d[m];
+          }
         }
       }
       stillness_.forget();  // the forces that are kept are those of before

@@ -99,7 +99,7 @@ struct ElementStart {
 /// By the law of material/von_mises.h.
 bool may_flow(const SolidConstants& solid) {
   const auto flows = [](const auto& layer) { return layer.hardening.kind != HardeningCurve::elastic; };
-  return (solid.law == Law::green_elastic || solid.law == Law::paper) && std::any_of(solid.layer, solid.layer + solid.layers, flows);
+  return solid.law != Law::classical && solid.law != Law::hyperelastic && std::any_of(solid.layer, solid.layer + solid.layers, flows);
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
         forces.push_back(held_by[n]);
       }
   }
-  if (!nodes.empty()) fading.begin(time, duration, std::move(nodes), std::move(forces));
+  if (!nodes.empty()) fading.begin(time, duration, elements.stored_energy(x), std::move(nodes), std::move(forces));
 }
 
 }  // namespace forming_sim

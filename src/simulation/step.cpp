@@ -128,6 +128,12 @@ void Simulation::Impl::book_loads() {
   const double kick = 0.5 * (previous_dt + dt), alpha = damping_rate();
   const std::vector<double>& mass = elements.nodal_mass();
   for (std::size_t i = 0; i < external.size(); ++i) work += 0.5 * kick * external[i].dot(v_before[i] + v[i]);
+  if (!fading.empty() && fading.work(time, kick, v_before, v)) {
+    std::ostringstream text;
+    text << "what had let go of the bodies was to fade, but drove them on by more than the elastic energy that they could spring back by: they gave way. At " << time
+         << " s it was taken away at once; look at what they were held in, or give stages[].release_time less than they take to give way";
+    warnings.push_back(text.str());
+  }
   if (alpha > 0) {
     const auto mean = [&](int i) -> Node { return 0.5 * (v_before[i] + v[i]); };
     double lost = 0;

@@ -214,10 +214,13 @@ TEST(Crossed, WeightsFollowWhatHasBecomeShorter) {
 // Long cells that have flowed into square ones, unevenly: with their new weights they store what they did and feel the same stresses, and a state that was
 // saved goes on as it was.
 TEST(Crossed, NewWeightsChangeNoEnergy) {
-  for (bool ring : {false, true}) {
+  MaterialConfig rolled = aluminium(true);
+  rolled.anisotropy.emplace();
+  rolled.anisotropy->r0 = .6, rolled.anisotropy->r45 = 1.2, rolled.anisotropy->r90 = 1.9;
+  for (const auto& [ring, metal] : {std::pair(false, aluminium(true)), {true, aluminium(true)}, {false, rolled}, {true, rolled}}) {
     Mesh mesh = ring ? ring_block(CellKind::crossed, .3, 4) : block_of(CellKind::crossed, 4);
     for (Vec3& X : mesh.nodes) X.y() *= 4;
-    const BodyModel body = body_of(std::move(mesh), aluminium(true));
+    const BodyModel body = body_of(std::move(mesh), metal);
     const NodeField X = positions_of(body.mesh), rest(X.size(), Node::Zero());
     ElementOptions options;
     options.axisymmetric = ring;
@@ -234,7 +237,7 @@ TEST(Crossed, NewWeightsChangeNoEnergy) {
     elements.append_state(state);
     elements.renew_weights(x);
     const double after = elements.stored_energy(x);
-    std::printf("  %s: energy %.6g J, changed by %.1e of it\n", ring ? "rings" : "plane", energy, after / energy - 1);
+    std::printf("  %s%s: energy %.6g J, changed by %.1e of it\n", metal.anisotropy ? "rolled, " : "", ring ? "rings" : "plane", energy, after / energy - 1);
     EXPECT_NEAR(after, energy, 1e-12 * energy);
     EXPECT_EQ(elements.plastic_work(), work);
     // J S of the deviator: V of the law changes a little, where a cell is uneven.

@@ -1,4 +1,4 @@
-// Forces that fade: whole at their start, level at both ends, gone at their end.
+// Forces that fade: whole at their start, level at both ends, gone at their end, or once they have done more work than they may.
 #include <gtest/gtest.h>
 
 #include "forming_sim/loads/fading_forces.h"
@@ -15,8 +15,8 @@ Vec3 on(const FadingForces& forces, int n, double t) {
 TEST(FadingForces, FadeFromAllToNothing) {
   FadingForces forces;
   EXPECT_TRUE(forces.empty());
-  forces.begin(2, 4, {1, 3}, {node(Vec3(8, 0, -16)), node(Vec3(0, 1, 0))});
-  forces.begin(3, 2, {1}, {node(Vec3(0, 10, 0))});
+  forces.begin(2, 4, 1e9, {1, 3}, {node(Vec3(8, 0, -16)), node(Vec3(0, 1, 0))});
+  forces.begin(3, 2, 1e9, {1}, {node(Vec3(0, 10, 0))});
   EXPECT_EQ(on(forces, 1, 2), Vec3(8, 10, -16));
   EXPECT_EQ(on(forces, 3, 4), Vec3(0, 0.5, 0));
   EXPECT_EQ(on(forces, 1, 4), Vec3(4, 5, -8));
@@ -29,6 +29,19 @@ TEST(FadingForces, FadeFromAllToNothing) {
   EXPECT_FALSE(forces.empty());
   forces.forget(6);
   EXPECT_TRUE(forces.empty());
+}
+
+TEST(FadingForces, DriveNothingOnByMoreThanTheyMay) {
+  FadingForces forces;
+  forces.begin(2, 4, 10, {1}, {node(Vec3(0, 5, 0))});  // 5 N that may do 10 J
+  const NodeField along(4, node(Vec3(7, 1, 0))), against(4, node(Vec3(7, -1, 0)));
+  EXPECT_FALSE(forces.work(2, 1.9, along, along)) << "9.5 J";
+  EXPECT_FALSE(forces.work(2, 1, against, against)) << "what springs back moves against them: 4.5 J";
+  EXPECT_FALSE(forces.work(4, 1, along, along)) << "half of them is left: 7 J";
+  EXPECT_FALSE(forces.work(4, 9, along, against)) << "and stays so where the mean velocity is none";
+  EXPECT_TRUE(forces.work(2, 0.7, along, along)) << "10.5 J";
+  EXPECT_TRUE(forces.empty());
+  EXPECT_FALSE(forces.work(2, 1, along, along));
 }
 
 }  // namespace
