@@ -86,7 +86,7 @@ TEST(Squeeze, ABilletOfTallCellsIsUpsetEvenly) {
     auto sim = upset(r);
     while (sim->step()) {}
     EXPECT_EQ(sim->contact_status().crossings, 0);
-    EXPECT_LT(std::abs(sim->balance_error()), 1e-3);
+    EXPECT_LT(std::abs(sim->balance_error()), r == 1 ? 1e-3 : 2e-3);  // the return of the anisotropic law is of first order (docs/anisotropy.md)
     // Along the middle row, away from the rim: how far nodes lie off the middle of their neighbours.
     const NodeField& X = sim->initial_positions();
     std::map<double, double> row;  // x at the start, y at the end
