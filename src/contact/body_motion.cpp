@@ -44,11 +44,16 @@ template <class Square, class Right> Right solved(const Square& A, const Right& 
 }
 }  // namespace
 
-MovingBody::MovingBody(int first_node, int nodes, int modes) : first_node_(first_node), nodes_(nodes), modes_(modes) {
-  for (std::size_t n = 0, stride = stride_of(nodes, kAsked); n < static_cast<std::size_t>(nodes); n += stride) asked_.push_back(first_node + static_cast<int>(n));
-}
+MovingBody::MovingBody(int first_node, int nodes, int modes) : first_node_(first_node), nodes_(nodes), modes_(modes) {}
 
-void MovingBody::hold(const std::vector<HeldNode>& held) {
+bool MovingBody::hold(const std::vector<double>& inverse_mass, const std::vector<HeldNode>& held) {
+  std::vector<double> mass(nodes_);
+  for (int n = 0; n < nodes_; ++n) {
+    const double inverse = inverse_mass[first_node_ + n];
+    mass[n] = inverse > 0 ? 1 / inverse : 0;
+  }
+  const bool changed = mass != mass_;
+  mass_.swap(mass);
   std::vector<const HeldNode*> own;
   for (const HeldNode& h : held)
     if (h.node >= first_node_ && h.node < first_node_ + nodes_) own.push_back(&h);
@@ -60,10 +65,11 @@ void MovingBody::hold(const std::vector<HeldNode>& held) {
     for (int k = 0; k < 3; ++k)
       if (directions.eigenvalues()[k] > 0.5) held_.push_back({own[i]->node, node(directions.eigenvectors().col(k))});
   }
+  return changed;
 }
 
 // p: of the modes, of six (V, w); the velocity B p at r = x - c, of six B = (1, -r x); M = sum m B^T B about the masses' centre c, b = B^T n, G = sum b b^T, g = sum b n.v.
-template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, const std::vector<Hold>& holds, double points) {
+template <int modes> BodyMotion MovingBody::of(const MassSums& masses, const std::vector<Hold>& holds, double points) {
   using Vector = Eigen::Matrix<double, modes, 1>;
   using Square = Eigen::Matrix<double, modes, modes>;
   const auto rigid = [](const Node& c, const Vector& p) {
@@ -80,17 +86,16 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
     }
     return motion;
   };
-  Node c = Node::Zero(), momentum = Node::Zero();
-  double mass = 0;
-  const Mass* const last = masses + count;
-  for (const Mass* s = masses; s != last; ++s) {
-    mass += s->m;
-    c += s->m * s->x;
-    momentum += s->m * s->v;
-  }
-  if (mass > 0) c /= mass;
+  const double mass = masses.mass;
+  const Node momentum(masses.momentum), first(masses.first);
+  Node from_c = Node::Zero(), c(masses.from);  // the centre from where the sums begin
+  if (mass > 0) from_c = first / mass, c += from_c;
   else if (!holds.empty()) c = holds[0].x;
   c[3] = 0;
+  // About c: sum m r_i r_j, and L = sum m r x v
+  const Node square = Node(masses.square) - from_c.cwiseProduct(first);
+  const Vec3 L(masses.behind[1] - masses.ahead[1] - from_c[1] * momentum[2] + from_c[2] * momentum[1], masses.behind[2] - masses.ahead[2] - from_c[2] * momentum[0] + from_c[0] * momentum[2],
+               masses.behind[0] - masses.ahead[0] - from_c[0] * momentum[1] + from_c[1] * momentum[0]);
 
   constexpr int ways = modes == 6 ? 3 : modes == 3 ? 2 : 1;  // the modes without a turn
   constexpr double kLine = 1e-12;  // what lies on a line does not turn about it, nor what lies in a point
@@ -101,22 +106,16 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
   if constexpr (modes == 1) {
     Mp[0] = momentum[1];
   } else if constexpr (modes == 3) {
-    double L = 0, J = 0;
-    for (const Mass* s = masses; s != last; ++s) {
-      const Node r = s->x - c;
-      L += s->m * (r[0] * s->v[1] - r[1] * s->v[0]);
-      J += s->m * (r[0] * r[0] + r[1] * r[1]);
-    }
+    const double J = square[0] + square[1];
     if (mass > 0) size2 = J / mass;
-    Mp << momentum[0], momentum[1], L;
+    Mp << momentum[0], momentum[1], L[2];
     M(2, 2) = J;
   } else {
-    Vec3 L = Vec3::Zero();
-    Mat3 J = Mat3::Zero();
-    for (const Mass* s = masses; s != last; ++s) {
-      const Vec3 r = vec3(s->x - c);
-      L += s->m * r.cross(vec3(s->v));
-      J += s->m * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+    Mat3 J;
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      J(i, i) = square.head<3>().sum() - square[i];
+      J(i, j) = J(j, i) = from_c[j] * first[i] - masses.mixed[i];
     }
     if (mass > 0) size2 = J.trace() / (2 * mass);
     Mp << vec3(momentum), L;
@@ -165,8 +164,8 @@ template <int modes> BodyMotion MovingBody::of(const Mass* masses, int count, co
   return motion;
 }
 
-template BodyMotion MovingBody::of<1>(const Mass*, int, const std::vector<Hold>&, double);
-template BodyMotion MovingBody::of<3>(const Mass*, int, const std::vector<Hold>&, double);
-template BodyMotion MovingBody::of<6>(const Mass*, int, const std::vector<Hold>&, double);
+template BodyMotion MovingBody::of<1>(const MassSums&, const std::vector<Hold>&, double);
+template BodyMotion MovingBody::of<3>(const MassSums&, const std::vector<Hold>&, double);
+template BodyMotion MovingBody::of<6>(const MassSums&, const std::vector<Hold>&, double);
 
 }  // namespace forming_sim

@@ -66,7 +66,7 @@ void Contact::set_masses(const std::vector<double>& inverse_mass, const std::vec
   impl_->held = held;
   impl_->held_of.assign(inverse_mass.size(), -1);
   for (size_t i = 0; i < held.size(); ++i) impl_->held_of[held[i].node] = static_cast<int>(i);
-  impl_->waves.hold(held);
+  impl_->waves.hold(inverse_mass, held);
   impl_->listed = false;
 }
 
@@ -136,7 +136,7 @@ void Contact::Impl::follow_steady_motion(double dt, const std::vector<ToolMotion
     });
   }
   delay.follow(work, near.pairs, near.rubs, x.size(), waves);
-  waves.follow(dt, previous_dt > 0 ? previous_dt : dt, inverse_mass, x, before, v, pressed);
+  waves.follow(team, dt, previous_dt > 0 ? previous_dt : dt, x, before, v, pressed);
 }
 
 Books Contact::Impl::open_books(ContactStep& step) {
@@ -164,27 +164,29 @@ void Contact::add_normal_impulses(std::vector<double>& sum) const {
   }
 }
 
-std::vector<int> Contact::touched_by(const std::vector<char>& tools) const {
+std::vector<Contact::ActedOn> Contact::acted_on(const std::vector<char>& tools) const {
   const Impl& m = *impl_;
   const int bodies = m.features.bodies;
-  std::vector<char> near(m.features.area.size(), 0), others(near), act(tools.size(), 0);
+  std::vector<char> act(tools.size(), 0);
   for (const ContactPair& pair : m.near.pairs)
     if (const int tool = pair.tool(bodies); tool >= 0 && pair.impulse > 0) act[tool] = 1;
-  const auto see = [&](const Link& link, int tool, bool acts) {
+  std::vector<ActedOn> of(m.features.area.size());
+  const auto see = [&](const Link& link, int tool, bool acts, const Node& impulse) {
     const bool asked = tool >= 0 && tools[tool] && (act[tool] || acts);
     for (int k = 0; k < link.nodes; ++k) {
       if (link.node[k] >= m.work.body_entries) continue;
       const int n = m.work.vertex[link.node[k]];
-      near[n] = near[n] || asked;
-      others[n] = others[n] || (acts && !asked);
+      ActedOn& on = of[n];
+      on.node = n;
+      on.asked = on.asked || asked;
+      on.others = on.others || (acts && !asked);
+      if (asked) on.impulse += link.weight[k] * impulse;
     }
   };
-  for (const ContactPair& pair : m.near.pairs) see(pair, pair.tool(bodies), pair.impulse > 0);
-  for (const TiePair& tie : m.tie_pairs) see(tie, tie.tool, true);
-  std::vector<int> touched;
-  for (std::size_t n = 0; n < near.size(); ++n)
-    if (near[n] && !others[n]) touched.push_back(static_cast<int>(n));
-  return touched;
+  for (const ContactPair& pair : m.near.pairs) see(pair, pair.tool(bodies), pair.impulse > 0, m.impulse_of(pair));
+  for (const TiePair& tie : m.tie_pairs) see(tie, tie.tool, true, tie.impulse);
+  of.erase(std::remove_if(of.begin(), of.end(), [](const ActedOn& on) { return !on.asked && !on.others; }), of.end());
+  return of;
 }
 
 bool Contact::ties() const { return !impl_->ties.empty(); }
@@ -201,10 +203,7 @@ void Contact::add_held_impulses(std::vector<Vec3>& sum) const {
   };
   for (const TiePair& tie : impl_->tie_pairs) add(tie, tie.impulse);
   for (const ContactPair& pair : impl_->near.pairs) {
-    if (pair.impulse == 0) continue;
-    Node impulse = pair.impulse * pair.normal;
-    if (pair.rub >= 0) impulse += impl_->near.rubs[pair.rub].slip;
-    add(pair, impulse);
+    if (pair.impulse != 0) add(pair, impl_->impulse_of(pair));
   }
 }
 

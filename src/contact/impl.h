@@ -99,6 +99,11 @@ struct Contact::Impl {
   Books open_books(ContactStep& step);
   Books empty_books(ContactStep& step) const { return Books(work, near.rubs, features.bodies, static_cast<int>(tools.names.size()), layer, step); }
 
+  /// Of a pair in the last step, along its normal and along the surfaces, N s.
+  Node impulse_of(const ContactPair& pair) const {
+    const Node along = pair.impulse * pair.normal;
+    return pair.rub < 0 || pair.impulse == 0 ? along : Node(along + near.rubs[pair.rub].slip);
+  }
   /// What of the bodies' motion lasts, after a step from `before` to v.
   void follow_steady_motion(double dt, const std::vector<ToolMotion>& motion, const NodeField& x, const NodeField& before, const NodeField& v);
 

@@ -1,7 +1,9 @@
 #include "forming_sim/contact/shear_waves.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
+#include <type_traits>
 
 namespace forming_sim {
 
@@ -9,10 +11,14 @@ namespace {
 constexpr double kOver = 1e-6;  ///< phi of a vertex whose contact is over
 constexpr std::size_t kSaved = 8;  ///< numbers of a vertex
 constexpr std::size_t kHolds = 64; ///< vertices on tools that are asked
+
+static_assert(std::is_trivially_copyable_v<MassSums>);
+constexpr std::size_t kSavedMasses = 1 + sizeof(MassSums) / sizeof(double);  ///< of a body
 }  // namespace
 
 ShearWaves::ShearWaves(const std::vector<WaveBody>& bodies, std::size_t nodes, int modes) : bodies_(bodies), place_(nodes, -1) {
   for (const WaveBody& body : bodies) moving_.emplace_back(body.first_node, body.nodes, modes);
+  last_masses_.resize(bodies.size());
 }
 
 const WaveBody& ShearWaves::of_pair(int first, int second) const {
@@ -28,8 +34,9 @@ int ShearWaves::body_of(int n) const {
   return b;
 }
 
-void ShearWaves::hold(const std::vector<HeldNode>& held) {
-  for (MovingBody& body : moving_) body.hold(held);
+void ShearWaves::hold(const std::vector<double>& inverse_mass, const std::vector<HeldNode>& held) {
+  for (std::size_t b = 0; b < moving_.size(); ++b)
+    if (moving_[b].hold(inverse_mass, held)) last_masses_[b].known = false;
 }
 
 std::vector<const RubbedNode*> ShearWaves::holds_of(const WaveBody& body, const std::vector<RubbedNode>& pressed) const {
@@ -48,7 +55,7 @@ void ShearWaves::know_places() {
   for (std::size_t i = 0; i < rubs_.size(); ++i) place_[rubs_[i].node] = static_cast<int>(i);
 }
 
-void ShearWaves::follow(double dt, double last_dt, const std::vector<double>& inverse_mass, const NodeField& x, const NodeField& before, const NodeField& after, const std::vector<RubbedNode>& pressed) {
+void ShearWaves::follow(Team& team, double dt, double last_dt, const NodeField& x, const NodeField& before, const NodeField& after, const std::vector<RubbedNode>& pressed) {
   // A velocity belongs to the middle of its step.
   const auto place_after = [&](int n) -> Node { return x[n] - 0.5 * dt * after[n]; };
   const auto place_before = [&](int n) -> Node { return x[n] - dt * after[n] - 0.5 * last_dt * before[n]; };
@@ -57,6 +64,7 @@ void ShearWaves::follow(double dt, double last_dt, const std::vector<double>& in
   ChangeOfMotion whole;
   double part = 0;  // of what is steady, that the step changes
   next_.clear();
+  masses_.assign(moving_.size(), LastMasses());
   for (const Rubbing& r : rubs_) place_[r.node] = -1;
   std::size_t i = 0, p = 0;
   for (;;) {
@@ -78,7 +86,13 @@ void ShearWaves::follow(double dt, double last_dt, const std::vector<double>& in
         held_before.push_back({place_before(h->node), along, h->told_before / size});
         held_after.push_back({place_after(h->node), along, h->told / size});
       }
-      whole = ChangeOfMotion(moving_[b].motion(inverse_mass, before, place_before, std::move(held_before)), moving_[b].motion(inverse_mass, after, place_after, std::move(held_after)));
+      if (!last_masses_[b].known) {
+        NodeField x_before(x.size());
+        for (int k = body.first_node; k < body.first_node + body.nodes; ++k) x_before[k] = place_before(k);
+        last_masses_[b].sums = moving_[b].masses(team, x_before, before, 0);
+      }
+      masses_[b] = {true, moving_[b].masses(team, x, after, 0.5 * dt)};
+      whole = ChangeOfMotion(moving_[b].motion(last_masses_[b].sums, before, place_before, std::move(held_before)), moving_[b].motion(masses_[b].sums, after, place_after, std::move(held_after)));
       part = dt / (body.time + dt);
       of = b;
     }
@@ -97,11 +111,17 @@ void ShearWaves::follow(double dt, double last_dt, const std::vector<double>& in
     if (rubbed || phi > kOver) next_.push_back(r);
   }
   rubs_.swap(next_);
+  last_masses_.swap(masses_);
   know_places();
 }
 
 std::vector<double> ShearWaves::save() const {
   std::vector<double> saved;
+  for (const LastMasses& last : last_masses_) {
+    saved.push_back(last.known);
+    saved.resize(saved.size() + kSavedMasses - 1);
+    std::memcpy(&saved.back() - (kSavedMasses - 2), &last.sums, sizeof last.sums);
+  }
   for (const Rubbing& r : rubs_) saved.insert(saved.end(), {static_cast<double>(r.node), r.v[0], r.v[1], r.v[2], r.v[3], r.change[0], r.change[1], r.change[2]});
   return saved;
 }
@@ -109,7 +129,14 @@ std::vector<double> ShearWaves::save() const {
 void ShearWaves::restore(const std::vector<double>& saved) {
   for (const Rubbing& r : rubs_) place_[r.node] = -1;
   rubs_.clear();
-  for (std::size_t i = 0; i + kSaved <= saved.size(); i += kSaved) {
+  std::size_t i = 0;
+  for (LastMasses& last : last_masses_) {
+    if (i + kSavedMasses > saved.size()) break;
+    last.known = saved[i] != 0;
+    std::memcpy(&last.sums, &saved[i + 1], sizeof last.sums);
+    i += kSavedMasses;
+  }
+  for (; i + kSaved <= saved.size(); i += kSaved) {
     const double* s = &saved[i];
     rubs_.push_back({static_cast<int>(s[0]), Node(s[1], s[2], s[3], s[4]), Node(s[5], s[6], s[7], 0)});
   }

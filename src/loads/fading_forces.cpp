@@ -1,31 +1,64 @@
 #include "forming_sim/loads/fading_forces.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 
 namespace forming_sim {
 
-void FadingForces::begin(double start, double duration, double may_do, std::vector<int> nodes, std::vector<Node> forces) {
-  sets_.push_back({start, duration, may_do, std::move(nodes), std::move(forces)});
+namespace {
+/// v turned by the least rotation that takes n to m.
+Vec3 turned(const Vec3& v, const Vec3& n, const Vec3& m) {
+  const Vec3 s = n.cross(m), sv = s.cross(v);
+  return v + sv + s.cross(sv) / std::max(1 + n.dot(m), 1e-3);
+}
+}  // namespace
+
+void FadingForces::begin(double start, double duration, double may_do, const std::vector<HoldingForce>& forces, const std::vector<Face>& surface, const NodeField& x) {
+  Set set;
+  set.start = start;
+  set.duration = duration;
+  set.may_do = may_do;
+  set.forces = forces;
+  std::map<int, int> turning;  // of nodes
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    if (forces[i].on_surface) turning[forces[i].node] = static_cast<int>(i);
+  for (const Face& face : surface) {
+    const std::size_t before = set.corners.size();
+    for (int k = 0; k < face.corners; ++k)
+      if (const auto of = turning.find(face.nodes[k]); of != turning.end()) set.corners.push_back({static_cast<int>(set.faces.size()), k, of->second});
+    if (set.corners.size() > before) set.faces.push_back(face);
+  }
+  set.normals = set.normals_at(x);
+  sets_.push_back(std::move(set));
 }
 
-double FadingForces::Set::left(double t) const {
-  const double u = std::clamp((t - start) / duration, 0.0, 1.0);
-  return 1 - u * u * u * (10 - u * (15 - 6 * u));
+std::vector<Node> FadingForces::Set::normals_at(const NodeField& x) const {
+  std::vector<Node> normals(forces.size(), Node::Zero());
+  for (const Corner& c : corners) normals[c.force] += node(area_share(faces[c.face], c.k, x, false));
+  for (Node& n : normals)
+    if (!n.isZero(0)) n /= n.norm();
+  return normals;
 }
 
-void FadingForces::add(double t, NodeField& f) const {
-  for (const Set& set : sets_) {
-    const double left = set.left(t);
-    for (std::size_t i = 0; i < set.nodes.size(); ++i) f[set.nodes[i]] += left * set.forces[i];
+void FadingForces::add(double t, const NodeField& x, NodeField& f) {
+  for (Set& set : sets_) {
+    const double u = std::clamp((t - set.start) / set.duration, 0.0, 1.0), left = 1 - u * u * u * (10 - u * (15 - 6 * u));
+    const std::vector<Node> normals = set.normals_at(x);
+    set.added.resize(set.forces.size());
+    for (std::size_t i = 0; i < set.forces.size(); ++i) {
+      set.added[i] = left * node(turned(vec3(set.forces[i].force), vec3(set.normals[i]), vec3(normals[i])));
+      f[set.forces[i].node] += set.added[i];
+    }
   }
 }
 
-bool FadingForces::work(double t, double kick, const NodeField& v_before, const NodeField& v) {
+bool FadingForces::work(double kick, const NodeField& v_before, const NodeField& v) {
   const auto before = sets_.size();
   const auto spent = [&](Set& set) {
     double done = 0;
-    for (std::size_t i = 0; i < set.nodes.size(); ++i) done += set.forces[i].dot(v_before[set.nodes[i]] + v[set.nodes[i]]);
-    set.may_do -= 0.5 * kick * set.left(t) * done;
+    for (std::size_t i = 0; i < set.added.size(); ++i) done += set.added[i].dot(v_before[set.forces[i].node] + v[set.forces[i].node]);
+    set.may_do -= 0.5 * kick * done;
     return set.may_do < 0;
   };
   sets_.erase(std::remove_if(sets_.begin(), sets_.end(), spent), sets_.end());

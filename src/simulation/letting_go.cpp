@@ -50,7 +50,7 @@ double Simulation::Impl::release_time() const {
 }
 
 // What holds a node of a body at rest balances all other forces on it, f: so it is -f where tools pressed, and along the directions in
-// which a boundary lets go. What a tool pressed with on a node on which something else presses as well is not known: there it is gone at once.
+// which a boundary lets go. Where something else acts on the node as well it is what the tools did in the last step.
 void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_ended) {
   if (!any(stages.left()) && !boundaries_ended) return;
   const double duration = release_time();
@@ -58,35 +58,38 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
   NodeField f(x.size());
   sum_nodes(elements.team(), forces(), f);
   NodeField held_by(x.size(), Node::Zero());
-  const auto free_part = [&](const BoundarySet& set, int n) -> Node {
+  const auto free_part = [](const BoundarySet& set, int n, const Node& force) -> Node {
     const auto found = std::lower_bound(set.nodes().begin(), set.nodes().end(), n);
-    if (found == set.nodes().end() || *found != n) return f[n];
-    return node(Vec3(set.projector(static_cast<int>(found - set.nodes().begin())) * vec3(f[n])));
+    if (found == set.nodes().end() || *found != n) return force;
+    return node(Vec3(set.projector(static_cast<int>(found - set.nodes().begin())) * vec3(force)));
   };
   if (boundaries_ended)
-    for (int n : held_before.nodes()) held_by[n] = free_part(held_before, n) - free_part(boundaries, n);
-  const auto pressed_on = [&](int n) { return contact && std::abs(contact_force[n]) > least_press() * contact->nodal_area()[n]; };
-  if (contact)
-    for (int n : contact->touched_by(stages.left()))
-      if (pressed_on(n)) held_by[n] = -free_part(boundaries, n);
-  std::vector<int> nodes;
-  std::vector<Node> forces;
+    for (int n : held_before.nodes()) held_by[n] = free_part(held_before, n, f[n]) - free_part(boundaries, n, f[n]);
+  std::vector<char> on_surface(x.size(), 0), pressed_on(x.size(), 0);
+  if (contact) {
+    for (int n : touchable) pressed_on[n] = std::abs(contact_force[n]) > least_press() * contact->nodal_area()[n];
+    for (const Contact::ActedOn& on : contact->acted_on(stages.left())) {
+      const int n = on.node;
+      pressed_on[n] = pressed_on[n] || on.others;
+      if (!on.asked || !pressed_on[n]) continue;
+      held_by[n] = free_part(boundaries, n, on.others ? Node(on.impulse / previous_kick) : Node(-f[n]));
+      on_surface[n] = 1;
+    }
+  }
+  std::vector<HoldingForce> forces;
   for (const BodyModel& body : model.bodies) {
     Node moving = Node::Zero();  // what accelerates nodes that nothing presses on, all together
     double held = 0;
     const int end = body.first_node + body.node_count;
     for (int n = body.first_node; n < end; ++n) {
       held += held_by[n].norm();
-      if (!pressed_on(n)) moving += free_part(held_before, n);
+      if (!pressed_on[n]) moving += free_part(held_before, n, f[n]);
     }
     if (moving.norm() > kMoving * held) continue;  // it flies, or gathers speed: there is no rest that could be kept
     for (int n = body.first_node; n < end; ++n)
-      if (!held_by[n].isZero(0)) {
-        nodes.push_back(n);
-        forces.push_back(held_by[n]);
-      }
+      if (!held_by[n].isZero(0)) forces.push_back({n, on_surface[n] != 0, held_by[n]});
   }
-  if (!nodes.empty()) fading.begin(time, duration, elements.stored_energy(x), std::move(nodes), std::move(forces));
+  if (!forces.empty()) fading.begin(time, duration, elements.stored_energy(x), forces, faces, x);
 }
 
 }  // namespace forming_sim

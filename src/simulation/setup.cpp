@@ -280,7 +280,7 @@ std::vector<ToolMotion> Simulation::Impl::tool_motions(double step_dt) const {
       const double kick = 0.5 * (previous_dt + step_dt);
       motion.guide = drive->guide();
       motion.last_speed = drive->velocity().dot(motion.guide);
-      motion.inverse_mass = (1 + 0.5 * damping_rate() * kick) * drive->inverse_mass(kick);
+      motion.inverse_mass = drive->inverse_mass(kick);
       motion.position1 += step_dt * drive->free_speed(time, kick) * motion.guide;
     } else if (step_dt > 0) {
       const ToolPose b = stages.pose(k, time + step_dt);

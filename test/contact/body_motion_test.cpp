@@ -23,8 +23,14 @@ struct Cloud {
       inverse_mass.push_back(1 / (2 + in(random)));
     }
   }
-  BodyMotion motion(const MovingBody& body) const {
-    return body.motion(inverse_mass, v, [&](int n) { return x[n]; });
+  BodyMotion motion(const MovingBody& body, const std::vector<Hold>& holds = {}) const {
+    Team team(1);
+    return body.motion(body.masses(team, x, v, 0), v, [&](int n) { return x[n]; }, holds);
+  }
+  MovingBody body(int first, int nodes, int modes, const std::vector<HeldNode>& held = {}) const {
+    MovingBody body(first, nodes, modes);
+    body.hold(inverse_mass, held);
+    return body;
   }
 };
 
@@ -34,8 +40,8 @@ Node turning(const Vec3& v, const Vec3& w, const Node& x) { return node(v + w.cr
 
 TEST(BodyMotion, OfAFreeBodyHasItsMomentum) {
   for (const int dimension : {2, 3}) {
-    const Cloud cloud(40, dimension, 1);  // all of them are asked
-    const BodyMotion motion = cloud.motion(MovingBody(0, 40, rigid_modes(dimension, false)));
+    const Cloud cloud(40, dimension, 1);
+    const BodyMotion motion = cloud.motion(cloud.body(0, 40, rigid_modes(dimension, false)));
     Vec3 p = Vec3::Zero(), L = Vec3::Zero();
     for (int n = 0; n < 40; ++n) {
       const Vec3 rest = vec3(cloud.v[n] - motion.at(cloud.x[n])) / cloud.inverse_mass[n];
@@ -51,7 +57,7 @@ TEST(BodyMotion, OfARigidOneIsItsOwn) {
   Cloud cloud(5000, 3, 2);
   const Vec3 v(3, -2, 1), w(.5, .7, -.2);
   for (int n = 0; n < 5000; ++n) cloud.v[n] = turning(v, w, cloud.x[n]);
-  const BodyMotion motion = cloud.motion(MovingBody(0, 5000, 6));
+  const BodyMotion motion = cloud.motion(cloud.body(0, 5000, 6));
   for (int n = 0; n < 5000; n += 7) EXPECT_LT((motion.at(cloud.x[n]) - cloud.v[n]).norm(), 1e-10);
 }
 
@@ -67,12 +73,10 @@ TEST(BodyMotion, OfHalfABodyIsThatOfTheWhole) {
     whole.v[half + n][0] *= -1;
     whole.inverse_mass[half + n] = whole.inverse_mass[n];
   }
-  const BodyMotion exact = whole.motion(MovingBody(0, 2 * half, 6));
-  MovingBody body(0, half, 6);
+  const BodyMotion exact = whole.motion(whole.body(0, 2 * half, 6));
   std::vector<HeldNode> held;
   for (int n = 0; n < 3; ++n) held.push_back({n, Mat3(Vec3(0, 1, 1).asDiagonal())});
-  body.hold(held);
-  const BodyMotion found = whole.motion(body);
+  const BodyMotion found = whole.motion(whole.body(0, half, 6, held));
   for (int n = 0; n < half; ++n) EXPECT_LT((found.at(whole.x[n]) - exact.at(whole.x[n])).norm(), 1e-4);
 }
 
@@ -86,11 +90,10 @@ TEST(BodyMotion, OfAGrippedBodyIsThatOfItsGrips) {
     cloud.inverse_mass[n] = 0;
   }
   for (const int count : {200, 60}) {
-    MovingBody body(50, count - 50, 6);
-    body.hold(held);
+    MovingBody body = cloud.body(50, count - 50, 6, held);
     const BodyMotion motion = cloud.motion(body);
     for (int n = 50; n < 60; ++n) EXPECT_LT((motion.at(cloud.x[n]) - cloud.v[n]).norm(), 1e-5);
-    body.hold({});
+    body.hold(cloud.inverse_mass, {});
     if (count == 200) {
       EXPECT_GT((cloud.motion(body).at(cloud.x[50]) - cloud.v[50]).norm(), .1);
     }
@@ -102,8 +105,7 @@ TEST(BodyMotion, OfAPinnedBodyIsATurnAboutThePin) {
   Cloud cloud(64, 2, 5);
   cloud.v[7] = Node::Zero();
   cloud.inverse_mass[7] = 0;
-  MovingBody body(0, 64, 3);
-  body.hold({{7, Mat3::Zero()}});
+  const MovingBody body = cloud.body(0, 64, 3, {{7, Mat3::Zero()}});
   const BodyMotion motion = cloud.motion(body);
   double L = 0, J = 0;
   for (int n = 0; n < 64; ++n) {
@@ -119,10 +121,10 @@ TEST(BodyMotion, OfAPinnedBodyIsATurnAboutThePin) {
 // A block on a plane that rises: as the plane across it, by its masses along it.
 TEST(BodyMotion, OfABodyOnAToolIsTheToolsAcrossIt) {
   const Cloud cloud(64, 2, 7);
-  MovingBody body(0, 64, 3);
+  const MovingBody body = cloud.body(0, 64, 3);
   std::vector<Hold> holds;
   for (int n = 0; n < 5; ++n) holds.push_back({cloud.x[n], Node(0, 1, 0, 0), 3});
-  const BodyMotion motion = body.motion(cloud.inverse_mass, cloud.v, [&](int n) { return cloud.x[n]; }, holds);
+  const BodyMotion motion = cloud.motion(body, holds);
   double p = 0, m = 0;
   for (int n = 0; n < 64; ++n) {
     p += cloud.v[n][0] / cloud.inverse_mass[n];
@@ -139,7 +141,7 @@ TEST(BodyMotion, OfItsOwnHasNoMoreThanTheMassesHave) {
   std::normal_distribution<double> some;
   for (unsigned seed = 0; seed < 50; ++seed) {
     const Cloud cloud(64, 3, seed);
-    const MovingBody body(0, 64, 6);
+    const MovingBody body = cloud.body(0, 64, 6);
     const auto energy = [&](const BodyMotion& motion) {
       double sum = 0;
       for (int n = 0; n < 64; ++n) sum += motion.own.at(cloud.x[n]).squaredNorm() / cloud.inverse_mass[n];
@@ -150,7 +152,7 @@ TEST(BodyMotion, OfItsOwnHasNoMoreThanTheMassesHave) {
     for (int k = 0; k < 6; ++k) {
       const Vec3 n = Vec3(1e-3 * some(random), 1e-3 * some(random), 1).normalized();
       holds.push_back({cloud.x[k], node(n), some(random)});
-      EXPECT_LT(energy(body.motion(cloud.inverse_mass, cloud.v, [&](int i) { return cloud.x[i]; }, holds)), free * (1 + 1e-9)) << seed << ' ' << k;
+      EXPECT_LT(energy(cloud.motion(body, holds)), free * (1 + 1e-9)) << seed << ' ' << k;
     }
   }
 }
@@ -159,10 +161,10 @@ TEST(BodyMotion, OfItsOwnHasNoMoreThanTheMassesHave) {
 TEST(BodyMotion, ToolsThatDoNotAgreeTellNothing) {
   Cloud cloud(64, 2, 8);
   for (Node& v : cloud.v) v = Node::Zero();
-  const MovingBody body(0, 64, 3);
+  const MovingBody body = cloud.body(0, 64, 3);
   const auto across = [](double slope) { return Node(slope, 1, 0, 0).normalized(); };
   const std::vector<Hold> holds = {{Node(-1, -.1, 0, 0), across(1e-3), 0}, {Node(1, -.1, 0, 0), across(0), 0}, {Node(0, .1, 0, 0), across(0), -1}};
-  const BodyMotion motion = body.motion(cloud.inverse_mass, cloud.v, [&](int n) { return cloud.x[n]; }, holds);
+  const BodyMotion motion = cloud.motion(body, holds);
   EXPECT_EQ(motion.agreed, 0);
   for (const Node& x : cloud.x) EXPECT_LT(motion.told.at(x).norm(), 2);
 }
@@ -170,9 +172,9 @@ TEST(BodyMotion, ToolsThatDoNotAgreeTellNothing) {
 // In the plane the other three of the six modes are still.
 TEST(BodyMotion, OfThreeModesInThePlaneIsThatOfSix) {
   const Cloud cloud(64, 2, 9);
-  MovingBody flat(0, 64, 3), solid(0, 64, 6);
+  MovingBody flat = cloud.body(0, 64, 3), solid = cloud.body(0, 64, 6);
   const auto compare = [&](const std::vector<Hold>& holds) {
-    const auto motion = [&](const MovingBody& body) { return body.motion(cloud.inverse_mass, cloud.v, [&](int n) { return cloud.x[n]; }, holds); };
+    const auto motion = [&](const MovingBody& body) { return cloud.motion(body, holds); };
     const BodyMotion three = motion(flat), six = motion(solid);
     EXPECT_NEAR(three.agreed, six.agreed, 1e-12);
     for (int n = 0; n < 64; n += 5) {
@@ -184,7 +186,7 @@ TEST(BodyMotion, OfThreeModesInThePlaneIsThatOfSix) {
   const std::vector<Hold> on_tool = {{cloud.x[9], Node(1, 2, 0, 0).normalized(), std::sqrt(5)}, {cloud.x[20], Node(0, 1, 0, 0), .3}};
   compare({});
   compare(on_tool);
-  for (MovingBody* body : {&flat, &solid}) body->hold({{4, Mat3(Vec3(0, 1, 1).asDiagonal())}, {5, Mat3(Vec3(0, 0, 1).asDiagonal())}});
+  for (MovingBody* body : {&flat, &solid}) body->hold(cloud.inverse_mass, {{4, Mat3(Vec3(0, 1, 1).asDiagonal())}, {5, Mat3(Vec3(0, 0, 1).asDiagonal())}});
   compare({});
   compare(on_tool);
 }
@@ -192,18 +194,18 @@ TEST(BodyMotion, OfThreeModesInThePlaneIsThatOfSix) {
 // Off the axis nothing moves as a rigid body.
 TEST(BodyMotion, TurnedAboutAnAxisItIsAlongIt) {
   Cloud cloud(30, 2, 6);
-  MovingBody body(0, 30, 1);
+  MovingBody body = cloud.body(0, 30, 1);
   double p = 0, m = 0;
   for (int n = 0; n < 30; ++n) {
     p += cloud.v[n][1] / cloud.inverse_mass[n];
     m += 1 / cloud.inverse_mass[n];
   }
   for (const bool at_axis : {false, true}) {
-    if (at_axis) body.hold({{0, Mat3(Vec3(0, 1, 1).asDiagonal())}});
+    if (at_axis) body.hold(cloud.inverse_mass, {{0, Mat3(Vec3(0, 1, 1).asDiagonal())}});
     const Node v = cloud.motion(body).at(cloud.x[3]);
     EXPECT_NEAR(v[1], p / m, 1e-12);
     EXPECT_EQ(v[0], 0);
   }
-  body.hold({{0, Mat3(Vec3(1, 0, 1).asDiagonal())}});
+  body.hold(cloud.inverse_mass, {{0, Mat3(Vec3(1, 0, 1).asDiagonal())}});
   EXPECT_NEAR(cloud.motion(body).at(cloud.x[3])[1], cloud.v[0][1], 1e-5);
 }

@@ -22,7 +22,15 @@ struct Box {
       inverse_mass.push_back(1 / (1 + .3 * k));
     }
   }
-  ShearWaves waves(double time) const { return ShearWaves({{kImpedance, time, 0, 8}}, 8, 6); }
+  ShearWaves waves(double time) const {
+    ShearWaves waves({{kImpedance, time, 0, 8}}, 8, 6);
+    waves.hold(inverse_mass, {});
+    return waves;
+  }
+  static Team& team() {
+    static Team one(1);
+    return one;
+  }
 };
 
 RubbedNode rubbed(int node) {
@@ -59,7 +67,7 @@ TEST(ShearWaves, ABodyThatGathersSpeedAndTurnsIsSteady) {
       x[n] = place((step + 1) * dt, n);
       after[n] = (x[n] - place(step * dt, n)) / dt;
     }
-    if (step > 0) waves.follow(dt, dt, box.inverse_mass, x, before, after, all);
+    if (step > 0) waves.follow(box.team(), dt, dt, x, before, after, all);
     const auto steady = [&](int n, double steps) -> Node {
       Node v = waves.steady(n, steps, after[n]);
       v[3] = 0;
@@ -89,7 +97,7 @@ TEST(ShearWaves, FollowsAToolAcrossItsSurface) {
     base.back().told_before = (2 + n) * .5;
     base.back().told = (2 + n) * .7;
   }
-  waves.follow(1e-9, 1e-9, box.inverse_mass, box.X, before, after, base);
+  waves.follow(box.team(), 1e-9, 1e-9, box.X, before, after, base);
   for (const int n : {0, 1, 4, 5}) {
     const Node change = waves.steady(n, 1, after[n]) - waves.steady(n, 0, after[n]);
     EXPECT_NEAR(change[1], .2, 1e-4) << n;
@@ -116,7 +124,7 @@ TEST(ShearWaves, WhatSwingsLosesEnergyAtEveryFrequency) {
       RubbedNode now = rubbed(3);
       now.area = area;
       now.radiated = e;
-      waves.follow(dt, dt, box.inverse_mass, box.X, before, v, {now});
+      waves.follow(box.team(), dt, dt, box.X, before, v, {now});
       if (step < settled) continue;
       taken -= e[0] * v[3][0] / (kImpedance * area * dt);
       all += v[3][0] * v[3][0];
@@ -134,9 +142,9 @@ TEST(ShearWaves, CountsHowLongContactLasts) {
   ShearWaves waves = box.waves(1);
   const NodeField v(8, Node::Zero());
   const auto phi = [&](int n) { return waves.steady(n, 0, v[n])[3]; };
-  for (int step = 0; step < 1000; ++step) waves.follow(1e-3, 1e-3, box.inverse_mass, box.X, v, v, {rubbed(2), rubbed(5)});
+  for (int step = 0; step < 1000; ++step) waves.follow(box.team(), 1e-3, 1e-3, box.X, v, v, {rubbed(2), rubbed(5)});
   for (int n = 0; n < 8; ++n) EXPECT_NEAR(phi(n), n == 2 || n == 5 ? 1 - std::exp(-1.) : 0, 1e-3) << n;
-  for (int step = 0; step < 1000; ++step) waves.follow(1e-3, 1e-3, box.inverse_mass, box.X, v, v, {rubbed(5)});
+  for (int step = 0; step < 1000; ++step) waves.follow(box.team(), 1e-3, 1e-3, box.X, v, v, {rubbed(5)});
   EXPECT_NEAR(phi(2), std::exp(-1.) * (1 - std::exp(-1.)), 1e-3);
   EXPECT_NEAR(phi(5), 1 - std::exp(-2.), 1e-3);
 }
@@ -145,9 +153,9 @@ TEST(ShearWaves, WhatIsSavedGoesOnTheSame) {
   const Box box;
   const NodeField v(8, Node(1, 2, 3, 0)), later(8, Node(2, -1, 4, 0));
   ShearWaves waves = box.waves(1), resumed = box.waves(1);
-  for (int step = 0; step < 10; ++step) waves.follow(.1, .1, box.inverse_mass, box.X, v, v, {rubbed(1), rubbed(6)});
-  waves.follow(.1, .1, box.inverse_mass, box.X, v, later, {rubbed(6)});
-  resumed.follow(.1, .1, box.inverse_mass, box.X, v, v, {rubbed(3)});  // what it knew is gone
+  for (int step = 0; step < 10; ++step) waves.follow(box.team(), .1, .1, box.X, v, v, {rubbed(1), rubbed(6)});
+  waves.follow(box.team(), .1, .1, box.X, v, later, {rubbed(6)});
+  resumed.follow(box.team(), .1, .1, box.X, v, v, {rubbed(3)});  // what it knew is gone
   resumed.restore(waves.save());
   for (int n = 0; n < 8; ++n) EXPECT_EQ(waves.steady(n, .5, later[n]), resumed.steady(n, .5, later[n])) << n;
 }

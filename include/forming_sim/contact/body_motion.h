@@ -10,11 +10,12 @@
 // the inclination of the one against the other would throw it about. And as far as they agree: a punch that moves into a sheet on a die that
 // rests moves no rigid body, and tells the sheet nothing.
 //
-// Some nodes are asked, not all: of a body that swings they tell its motion as a whole up to a part of the swing.
-#include <array>
+// All masses count: of a swing, which has no momentum, some of them see a motion that the body does not make. As a reference of friction that motion fed
+// the swing (`sliding_swing`: DampedABlockOfSquarePlanFeelsWhatItShould). Of what is held or touched by tools some nodes are asked.
 #include <vector>
 
 #include "forming_sim/contact/held_node.h"
+#include "forming_sim/contact/mass_sums.h"
 
 namespace forming_sim {
 
@@ -62,35 +63,29 @@ class MovingBody {
   /// modes: rigid_modes().
   MovingBody(int first_node, int nodes, int modes);
 
-  /// What is held from now on; nodes of other bodies do not count.
-  void hold(const std::vector<HeldNode>& held);
-  /// v: of all nodes; place(n): where node n is when it has that velocity. inverse_mass: 0: held in all directions. holds: beside the held nodes.
-  template <class Place> BodyMotion motion(const std::vector<double>& inverse_mass, const NodeField& v, Place&& place, std::vector<Hold> holds = {}) const {
-    std::array<Mass, kAsked> masses;
-    int count = 0;
-    for (const int n : asked_)
-      if (inverse_mass[n] > 0) masses[count++] = {1 / inverse_mass[n], place(n), v[n]};
+  /// Masses and what is held from now on. inverse_mass, held: of all nodes, those of other bodies do not count; 0: held in all directions. Returns whether masses have changed.
+  bool hold(const std::vector<double>& inverse_mass, const std::vector<HeldNode>& held);
+  /// How the masses move that stand at x - back v. x, v: of all nodes.
+  MassSums masses(Team& team, const NodeField& x, const NodeField& v, double back) const { return sum_masses(team, mass_, first_node_, x, v, back); }
+  /// v: of all nodes; place(n): where node n is when it has that velocity; masses: with these. holds: beside the held nodes.
+  template <class Place> BodyMotion motion(const MassSums& masses, const NodeField& v, Place&& place, std::vector<Hold> holds = {}) const {
     const double points = static_cast<double>(holds.size() + held_points_);
     for (const HeldAlong& h : held_) holds.push_back({place(h.node), h.along, h.along.dot(v[h.node])});
-    return modes_ == 1 ? of<1>(masses.data(), count, holds, points) : modes_ == 3 ? of<3>(masses.data(), count, holds, points) : of<6>(masses.data(), count, holds, points);
+    return modes_ == 1 ? of<1>(masses, holds, points) : modes_ == 3 ? of<3>(masses, holds, points) : of<6>(masses, holds, points);
   }
 
  private:
-  static constexpr std::size_t kAsked = 64, kHeldAsked = 16;
-  struct Mass {
-    double m;
-    Node x, v;
-  };
+  static constexpr std::size_t kHeldAsked = 16;
   /// A direction in which a node is held.
   struct HeldAlong {
     int node;
     Node along;
   };
   /// points: that have the holds.
-  template <int modes> static BodyMotion of(const Mass* masses, int count, const std::vector<Hold>& holds, double points);
+  template <int modes> static BodyMotion of(const MassSums& masses, const std::vector<Hold>& holds, double points);
 
   int first_node_, nodes_, modes_;
-  std::vector<int> asked_;
+  std::vector<double> mass_;  ///< kg; 0: held in all directions
   std::vector<HeldAlong> held_;
   std::size_t held_points_ = 0;
 };

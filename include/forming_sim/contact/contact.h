@@ -159,8 +159,15 @@ class Contact {
   /// Adds the impulses of the last step on the nodes given to set_masses as held, in their order, along the
   /// directions that are held: what holds them bears these. N s.
   void add_held_impulses(std::vector<Vec3>& sum) const;
-  /// Nodes of the bodies, increasing, that are near or tied to one of these tools (1) which pressed or pulled in the last step, and that nothing else pressed on in it.
-  std::vector<int> touched_by(const std::vector<char>& tools) const;
+  /// What acted on a node of a body in the last step: one of the tools that are asked for, or something else.
+  struct ActedOn {
+    int node = -1;
+    bool asked = false;          ///< near or tied to one of the tools, which pressed or pulled somewhere
+    bool others = false;         ///< something else pressed on it, or ties it
+    Node impulse = Node::Zero(); ///< of the tools, N s
+  };
+  /// tools: 1 for those asked for. In the order of the nodes.
+  std::vector<ActedOn> acted_on(const std::vector<char>& tools) const;
   const std::vector<double>& nodal_area() const;      ///< of the bodies' nodes at the start, m^2 (m in plane strain); 0 inside
 
   /// Distance of every node of the bodies' surfaces from the nearest other surface

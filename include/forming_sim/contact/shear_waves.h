@@ -68,10 +68,10 @@ class ShearWaves {
   const WaveBody& of_pair(int first, int second) const;
   const WaveBody& of_node(int n) const { return bodies_[body_of(n)]; }
 
-  /// What is held from now on.
-  void hold(const std::vector<HeldNode>& held);
+  /// Masses and what is held from now on.
+  void hold(const std::vector<double>& inverse_mass, const std::vector<HeldNode>& held);
   /// After a step of dt, behind one of last_dt, that took the velocities from `before` to `after` and the nodes to x. pressed: the vertices with 1 in phi's law, in rising order.
-  void follow(double dt, double last_dt, const std::vector<double>& inverse_mass, const NodeField& x, const NodeField& before, const NodeField& after, const std::vector<RubbedNode>& pressed);
+  void follow(Team& team, double dt, double last_dt, const NodeField& x, const NodeField& before, const NodeField& after, const std::vector<RubbedNode>& pressed);
 
   // For checkpoints.
   std::vector<double> save() const;
@@ -82,12 +82,18 @@ class ShearWaves {
     int node;
     Node v, change;  ///< v_s and phi; dv_r of the last step
   };
+  /// What the masses of a body did in the last step, if it rubbed then.
+  struct LastMasses {
+    bool known = false;
+    MassSums sums;
+  };
   int body_of(int n) const;
   std::vector<const RubbedNode*> holds_of(const WaveBody& body, const std::vector<RubbedNode>& pressed) const;
   void know_places();
 
   std::vector<WaveBody> bodies_;
   std::vector<MovingBody> moving_;
+  std::vector<LastMasses> last_masses_, masses_;  ///< of every body; masses_: of the step
   std::vector<Rubbing> rubs_, next_;  ///< in rising order of their nodes
   std::vector<int> place_;            ///< of every node in rubs_, -1: none
 };

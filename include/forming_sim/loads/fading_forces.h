@@ -2,20 +2,30 @@
 // Forces on nodes that are there at once and fade: what a body was held by that has been let go.
 #include <vector>
 
+#include "forming_sim/mesh/faces.h"
 #include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
 
-/// f(t) = f (1 - 10 u^3 + 15 u^4 - 6 u^5), u = (t - start)/duration: level at both ends. They keep their direction.
+/// What held a node, N. With a surface, of a tool that pressed on it, it turns as that does; else it keeps its direction.
+struct HoldingForce {
+  int node = -1;
+  bool on_surface = false;
+  Node force = Node::Zero();
+};
+
+/// f(t) = f (1 - 10 u^3 + 15 u^4 - 6 u^5), u = (t - start)/duration: level at both ends.
+/// Pressures on both faces of a sheet that kept their directions would turn it on, as a force along it of p t does that makes it buckle; the tools did not. So
+/// forces of tools turn from the normal that their node had to the one it has.
 /// What springs back moves against them. Where a body gives way instead, they would drive it on, and more the less it bears.
 class FadingForces {
  public:
-  /// nodes and their forces, N, from `start` for `duration`, s; at most until they have done the work `may_do`, J.
-  void begin(double start, double duration, double may_do, std::vector<int> nodes, std::vector<Node> forces);
-  /// f += forces at time t.
-  void add(double t, NodeField& f) const;
-  /// Takes the work that they do at time t, for `kick` s at the mean of two velocities, from what they may; whether any had to be dropped.
-  bool work(double t, double kick, const NodeField& v_before, const NodeField& v);
+  /// From `start` for `duration`, s; at most until they have done the work `may_do`, J. surface: of the bodies, at x.
+  void begin(double start, double duration, double may_do, const std::vector<HoldingForce>& forces, const std::vector<Face>& surface, const NodeField& x);
+  /// f += forces at time t, of bodies at x.
+  void add(double t, const NodeField& x, NodeField& f);
+  /// Takes the work that those that were added do for `kick` s at the mean of two velocities from what they may; whether any had to be dropped.
+  bool work(double kick, const NodeField& v_before, const NodeField& v);
   /// Drops what has faded away.
   void forget(double t);
   bool empty() const { return sets_.empty(); }
@@ -29,17 +39,26 @@ class FadingForces {
       a.number(set.start);
       a.number(set.duration);
       a.number(set.may_do);
-      a.list(set.nodes);
       a.list(set.forces);
+      a.list(set.normals);
+      a.list(set.corners);
+      a.list(set.faces);
     }
   }
 
  private:
+  /// Corner k of face f, whose node has a force that turns.
+  struct Corner {
+    int face, k, force;
+  };
   struct Set {
     double start = 0, duration = 0, may_do = 0;
-    std::vector<int> nodes;
-    std::vector<Node> forces;
-    double left(double t) const;  ///< share of the forces
+    std::vector<HoldingForce> forces;
+    std::vector<Node> normals;  ///< at the start, of length 1; 0: keeps its direction
+    std::vector<Face> faces;
+    std::vector<Corner> corners;
+    std::vector<Node> added;  ///< of every force, N, by the last add()
+    std::vector<Node> normals_at(const NodeField& x) const;
   };
   std::vector<Set> sets_;
 };

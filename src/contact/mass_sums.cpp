@@ -1,0 +1,38 @@
+#include "forming_sim/contact/mass_sums.h"
+
+#include <algorithm>
+
+namespace forming_sim {
+
+const MassKernels& mass_kernels_of(Isa isa) {
+  return isa == Isa::avx512 ? avx512::mass_kernels() : isa == Isa::avx2 ? avx2::mass_kernels() : sse2::mass_kernels();
+}
+
+MassSums sum_masses(Team& team, const std::vector<double>& mass, int first, const NodeField& x, const NodeField& v, double back) {
+  constexpr long kChunk = 4096;  // nodes; as many sums, however many threads there are
+  static const MassKernels& kernels = mass_kernels_of(choose_isa());
+  const long nodes = static_cast<long>(mass.size()), chunks = (nodes + kChunk - 1) / kChunk;
+  MassSums all;
+  if (nodes == 0) return all;
+  std::copy(x[first].data(), x[first].data() + 4, all.from);
+  const auto add = [&](long chunk, MassSums& sums) {
+    kernels.add(mass.data(), x[first].data(), v[first].data(), back, chunk * kChunk, std::min(nodes, (chunk + 1) * kChunk), sums);
+  };
+  if (chunks == 1) {
+    add(0, all);
+    return all;
+  }
+  std::vector<MassSums> parts(chunks, all);
+  team.share(chunks, 3, [&](long from, long to) {
+    for (long chunk = from; chunk < to; ++chunk) add(chunk, parts[chunk]);
+  });
+  for (const MassSums& part : parts) {
+    all.mass += part.mass;
+    each_sum(all, part, [](double* sum, const double* more) {
+      for (int i = 0; i < 4; ++i) sum[i] += more[i];
+    });
+  }
+  return all;
+}
+
+}  // namespace forming_sim
