@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace forming_sim {
 
@@ -14,12 +15,12 @@ Vec3 turned(const Vec3& v, const Vec3& n, const Vec3& m) {
 }
 }  // namespace
 
-void FadingForces::begin(double start, double duration, double may_do, const std::vector<HoldingForce>& forces, const std::vector<Face>& surface, const NodeField& x) {
+void FadingForces::begin(double start, double duration, double may_do, const OfBody& body, std::vector<HoldingForce> forces, const std::vector<Face>& surface, const NodeField& x) {
   Set set;
   set.start = start;
   set.duration = duration;
   set.may_do = may_do;
-  set.forces = forces;
+  set.body = body;
   std::map<int, int> turning;  // of nodes
   for (std::size_t i = 0; i < forces.size(); ++i)
     if (forces[i].on_surface) turning[forces[i].node] = static_cast<int>(i);
@@ -29,6 +30,7 @@ void FadingForces::begin(double start, double duration, double may_do, const std
       if (const auto of = turning.find(face.nodes[k]); of != turning.end()) set.corners.push_back({static_cast<int>(set.faces.size()), k, of->second});
     if (set.corners.size() > before) set.faces.push_back(face);
   }
+  set.forces = std::move(forces);
   set.normals = set.normals_at(x);
   sets_.push_back(std::move(set));
 }
@@ -41,23 +43,31 @@ std::vector<Node> FadingForces::Set::normals_at(const NodeField& x) const {
   return normals;
 }
 
-void FadingForces::add(double t, const NodeField& x, NodeField& f) {
+void FadingForces::add(double t, const NodeField& x, const std::vector<double>& mass, NodeField& f) {
   for (Set& set : sets_) {
     const double u = std::clamp((t - set.start) / set.duration, 0.0, 1.0), left = 1 - u * u * u * (10 - u * (15 - 6 * u));
     const std::vector<Node> normals = set.normals_at(x);
     set.added.resize(set.forces.size());
+    Node more = Node::Zero();
     for (std::size_t i = 0; i < set.forces.size(); ++i) {
       set.added[i] = left * node(turned(vec3(set.forces[i].force), vec3(set.normals[i]), vec3(normals[i])));
+      more += set.added[i] - left * set.forces[i].force;
       f[set.forces[i].node] += set.added[i];
     }
+    const auto first = mass.begin() + set.body.first_node;
+    set.acceleration = set.corners.empty() ? Node(Node::Zero()) : node(Vec3(set.body.free * vec3(more) / std::accumulate(first, first + set.body.nodes, 0.0)));
+    if (set.corners.empty()) continue;
+    for (int n = set.body.first_node; n < set.body.first_node + set.body.nodes; ++n) f[n] -= mass[n] * set.acceleration;
   }
 }
 
-bool FadingForces::work(double kick, const NodeField& v_before, const NodeField& v) {
+bool FadingForces::work(double kick, const std::vector<double>& mass, const NodeField& v_before, const NodeField& v) {
   const auto before = sets_.size();
   const auto spent = [&](Set& set) {
     double done = 0;
     for (std::size_t i = 0; i < set.added.size(); ++i) done += set.added[i].dot(v_before[set.forces[i].node] + v[set.forces[i].node]);
+    if (!set.acceleration.isZero(0))
+      for (int n = set.body.first_node; n < set.body.first_node + set.body.nodes; ++n) done -= mass[n] * set.acceleration.dot(v_before[n] + v[n]);
     set.may_do -= 0.5 * kick * done;
     return set.may_do < 0;
   };

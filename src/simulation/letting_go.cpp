@@ -1,5 +1,6 @@
 // What lets go of a body: tools that leave while they press on it, boundaries that end. Taken away in one step their forces would send
 // a wave through the body, which makes it flow anew where it was about to. So they stay as forces on its nodes, and fade.
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,17 @@ double time_to_rest(const std::vector<StageConfig>& stages, int begin) {
     if (stages[k].kind == "settle") break;
   }
   return longest_time(until);
+}
+/// The projector on the directions in which no node of the body is held.
+Mat3 free_ways(const BoundarySet& held, const BodyModel& body) {
+  Mat3 all = Mat3::Zero();
+  for (std::size_t i = 0; i < held.nodes().size(); ++i)
+    if (held.nodes()[i] >= body.first_node && held.nodes()[i] < body.first_node + body.node_count) all += Mat3::Identity() - held.projector(static_cast<int>(i));
+  const Eigen::SelfAdjointEigenSolver<Mat3> directions(all);
+  Mat3 free = Mat3::Zero();
+  for (int k = 0; k < 3; ++k)
+    if (directions.eigenvalues()[k] < 1e-9) free += directions.eigenvectors().col(k) * directions.eigenvectors().col(k).transpose();
+  return free;
 }
 }  // namespace
 
@@ -76,7 +88,6 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
       on_surface[n] = 1;
     }
   }
-  std::vector<HoldingForce> forces;
   for (const BodyModel& body : model.bodies) {
     Node moving = Node::Zero();  // what accelerates nodes that nothing presses on, all together
     double held = 0;
@@ -86,10 +97,11 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
       if (!pressed_on[n]) moving += free_part(held_before, n, f[n]);
     }
     if (moving.norm() > kMoving * held) continue;  // it flies, or gathers speed: there is no rest that could be kept
+    std::vector<HoldingForce> forces;
     for (int n = body.first_node; n < end; ++n)
       if (!held_by[n].isZero(0)) forces.push_back({n, on_surface[n] != 0, held_by[n]});
+    if (!forces.empty()) fading.begin(time, duration, elements.stored_energy(x), {body.first_node, body.node_count, free_ways(boundaries, body)}, std::move(forces), faces, x);
   }
-  if (!forces.empty()) fading.begin(time, duration, elements.stored_energy(x), forces, faces, x);
 }
 
 }  // namespace forming_sim

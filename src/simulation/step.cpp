@@ -31,7 +31,7 @@ void Simulation::Impl::find_loads() {
   external.assign(x.size(), Node::Zero());
   pressures.add(time, x, external);
   dead_loads.add(time, external);
-  fading.add(time, x, external);
+  fading.add(time, x, elements.nodal_mass(), external);
   if (!plan.gravity.isZero()) add_gravity(plan.gravity, physical_mass, external);
 }
 
@@ -128,7 +128,7 @@ void Simulation::Impl::book_loads() {
   const double kick = 0.5 * (previous_dt + dt), alpha = damping_rate();
   const std::vector<double>& mass = elements.nodal_mass();
   for (std::size_t i = 0; i < external.size(); ++i) work += 0.5 * kick * external[i].dot(v_before[i] + v[i]);
-  if (!fading.empty() && fading.work(kick, v_before, v)) {
+  if (!fading.empty() && fading.work(kick, mass, v_before, v)) {
     std::ostringstream text;
     text << "what had let go of the bodies was to fade, but drove them on by more than the elastic energy that they could spring back by: they gave way. At " << time
          << " s it was taken away at once; look at what they were held in, or give stages[].release_time less than they take to give way";

@@ -127,6 +127,66 @@ TEST(LettingGo, APulledBlockComesToRestWhereverItsPressuresAre) {
   }
 }
 
+// A strip that planes press on from both sides, all elastic, and that is held at one end. Two pressures of fixed directions would make it buckle: its tip swung by
+// 13 mm and stayed bent (60 MPa on steel of 60 x 1 mm).
+TEST(LettingGo, APressedStripStaysFlat) {
+  BlankConfig strip = strip_of(60e-3, 1e-3, 60, 2);
+  strip.pattern = "one_point";
+  OneBody run(body_of(generate_blank(strip), aluminium(true)), 2e-4);
+  run.plan.gravity = Vec3(0, -9.81, 0);
+  Mesh& mesh = run.model.bodies[0].mesh;
+  for (int n : mesh.sets.at("left"))
+    if (std::abs(mesh.nodes[n].y() - 0.5e-3) < 1e-9) mesh.sets["middle"] = {n};
+  BoundaryConfig middle;
+  middle.set = "middle";
+  middle.kind = "fixed";
+  run.plan.bodies[0].boundaries = {symmetric("left", Vec3::UnitX()), middle};
+  for (int up = 0; up < 2; ++up) {
+    ToolModel plane = plane_at(up ? "above" : "below", 2, Vec3::Zero(), up ? Vec3(0, -1, 0) : Vec3(0, 1, 0));
+    plane.position = Vec3(0, up ? 1e-3 : 0, 0);
+    if (up) lead(plane, 2e-4, Vec3(0, -1.3e-6, 0));
+    run.model.tools.push_back(plane);
+  }
+  run.plan.stages.push_back(withdraw(0, 1e-5));
+  run.plan.stages.push_back(settle(20e-3));
+  auto sim = run.start();
+  while (sim->stage() == 0) sim->step();
+  EXPECT_GT(sim->tools()[1].force.norm(), 80e6 * 58e-3);
+  const int tip = sim->model().bodies[0].mesh.sets.at("right")[0];
+  double most = 0;
+  while (sim->step()) most = std::max(most, std::abs(sim->positions()[tip][1] - sim->initial_positions()[tip][1]));
+  std::printf("  the tip goes %.2g mm\n", 1e3 * most);
+  EXPECT_LT(most, 1e-5);
+  EXPECT_EQ(sim->energies().plastic, 0);
+}
+
+// Two sheets that are tied are let go as the one that they are.
+TEST(LettingGo, TiedSheetsSpringBackAsOne) {
+  double tip[2];
+  for (const bool tied : {false, true}) {
+    OneBody run = pressed_strip();
+    if (tied) {
+      BodyModel low = body_of(generate_blank(strip_of(0.02, 0.5e-3, 40, 2)), aluminium(true));
+      BlankConfig above = strip_of(0.02, 0.5e-3, 40, 2);
+      above.origin = Vec3(0, 0.5e-3, 0);
+      BodyModel high = body_of(generate_blank(above), aluminium(true));
+      low.name = "low", high.name = "high";
+      low.name = "low";
+      run.model.bodies = {low};
+      const std::vector<BoundaryConfig> clamped = run.plan.bodies[0].boundaries;
+      add_flying(run.model, run.plan, std::move(high), "high", Vec3::Zero()).boundaries = clamped;
+      PairConfig together;
+      together.first = "low", together.second = "high", together.kind = "tied";
+      run.plan.contact.pairs.push_back(together);
+    } else {
+      run.model.bodies = {body_of(generate_blank(strip_of(0.02, 1e-3, 40, 4)), aluminium(true))};
+    }
+    tip[tied] = release(run, withdraw(0, 1e-5), settle(20e-3)).tip;
+  }
+  std::printf("  the tip stays at %.4g and %.4g mm\n", 1e3 * tip[0], 1e3 * tip[1]);
+  EXPECT_NEAR(tip[1], tip[0], .01 * std::abs(tip[0]));
+}
+
 // A thin layer between two plates that part is torn, not sprung back: what held it must not go on tearing. Once this ended with cells
 // squeezed flat, with eight thousand J/m.
 TEST(LettingGo, WhatGivesWayIsNotDrivenOn) {
