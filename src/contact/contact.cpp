@@ -9,6 +9,10 @@
 
 namespace forming_sim {
 
+namespace {
+constexpr double kOfClearance = .2;  ///< bodies that stand close are to meet where they meet, not a layer before
+}
+
 Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vector<ToolMotion>& at_start) : impl_(new Impl(setup.team)) {
   Impl& m = *impl_;
   m.config = setup.config;
@@ -20,6 +24,7 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
     m.body_vertices.insert(m.body_vertices.end(), own.begin(), own.end());
   }
   m.layer = setup.config.layer > 0 ? setup.config.layer : std::min(0.05 * m.features.smallest_edge, 1e-3 * setup.thinnest);
+  if (const double clearance = setup.config.layer > 0 ? 0 : clearance_of_bodies(m.layer, setup, m.features, at); clearance > 0) m.layer = std::min(m.layer, kOfClearance * clearance);
   m.thickest = m.layer;
   m.ceiling = std::max(m.layer, 0.05 * m.features.smallest_edge);
   m.modulus = setup.config.stiffness > 0 ? setup.config.stiffness : setup.softest_modulus;

@@ -1,7 +1,9 @@
 // Do the bodies start free of the tools? Small overlaps are mended, deep ones refused.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
+#include <utility>
 
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/crossing.h"
@@ -211,6 +213,23 @@ class Start {
 };
 
 }  // namespace
+
+double clearance_of_bodies(double layer, const ContactSetup& setup, const Features& f, const NodeField& x) {
+  constexpr double kTouch = .05;  // of the layer
+  if (f.bodies < 2) return 0;
+  const ToolSet none;
+  const std::vector<int> sides;
+  std::map<std::pair<int, int>, double> nearest;
+  for (const StartGap& g : Start(layer, sides, setup, x, f, none).gaps(-1, {}, {})) {
+    const int own = f.vertex_surface[g.vertex];
+    double& gap = nearest.try_emplace({std::min(own, g.surface), std::max(own, g.surface)}, g.gap).first->second;
+    gap = std::min(gap, g.gap);
+  }
+  double clearance = 0;
+  for (const auto& [pair, gap] : nearest)
+    if (gap > kTouch * layer && (clearance == 0 || gap < clearance)) clearance = gap;
+  return clearance;
+}
 
 std::vector<Vec3> part_bodies(double layer, const ContactSetup& setup, const Features& f, NodeField& x, std::vector<std::string>& warnings) {
   std::vector<Vec3> shifts(f.bodies, Vec3::Zero());

@@ -55,6 +55,24 @@ double flatness(const Mesh& mesh) {
   return count > 0 ? sum / count : 0;
 }
 
+double edge_of_tetrahedra(const Mesh& mesh) {
+  double sum = 0;
+  long count = 0;
+  for (const Cells& cells : mesh.cells) {
+    if (cells.kind != CellKind::tetrahedron) continue;
+    for (std::size_t first = 0; first < cells.nodes.size(); first += 4)
+      for (int a = 0; a < 4; ++a)
+        for (int b = 0; b < a; ++b, ++count) sum += (mesh.nodes[cells.nodes[first + a]] - mesh.nodes[cells.nodes[first + b]]).norm();
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
+
+double thickness_as_sheet(const Mesh& mesh) {
+  double surface = 0;
+  for (const Facet& facet : mesh.surface) surface += area_vector(mesh, facet).norm();
+  return 2 * volume(mesh) / surface;
+}
+
 std::string place(const Vec3& x) {
   std::ostringstream text;
   text << '(' << x.x() << ", " << x.y() << ", " << x.z() << ") m";

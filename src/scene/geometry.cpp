@@ -193,7 +193,7 @@ void note_soft_strip(const BodyConfig& config, Model& model) {
   const double lost = (at_axis ? 0.9 : high > kHigh ? 0.5 : 0) / (n * n);
   if (lost < kToBeTold) return;
   model.notes.push_back("body " + config.name + " has " + number_text(n) + " cells of crossed triangles through its thickness" +
-                        (at_axis ? " and reaches the axis" : ", " + number_text(0.1 * std::round(10 * high)) + " times as high as they are long") + ": it lacks some " + number_text(std::round(100 * lost)) +
+                        (at_axis ? " and reaches the axis" : ", " + three_digits(high) + " times as high as they are long") + ": it lacks some " + number_text(std::round(100 * lost)) +
                         " % of its stiffness in bending (docs/elements.md); set its pattern to one_point, or give more cells through" + (at_axis ? "" : " or fewer along"));
 }
 
@@ -210,8 +210,22 @@ void note_polygonal_bar(const BodyConfig& config, const Mesh& mesh, Model& model
   }
   const double part = bar.portion == "quarter" ? 0.25 : bar.portion == "half" ? 0.5 : 1, lost = 1 - volume / (part * M_PI * bar.radius * bar.radius * bar.length);
   if (lost > kToBeTold)
-    model.notes.push_back("the section of body " + config.name + " is a polygon with its corners on the circle and has " + number_text(0.1 * std::round(1000 * lost)) +
+    model.notes.push_back("the section of body " + config.name + " is a polygon with its corners on the circle and has " + three_digits(100 * lost) +
                           " % less area, so that forces are as much too small: give more cells_radius, or a larger radius");
+}
+
+/// A sheet of free tetrahedra with hardly more than one of them through its thickness.
+void note_coarse_sheet(const BodyConfig& config, const Mesh& mesh, Model& model) {
+  constexpr double kCoarse = 0.8;  // edges over the thickness
+  constexpr double kLong = 8, kWide = 3;  // its larger sizes over the thickness; of a bar the middle one is 2
+  const double edge = edge_of_tetrahedra(mesh);
+  if (edge == 0) return;
+  const double thickness = thickness_as_sheet(mesh);
+  Vec3 sizes = bounds(mesh).sizes();
+  std::sort(sizes.data(), sizes.data() + 3);
+  if (!(edge > kCoarse * thickness) || sizes[2] < kLong * thickness || sizes[1] < kWide * thickness) return;
+  model.notes.push_back("the tetrahedra of body " + config.name + " have edges " + three_digits(edge / thickness) + " times as long as the body is thick: with one of them through its thickness a sheet bends a fourth too stiffly, "
+                        "with two by 4 % (docs/elements.md); give shorter edges, or hexahedra with pattern one_point");
 }
 
 void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
@@ -220,9 +234,10 @@ void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
                           " parts that share no node, and they pass through each other: set its self_contact to true, or give them as bodies of their own");
   note_soft_strip(config, model);
   note_polygonal_bar(config, mesh, model);
+  note_coarse_sheet(config, mesh, model);
   constexpr double kFlat = 1.5;
   if (const double flat = flatness(mesh); flat > kFlat)
-    model.notes.push_back("the cells of body " + config.name + " are " + number_text(0.1 * std::round(10 * flat)) +
+    model.notes.push_back("the cells of body " + config.name + " are " + three_digits(flat) +
                           " times as long and as wide as they are thick: split into tetrahedra they bend far too stiffly (docs/elements.md); set its pattern to one_point, or give cells about as thick as long");
   BodyModel body;
   body.name = config.name;

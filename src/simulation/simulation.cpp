@@ -112,7 +112,12 @@ Outcome Simulation::run(const std::atomic<bool>& cancel) {
         text << "a settle stage reached its limit before the bodies rested: at its end their kinetic energy, and what the forces out of balance could still set free, were "
              << s.unsettled.restless() << " J, and should stay below stages[].kinetic_fraction of the elastic energy, " << s.unsettled.quiet()
              << " J";
-        if (s.fading.empty()) text << "; a longer limit lets them come to rest";
+        NodeField loads(s.x.size(), Node::Zero());
+        s.pressures.add(s.time, s.x, loads);
+        s.dead_loads.add(s.time, loads);
+        const bool loaded = std::any_of(loads.begin(), loads.end(), [](const Node& f) { return !f.isZero(0); });
+        if (loaded) text << "; pressures or loads still act on them: let these end before (last entry 0) if nothing holds the bodies against them";
+        else if (s.fading.empty()) text << "; a longer limit lets them come to rest";
         else text << "; what held them was still fading, until " << s.fading.end() << " s: a longer limit or a shorter stages[].release_time lets them come to rest";
         outcome = {Code::limit_reached, text.str()};
       }

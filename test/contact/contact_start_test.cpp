@@ -206,6 +206,29 @@ TEST(ContactStart, ParametersAreChosenFromMeshAndMaterial) {
   EXPECT_EQ(world.make().push_speed(), 7);
 }
 
+// Bodies that stand close meet where they meet: two rings with less than a layer between them pressed on each other from the start.
+TEST(ContactStart, TheLayerLeavesBodiesTheirClearance) {
+  const auto two_strips = [](double gap, double layer = 0) {
+    World world;
+    world.config.layer = layer;
+    world.thinnest = .2;  // by itself it makes a layer of 2e-4 m
+    world.add_strip(Vec3(0, 0, 0), 10, 2, .1, .1, 2700, 0);
+    world.add_strip(Vec3(0, .2 + gap, 0), 7, 2, .1, .1, 2700, 0);
+    return world;
+  };
+  for (double gap : {.3e-4, 1e-4, 5e-4}) {
+    World world = two_strips(gap);
+    Contact contact = world.make();
+    EXPECT_NEAR(contact.layer(), .2 * gap, 1e-12) << gap;
+    EXPECT_TRUE(contact.body_shifts().empty() || contact.body_shifts()[1].isZero(0)) << gap;
+    EXPECT_TRUE(contact.warnings().empty());
+    EXPECT_EQ(force_at_rest(world, contact), 0);
+  }
+  EXPECT_NEAR(two_strips(5e-3).make().layer(), 2e-4, 1e-15) << "far apart";
+  EXPECT_NEAR(two_strips(0).make().layer(), 2e-4, 1e-15) << "what touches is parted";
+  EXPECT_EQ(two_strips(1e-4, h0).make().layer(), h0) << "as it was asked for";
+}
+
 // Two blocks of one width, one a little in the other: their corners lie inside near two sides, and come out of the one
 // that faces the other block.
 TEST(ContactStart, BlocksWithSidesInLineThatOverlapALittleAreParted) {

@@ -1,12 +1,14 @@
 // The model of a scene, and what only meshes can tell.
 #include "forming_sim/scene/build.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <unistd.h>
 
 #include "forming_sim/scene/validate.h"
 #include "scene/scene_texts.h"
+#include "support/free_mesh.h"
 
 namespace forming_sim {
 namespace {
@@ -256,6 +258,21 @@ TEST(SceneBuild, FlatCellsOfTetrahedraAreTold) {
   scene.bodies[0].blank->pattern = "fine";
   scene.bodies[0].blank->cells_along = 20;  // as thick as long: it bends along x
   EXPECT_TRUE(build_model(scene).notes.empty());
+}
+
+TEST(SceneBuild, SheetsWithOneFreeTetrahedronThroughTheirThicknessAreTold) {
+  Scene scene = plate_scene();
+  scene.tools.clear();
+  scene.bodies[0].blank.reset();
+  const auto told = [&](const Vec3& size, double edge) {
+    scene.bodies[0].mesh = inline_mesh(free_box(size, edge));
+    const std::vector<std::string> notes = build_model(scene).notes;
+    return std::any_of(notes.begin(), notes.end(), [](const std::string& note) { return note.find("the tetrahedra of body plate have edges") != std::string::npos; });
+  };
+  EXPECT_TRUE(told(Vec3(12e-3, 6e-3, 1e-3), 1e-3));
+  EXPECT_FALSE(told(Vec3(12e-3, 6e-3, 1e-3), 0.5e-3));
+  EXPECT_FALSE(told(Vec3(12e-3, 1e-3, 1e-3), 0.5e-3)) << "a bar";
+  EXPECT_FALSE(told(Vec3(3e-3, 3e-3, 3e-3), 2e-3)) << "a block";
 }
 
 // A polygon of n sides with its corners on the circle has less area by 1 - n sin(2 pi/n)/(2 pi): 2.6 % at 16.

@@ -40,6 +40,9 @@ constexpr double kOutside = 1 + 1e-6;
 void set_back(double layer, const Sides& sides, const ContactSetup& setup, Features& features, ToolSet& tools,
               std::vector<std::string>& warnings);
 
+/// The smallest distance of two bodies that stand within some layers of each other and do not touch, m; 0 where there are none.
+double clearance_of_bodies(double layer, const ContactSetup& setup, const Features& features, const NodeField& x);
+
 /// Moves bodies apart (x, by so much a body, reported in warnings) that touch each
 /// other or overlap by no more than a layer, until none is nearer than the layer.
 std::vector<Vec3> part_bodies(double layer, const ContactSetup& setup, const Features& features, NodeField& x,

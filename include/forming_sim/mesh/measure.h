@@ -28,6 +28,10 @@ double size_of(const Mesh& mesh);
 /// How flat the hexahedra are that are split into tetrahedra: the middle one of the lengths of a cell (the means of its parallel
 /// edges) over the shortest, in the mean over these cells; 1 of cubes and of long bars, 0 where there are none.
 double flatness(const Mesh& mesh);
+/// Mean length of the edges of the tetrahedra that no hexahedron was split into, m; 0 where there are none.
+double edge_of_tetrahedra(const Mesh& mesh);
+/// What a sheet of this volume V and surface S is thick, 2 V/S.
+double thickness_as_sheet(const Mesh& mesh);
 
 /// "(x, y, z) m", as messages name a place.
 std::string place(const Vec3& x);
