@@ -218,8 +218,9 @@ void note_polygonal_bar(const BodyConfig& config, const Mesh& mesh, Model& model
 void note_coarse_sheet(const BodyConfig& config, const Mesh& mesh, Model& model) {
   constexpr double kCoarse = 0.8;  // edges over the thickness
   constexpr double kLong = 8, kWide = 3;  // its larger sizes over the thickness; of a bar the middle one is 2
+  constexpr int kFew = 100;        // elements, which are no mesh of a sheet
   const double edge = edge_of_tetrahedra(mesh);
-  if (edge == 0) return;
+  if (edge == 0 || mesh.simplex_count() < kFew) return;
   const double thickness = thickness_as_sheet(mesh);
   Vec3 sizes = bounds(mesh).sizes();
   std::sort(sizes.data(), sizes.data() + 3);

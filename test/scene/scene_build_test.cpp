@@ -291,7 +291,7 @@ TEST(SceneBuild, PolygonalBarsAreTold) {
     return std::string();
   };
   for (const char* portion : {"full", "half", "quarter"}) {
-    EXPECT_NE(told(4, portion).find("has 2.6 % less area"), std::string::npos) << told(4, portion);
+    EXPECT_NE(told(4, portion).find("has 2.55 % less area"), std::string::npos) << told(4, portion);
     EXPECT_EQ(told(8, portion), "") << portion;
   }
 }
