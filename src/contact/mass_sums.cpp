@@ -28,9 +28,8 @@ MassSums sum_masses(Team& team, const std::vector<double>& mass, int first, cons
   });
   for (const MassSums& part : parts) {
     all.mass += part.mass;
-    each_sum(all, part, [](double* sum, const double* more) {
-      for (int i = 0; i < 4; ++i) sum[i] += more[i];
-    });
+    for (const auto of : {&MassSums::first, &MassSums::momentum, &MassSums::square, &MassSums::mixed, &MassSums::ahead, &MassSums::behind})
+      for (int i = 0; i < 4; ++i) (all.*of)[i] += (part.*of)[i];
   }
   return all;
 }

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace forming_sim {
 
@@ -54,9 +53,8 @@ void FadingForces::add(double t, const NodeField& x, const std::vector<double>& 
       more += set.added[i] - left * set.forces[i].force;
       f[set.forces[i].node] += set.added[i];
     }
-    const auto first = mass.begin() + set.body.first_node;
-    set.acceleration = set.corners.empty() ? Node(Node::Zero()) : node(Vec3(set.body.free * vec3(more) / std::accumulate(first, first + set.body.nodes, 0.0)));
-    if (set.corners.empty()) continue;
+    if (set.corners.empty()) continue;  // none has turned
+    set.acceleration = node(Vec3(set.body.free * vec3(more) / set.body.mass));
     for (int n = set.body.first_node; n < set.body.first_node + set.body.nodes; ++n) f[n] -= mass[n] * set.acceleration;
   }
 }

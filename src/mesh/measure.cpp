@@ -67,10 +67,21 @@ double edge_of_tetrahedra(const Mesh& mesh) {
   return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
-double thickness_as_sheet(const Mesh& mesh) {
-  double surface = 0;
-  for (const Facet& facet : mesh.surface) surface += area_vector(mesh, facet).norm();
-  return 2 * volume(mesh) / surface;
+double thickness_of(const Mesh& mesh, bool axisymmetric) {
+  double volume = 0, area = 0;
+  const auto& X = mesh.nodes;
+  for (const auto& s : mesh.simplices()) {
+    Mat3 edges = Mat3::Identity();
+    for (int m = 0; m < mesh.dimension; ++m) edges.col(m) = X[s[m + 1]] - X[s[0]];
+    const double radius = axisymmetric ? (X[s[0]].x() + X[s[1]].x() + X[s[2]].x()) / 3 : 1;
+    volume += radius * edges.determinant() / (mesh.dimension == 2 ? 2 : 6);
+  }
+  for (const Facet& f : mesh.surface) {
+    const Vec3 a = X[f.nodes[1]] - X[f.nodes[0]];
+    const double radius = axisymmetric ? (X[f.nodes[0]].x() + X[f.nodes[1]].x()) / 2 : 1;
+    area += mesh.dimension == 2 ? radius * a.norm() : 0.5 * a.cross(X[f.nodes[2]] - X[f.nodes[0]]).norm();
+  }
+  return 2 * volume / area;
 }
 
 std::string place(const Vec3& x) {

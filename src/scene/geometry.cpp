@@ -202,13 +202,7 @@ void note_polygonal_bar(const BodyConfig& config, const Mesh& mesh, Model& model
   constexpr double kToBeTold = 0.01;
   if (!config.blank || config.blank->shape != "bar") return;
   const BlankConfig& bar = *config.blank;
-  double volume = 0;
-  for (const auto& s : mesh.simplices()) {
-    Mat3 edges;
-    for (int m = 0; m < 3; ++m) edges.col(m) = mesh.nodes[s[m + 1]] - mesh.nodes[s[0]];
-    volume += edges.determinant() / 6;
-  }
-  const double part = bar.portion == "quarter" ? 0.25 : bar.portion == "half" ? 0.5 : 1, lost = 1 - volume / (part * M_PI * bar.radius * bar.radius * bar.length);
+  const double part = bar.portion == "quarter" ? 0.25 : bar.portion == "half" ? 0.5 : 1, lost = 1 - volume(mesh) / (part * M_PI * bar.radius * bar.radius * bar.length);
   if (lost > kToBeTold)
     model.notes.push_back("the section of body " + config.name + " is a polygon with its corners on the circle and has " + three_digits(100 * lost) +
                           " % less area, so that forces are as much too small: give more cells_radius, or a larger radius");
@@ -221,7 +215,7 @@ void note_coarse_sheet(const BodyConfig& config, const Mesh& mesh, Model& model)
   constexpr int kFew = 100;        // elements, which are no mesh of a sheet
   const double edge = edge_of_tetrahedra(mesh);
   if (edge == 0 || mesh.simplex_count() < kFew) return;
-  const double thickness = thickness_as_sheet(mesh);
+  const double thickness = thickness_of(mesh, false);
   Vec3 sizes = bounds(mesh).sizes();
   std::sort(sizes.data(), sizes.data() + 3);
   if (!(edge > kCoarse * thickness) || sizes[2] < kLong * thickness || sizes[1] < kWide * thickness) return;

@@ -19,9 +19,6 @@
 
 namespace forming_sim {
 
-/// Twice the volume over the surface: the thickness of a thin sheet, m.
-double thickness_of(const BodyModel& body, bool axisymmetric);
-
 struct Simulation::Impl {
   RunPlan plan;
   Model model;

@@ -4,7 +4,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "forming_sim/mesh/measure.h"
 #include "forming_sim/scene/stage_times.h"
 #include "simulation/impl.h"
 
@@ -46,7 +48,7 @@ double Simulation::Impl::slowness() const {
     Eigen::AlignedBox3d box;
     for (const Vec3& X_i : body.mesh.nodes) box.extend(X_i);
     size = std::max(size, box.diagonal().norm());
-    thin = std::min(thin, thickness_of(body, model.axisymmetric));
+    thin = std::min(thin, thickness_of(body.mesh, model.axisymmetric));
     speed = std::min(speed, std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling));
   }
   return size * size / (thin * speed);
@@ -100,7 +102,9 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
     std::vector<HoldingForce> forces;
     for (int n = body.first_node; n < end; ++n)
       if (!held_by[n].isZero(0)) forces.push_back({n, on_surface[n] != 0, held_by[n]});
-    if (!forces.empty()) fading.begin(time, duration, elements.stored_energy(x), {body.first_node, body.node_count, free_ways(boundaries, body)}, std::move(forces), faces, x);
+    if (forces.empty()) continue;
+    const auto mass = elements.nodal_mass().begin();
+    fading.begin(time, duration, elements.stored_energy(x), {body.first_node, body.node_count, std::accumulate(mass + body.first_node, mass + end, 0.0), free_ways(boundaries, body)}, std::move(forces), faces, x);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "forming_sim/config/words.h"
 #include "forming_sim/loads/velocity_field.h"
 #include "forming_sim/mesh/axis.h"
+#include "forming_sim/mesh/measure.h"
 #include "forming_sim/simulation/release.h"
 #include "simulation/impl.h"
 
@@ -53,30 +54,11 @@ RunPlan with_limit(RunPlan plan, const Model& model) {
 
 }  // namespace
 
-/// Twice the volume over the surface: the thickness of a thin sheet. Axisymmetric:
-/// both turned, by the radii of their middles.
-double thickness_of(const BodyModel& body, bool axisymmetric) {
-  double volume = 0, area = 0;
-  const auto& X = body.mesh.nodes;
-  for (const auto& s : body.mesh.simplices()) {
-    Mat3 edges = Mat3::Identity();
-    for (int m = 0; m < body.mesh.dimension; ++m) edges.col(m) = X[s[m + 1]] - X[s[0]];
-    const double radius = axisymmetric ? (X[s[0]].x() + X[s[1]].x() + X[s[2]].x()) / 3 : 1;
-    volume += radius * edges.determinant() / (body.mesh.dimension == 2 ? 2 : 6);
-  }
-  for (const Facet& f : body.mesh.surface) {
-    const Vec3 a = X[f.nodes[1]] - X[f.nodes[0]];
-    const double radius = axisymmetric ? (X[f.nodes[0]].x() + X[f.nodes[1]].x()) / 2 : 1;
-    area += body.mesh.dimension == 2 ? radius * a.norm() : 0.5 * a.cross(X[f.nodes[2]] - X[f.nodes[0]]).norm();
-  }
-  return 2 * volume / area;
-}
-
 namespace {
 
 WaveBody waves_of(const BodyModel& body, double mass_scaling, bool axisymmetric) {
   const double density = body.material.density * mass_scaling, shear_speed = std::sqrt(body.material.mu() / density);
-  return {density * shear_speed, kSteadyTime * thickness_of(body, axisymmetric) / shear_speed, body.first_node, body.node_count};
+  return {density * shear_speed, kSteadyTime * thickness_of(body.mesh, axisymmetric) / shear_speed, body.first_node, body.node_count};
 }
 
 }  // namespace
@@ -182,7 +164,7 @@ void Simulation::Impl::set_up_contact() {
     s.waves = waves_of(body, plan.time_step.mass_scaling, model.axisymmetric);
     setup.bodies.push_back(std::move(s));
     setup.softest_modulus = std::min(setup.softest_modulus, m.E());
-    setup.thinnest = std::min(setup.thinnest, thickness_of(body, model.axisymmetric));
+    setup.thinnest = std::min(setup.thinnest, thickness_of(body.mesh, model.axisymmetric));
     setup.wave_speed = std::min(
         setup.wave_speed, std::sqrt((m.K() + 4. / 3 * m.mu()) / density));
   }

@@ -20,8 +20,8 @@ Vec3 on(FadingForces& forces, int n, double t, const NodeField& x = kPlaces) {
 TEST(FadingForces, FadeFromAllToNothing) {
   FadingForces forces;
   EXPECT_TRUE(forces.empty());
-  forces.begin(2, 4, 1e9, {0, 4}, {{1, false, node(Vec3(8, 0, -16))}, {3, false, node(Vec3(0, 1, 0))}}, {}, kPlaces);
-  forces.begin(3, 2, 1e9, {0, 4}, {{1, false, node(Vec3(0, 10, 0))}}, {}, kPlaces);
+  forces.begin(2, 4, 1e9, {0, 4, 8}, {{1, false, node(Vec3(8, 0, -16))}, {3, false, node(Vec3(0, 1, 0))}}, {}, kPlaces);
+  forces.begin(3, 2, 1e9, {0, 4, 8}, {{1, false, node(Vec3(0, 10, 0))}}, {}, kPlaces);
   EXPECT_EQ(on(forces, 1, 2), Vec3(8, 10, -16));
   EXPECT_EQ(on(forces, 3, 4), Vec3(0, 0.5, 0));
   EXPECT_EQ(on(forces, 1, 4), Vec3(4, 5, -8));
@@ -47,7 +47,7 @@ TEST(FadingForces, OfToolsTurnWithTheSurface) {
     for (int k = 0; k < corners; ++k) face.nodes[k] = k;
     const Vec3 force(3, -7, 0.5);
     FadingForces forces;
-    forces.begin(0, 1, 1e9, {0, 4}, {{0, true, node(force)}, {1, false, node(force)}}, {face}, x);
+    forces.begin(0, 1, 1e9, {0, 4, 8}, {{0, true, node(force)}, {1, false, node(force)}}, {face}, x);
     EXPECT_LT((on(forces, 0, 0, x) - force).norm(), 1e-14) << corners;
     // Together they do what they did: what is more by the turn is taken from all nodes.
     const Vec3 more = turn * force - force;
@@ -59,7 +59,7 @@ TEST(FadingForces, OfToolsTurnWithTheSurface) {
 
 TEST(FadingForces, DriveNothingOnByMoreThanTheyMay) {
   FadingForces forces;
-  forces.begin(2, 4, 10, {0, 4}, {{1, false, node(Vec3(0, 5, 0))}}, {}, kPlaces);  // 5 N that may do 10 J
+  forces.begin(2, 4, 10, {0, 4, 8}, {{1, false, node(Vec3(0, 5, 0))}}, {}, kPlaces);  // 5 N that may do 10 J
   const NodeField along(4, node(Vec3(7, 1, 0))), against(4, node(Vec3(7, -1, 0)));
   on(forces, 1, 2);
   EXPECT_FALSE(forces.work(1.9, kMasses, along, along)) << "9.5 J";

@@ -19,15 +19,6 @@ struct MassSums {
   double ahead[4] = {};     ///< m v_i r_j
   double behind[4] = {};    ///< m v_j r_i
 };
-/// Calls work(a field of one, the same of the other) for all that are added up but the mass.
-template <class Sums, class Other, class Work> void each_sum(Sums& one, Other& other, const Work& work) {
-  work(one.first, other.first);
-  work(one.momentum, other.momentum);
-  work(one.square, other.square);
-  work(one.mixed, other.mixed);
-  work(one.ahead, other.ahead);
-  work(one.behind, other.behind);
-}
 
 struct MassKernels {
   /// Adds nodes [first, last) to `sums`, which stand at x - back v. mass: 0 counts for nothing; x, v: records of four numbers.

@@ -21,9 +21,10 @@ struct HoldingForce {
 /// What springs back moves against them. Where a body gives way instead, they would drive it on, and more the less it bears.
 class FadingForces {
  public:
-  /// A body: its nodes, and the projector on the directions in which none of them is held.
+  /// A body: its nodes, its mass, kg, and the projector on the directions in which none of them is held.
   struct OfBody {
     int first_node = 0, nodes = 0;
+    double mass = 0;
     Mat3 free = Mat3::Identity();
   };
   /// From `start` for `duration`, s; at most until they have done the work `may_do`, J. surface: of the bodies, at x.
@@ -47,6 +48,7 @@ class FadingForces {
       a.number(set.may_do);
       a.number(set.body.first_node);
       a.number(set.body.nodes);
+      a.number(set.body.mass);
       a.numbers(set.body.free.data(), 9);
       a.list(set.forces);
       a.list(set.normals);

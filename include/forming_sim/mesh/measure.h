@@ -30,8 +30,9 @@ double size_of(const Mesh& mesh);
 double flatness(const Mesh& mesh);
 /// Mean length of the edges of the tetrahedra that no hexahedron was split into, m; 0 where there are none.
 double edge_of_tetrahedra(const Mesh& mesh);
-/// What a sheet of this volume V and surface S is thick, 2 V/S.
-double thickness_as_sheet(const Mesh& mesh);
+/// Twice the volume over the surface: the thickness of a thin sheet, m. Axisymmetric:
+/// both turned, by the radii of their middles.
+double thickness_of(const Mesh& mesh, bool axisymmetric);
 
 /// "(x, y, z) m", as messages name a place.
 std::string place(const Vec3& x);
