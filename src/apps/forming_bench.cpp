@@ -46,8 +46,8 @@ int usage(std::FILE* to) {
                "           arithmetic peak (some minutes); writes DIR/speed.csv and a plot too\n"
                "  speed-error [PROBLEM ...]  error against wall time of elements, meshes, time steps, mass scaling and\n"
                "           layers on problems whose answer is known, and of CalculiX (ccx) where it is installed:\n"
-               "           bending, cook, taylor, cube, sphere, impact, flange, flange-time, layers, or all of these\n"
-               "           (some minutes); writes DIR/speed-error.csv and a plot of each problem too\n"
+               "           bending, cook, taylor, cube, sphere, torsion, impact, flange, flange-time, slivers, layers,\n"
+               "           release, or all of these (some minutes); writes DIR/speed-error.csv and a plot of each problem too\n"
                "  stability [CASE ...]  hard cases and what must hold in them: incompressible, large-strain, shapes,\n"
                "           steps, spin, impact, sudden, or all of these; and ten-million-steps\n"
                "Prints a table; with --output also DIR/COMMAND.json, and the figures of a command as CSV and PNG.\n");

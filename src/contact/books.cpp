@@ -8,11 +8,10 @@
 
 namespace forming_sim {
 
-Books::Books(const Workspace& work, const std::vector<Rub>& rubs, int bodies, int tools, double layer, ContactStep& step)
+Books::Books(const Workspace& work, const std::vector<Rub>& rubs, int bodies, int tools, ContactStep& step)
     : work_(work), rubs_(rubs), bodies_(bodies), step_(step) {
   step.tool_impulse.assign(tools, Vec3::Zero());
   step.tool_angular_impulse.assign(tools, Vec3::Zero());
-  step.layer = layer;
 }
 
 Node Books::book(const Link& link, int tool, const Node& impulse) {
@@ -39,7 +38,6 @@ void Books::add(const Books& share) {
   normal_ += share.normal_;
   const ContactStep& more = share.step_;
   step_.active += more.active;
-  step_.layer = std::max(step_.layer, more.layer);
   step_.friction_work += more.friction_work;
   step_.tool_work += more.tool_work;
   step_.held_work += more.held_work;
@@ -52,7 +50,6 @@ void Books::add(const Books& share) {
 void Books::add(const ContactPair& pair) {
   if (pair.impulse == 0) return;
   ++step_.active;
-  step_.layer = std::max(step_.layer, pair.layer);
   const Node along = pair.impulse * pair.normal;
   if (pair.rub < 0) {
     normal_ += dot3(along, book(pair, pair.tool(bodies_), along));

@@ -49,14 +49,14 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
     if (any) m.waves = ShearWaves(bodies, at.size(), rigid_modes(setup.dimension, setup.axisymmetric));
   }
   NodeField x = at, place;
-  m.tools.place_all(m.features, at_start, false, place);
+  m.tools.place_all(m.features, at_start, place);
   m.ties = find_ties(setup, x, place, m.tools.is_plane, m.tools.planes(at_start), m.features);
   m.body_shifts = part_bodies(m.layer, setup, m.features, x, m.warnings);
   const Sides sides = find_sides(m.layer, m.features, x, at_start);
   m.sides = sides.of_facet;
   set_back(kOutside * m.layer, sides, setup, m.features, m.tools, m.warnings);
   check_start(m.layer, m.sides, setup, x, at_start, m.features, m.tools, m.warnings);
-  m.tools.place_all(m.features, at_start, false, place);  // set back
+  m.tools.place_all(m.features, at_start, place);  // set back
   if (setup.dimension == 3) find_level_parts(m.features);
   keep_ties(m.features, x, place, at_start, m.ties);
   if (m.method == Impl::Method::geometric) m.know_sides();
@@ -154,7 +154,7 @@ Books Contact::Impl::open_books(ContactStep& step) {
 long Contact::count_crossings(const NodeField& x, const std::vector<ToolMotion>& tools) const {
   const Impl& m = *impl_;
   NodeField place;
-  m.tools.place_all(m.features, tools, false, place);
+  m.tools.place_all(m.features, tools, place);
   return static_cast<long>(find_crossings(m.features, x, place, ToolSet::present(tools), m.tools.is_plane, m.tools.planes(tools)).size());
 }
 

@@ -97,7 +97,7 @@ struct Contact::Impl {
   /// Adds the slip of the step (step.dt: the step taken) to the nodes', and books the ties; the
   /// caller adds the pairs.
   Books open_books(ContactStep& step);
-  Books empty_books(ContactStep& step) const { return Books(work, near.rubs, features.bodies, static_cast<int>(tools.names.size()), layer, step); }
+  Books empty_books(ContactStep& step) const { return Books(work, near.rubs, features.bodies, static_cast<int>(tools.names.size()), step); }
 
   /// Of a pair in the last step, along its normal and along the surfaces, N s.
   Node impulse_of(const ContactPair& pair) const {

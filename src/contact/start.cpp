@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "forming_sim/config/words.h"
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/crossing.h"
 #include "forming_sim/contact/tools.h"
@@ -242,7 +243,7 @@ std::vector<Vec3> part_bodies(double layer, const ContactSetup& setup, const Fea
   const std::vector<Node> moves = start.part(gaps);
   if (moves.empty() && setup.axisymmetric)
     throw Error(Code::initial_penetration, "bodies touch each other radially at the start, and a ring cannot be moved aside: leave a gap of at least " +
-                                               std::to_string(layer) + " m between them");
+                                               three_digits(layer) + " m between them");
   for (int b = 0; b < static_cast<int>(moves.size()); ++b) {
     if (moves[b].isZero(0) || moves[b].norm() > 8 * f.bodies * layer) continue;  // no way out: left as it is, check_start decides
     shifts[b] = vec3(moves[b]);
@@ -259,7 +260,7 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
   const Start start(layer, sides, setup, x, f, tools);
   std::vector<std::string> refused;
   NodeField place;
-  tools.place_all(f, at_start, false, place);
+  tools.place_all(f, at_start, place);
   std::vector<bool> told(setup.tools.size(), false);
   for (size_t t = 0; t < setup.tools.size(); ++t) {
     if (!at_start[t].present) continue;
@@ -293,7 +294,7 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
     text << "tool " << setup.tools[t].name << " touches or overlaps a body at the start: it was backed off by " << length_and_direction(vec3(shift));
     warnings.push_back(text.str());
   }
-  tools.place_all(f, at_start, false, place);
+  tools.place_all(f, at_start, place);
   const auto at = [&](int v) -> const Node& { return v < f.body_nodes ? x[v] : place[v - f.body_nodes]; };
   for (const Crossing& c : find_crossings(f, x, place, ToolSet::present(at_start), tools.is_plane, tools.planes(at_start))) {
     if (c.other >= f.bodies && told[c.other - f.bodies]) continue;

@@ -19,12 +19,12 @@ Node facet_normal(int dimension, const Node& a, const Node& b, const Node& c) {
   return size > 0 ? Node(n / size) : Node(Node::Zero());
 }
 
-void ToolSet::place_all(const Features& f, const std::vector<ToolMotion>& motion, bool at_end, NodeField& place) const {
+void ToolSet::place_all(const Features& f, const std::vector<ToolMotion>& motion, NodeField& place) const {
   place.resize(f.place.size());
   for (size_t t = 0; t < motion.size(); ++t)
     for (int v : f.surfaces[f.bodies + t].vertices) {
       const Vec3 p = vec3(f.place[v - f.body_nodes]);
-      place[v - f.body_nodes] = node(at_end ? pose1(motion[t], p) : pose0(motion[t], p));
+      place[v - f.body_nodes] = node(pose0(motion[t], p));
     }
 }
 

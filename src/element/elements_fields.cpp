@@ -99,15 +99,24 @@ void Elements::observe_blocks(const Group& g, long first_block, long last_block,
 }
 
 double Elements::stored_energy(const NodeField& x, const NodeField* v, double since) const {
-  const NodalView view{x.data()->data(), v ? v->data()->data() : nullptr, nullptr, pressure_.data(), 0, since};
+  return stored_energy({x.data()->data(), v ? v->data()->data() : nullptr, nullptr, pressure_.data(), 0, since}, nullptr);
+}
+
+double Elements::stored_energy_of(const BodyModel& body, const NodeField& x) const {
+  return stored_energy({x.data()->data(), nullptr, nullptr, pressure_.data(), 0, 0}, &body);
+}
+
+double Elements::stored_energy(const NodalView& view, const BodyModel* of) const {
   observe_pressure(view);
   double sum = 0;
   for (const Group& g : groups_) {
+    if (of && g.body != of->name) continue;
     std::vector<double> energy(g.blocks);
     observe_blocks(g, 0, g.blocks, view, nullptr, nullptr, energy.data());
     for (double e : energy) sum += e;
   }
-  for (std::size_t n = 0; n < pressure_.size(); ++n)  // the volumetric energy of nodal pressures belongs to the nodes
+  const std::size_t first = of ? of->first_node : 0, end = of ? first + of->node_count : pressure_.size();
+  for (std::size_t n = first; n < std::min(end, pressure_.size()); ++n)  // the volumetric energy of nodal pressures belongs to the nodes
     if (nodal_volume0_[n] > 0) sum += 0.5 * nodal_volume0_[n] * pressure_[n] * pressure_[n] / nodal_bulk_[n];
   return sum;
 }

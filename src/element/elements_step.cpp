@@ -151,7 +151,7 @@ void Elements::elastic_forces(const NodeField& x, NodeField& f) {
     for (int k = 0; k < g.solid.layers; ++k) g.solid.layer[k].hardening.kind = HardeningCurve::elastic;
     g.linear_viscosity = g.quadratic_viscosity = 0;
     g.plastic_work = unused.data();
-    g.upright = unread.get();
+    g.upright = g.pressed = unread.get();
     team_->share(own.tiles, tiles_of_a_thread(own), [&](long first, long last) {
       for (long t = first; t < last; ++t) forces_of_tile(g, own, view, t);
     });

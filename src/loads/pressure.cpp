@@ -30,22 +30,13 @@ ResolvedPressure resolve(const PressureConfig& config, const std::string& body, 
 PressureSet::PressureSet(std::vector<ResolvedPressure> pressures, bool axisymmetric)
     : pressures_(std::move(pressures)), axisymmetric_(axisymmetric) {}
 
-double PressureSet::add(double t, const NodeField& x, NodeField& f) const {
-  double total = 0;
+void PressureSet::add(double t, const NodeField& x, NodeField& f) const {
   for (const ResolvedPressure& pressure : pressures_) {
     const double p = pressure.profile.at(t);
     if (p == 0) continue;
-    for (const Face& face : pressure.faces) {
-      Vec3 area = Vec3::Zero();
-      for (int k = 0; k < face.corners; ++k) {
-        const Vec3 part = area_share(face, k, x, axisymmetric_);
-        f[face.nodes[k]] -= node(p * part);
-        area += part;
-      }
-      total += p * area.norm();
-    }
+    for (const Face& face : pressure.faces)
+      for (int k = 0; k < face.corners; ++k) f[face.nodes[k]] -= node(p * area_share(face, k, x, axisymmetric_));
   }
-  return total;
 }
 
 }  // namespace forming_sim

@@ -89,10 +89,12 @@ MaterialPoint::Answer MaterialPoint::step_with_free(Mat3 F, const std::array<boo
       found = normal(next);
       if (found.norm() < s.norm() || found.norm() < 1e-13 * scale) break;
     }
-    F = next;
-    s = found;
-    if (s.norm() < 1e-13 * scale || part * change.norm() < 1e-14) break;
-    if (i == 100) {
+    if (found.size() > 0) {
+      F = next;
+      s = found;
+      if (s.norm() < 1e-13 * scale || part * change.norm() < 1e-14) break;
+    }
+    if (i == 100 || found.size() == 0) {
       std::ostringstream what;
       what << "no free stretches found at the deformation gradient (" << F.row(0) << "; " << F.row(1) << "; " << F.row(2)
            << "), where the free normal stresses are " << s.transpose() << " Pa: give smaller steps of the history";

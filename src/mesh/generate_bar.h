@@ -5,7 +5,7 @@
 
 namespace forming_sim {
 
-/// Cells and sets of the bar; hex24 or hex6.
+/// Cells and sets of the bar; hex24, hex6 or hex1.
 Mesh generate_bar(const BlankConfig& blank, CellKind kind);
 
 }  // namespace forming_sim

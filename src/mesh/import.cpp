@@ -101,9 +101,4 @@ Mesh load_tool_surface(const MeshConfig& config, const std::string& base_directo
   return clean_surface(read_triangles(resolve_url(config.url, base_directory), config.unit_scale), notes);
 }
 
-Mesh load_tool_surface(const MeshConfig& config, const std::string& base_directory) {
-  std::vector<std::string> notes;
-  return load_tool_surface(config, base_directory, notes);
-}
-
 }  // namespace forming_sim

@@ -27,6 +27,8 @@ std::vector<std::string> paths_of(const char* variable) {
 }
 
 bool is_package(const fs::path& folder, const std::string& name) {
+  std::error_code ignored;
+  if (fs::exists(folder / "CATKIN_IGNORE", ignored)) return false;
   std::ifstream manifest(folder / "package.xml");
   if (!manifest) return false;
   const std::string text{std::istreambuf_iterator<char>(manifest), {}};
@@ -35,8 +37,8 @@ bool is_package(const fs::path& folder, const std::string& name) {
   return std::regex_search(text, found, name_tag) && found[1] == name;
 }
 
-// The package below a root, as rospack finds it: not inside other packages or
-// hidden folders.
+// The package below a root, as rospack finds it: not inside other packages,
+// hidden folders, or what CATKIN_IGNORE marks.
 fs::path find_below(const fs::path& root, const std::string& name) {
   if (is_package(root / name, name)) return root / name;
   if (is_package(root, name)) return root;

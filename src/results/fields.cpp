@@ -45,7 +45,7 @@ void Fields::on_end(const Simulation& simulation, Code code, const std::string&)
   const auto attempt = [&](auto&& work) {
     try {
       work();
-    } catch (const Error&) {
+    } catch (const std::exception&) {
       if (!failed) failed = std::current_exception();
     }
   };

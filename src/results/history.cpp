@@ -56,6 +56,7 @@ std::string stage_name(const Simulation& simulation) {
 
 void History::on_start(const Simulation& simulation) {
   schedule_.start(simulation.time());
+  quiet_ = simulation.quiet();
   const std::vector<std::string> columns = history_columns(simulation.model(), gauge_.probes());
   if (resumed_) {
     double until = 0;
@@ -70,7 +71,10 @@ void History::on_start(const Simulation& simulation) {
 }
 
 void History::on_step(const Simulation& simulation) {
-  if (schedule_.due(simulation.time())) write(simulation);
+  // The last row of a settle stage shall tell what is felt at rest, and nothing of the way there.
+  const bool calms = simulation.quiet() && !quiet_;
+  quiet_ = simulation.quiet();
+  if (schedule_.due(simulation.time()) || calms) write(simulation);
 }
 
 void History::on_stage_end(const Simulation& simulation, int) { write(simulation); }
@@ -86,6 +90,12 @@ void History::write(const Simulation& simulation) {
   const Measures& measures = gauge_.at(simulation);
   const Energies& e = simulation.energies();
   const double elapsed = simulation.time() - record_.history_time;
+  const auto rate_of = [elapsed](const Reaction& before, const Reaction& now) {
+    const double rate = elapsed > 0 ? 1 / elapsed : 0;
+    return Reaction{rate * (now.impulse - before.impulse), rate * (now.angular - before.angular), rate * (now.radial - before.radial)};
+  };
+  // What is pushed goes on between the rows: about the place that it has at the end alone, a force across its way would turn it.
+  const auto about_place = [](const Reaction& felt, const Vec3& from, const Vec3& to) { return Vec3(felt.angular - (0.5 * (from + to)).cross(felt.impulse)); };
   std::vector<std::string> values{csv_number(simulation.time()), std::to_string(simulation.steps()),
                                   csv_number(simulation.dt()), csv_text(stage_name(simulation))};
   for (double energy : {e.kinetic, e.elastic, e.plastic, e.contact, e.friction, e.damping, e.work, e.initial})
@@ -94,15 +104,16 @@ void History::write(const Simulation& simulation) {
   record_.history_tools.resize(simulation.tools().size());
   for (std::size_t i = 0; i < simulation.tools().size(); ++i) {
     const ToolStatus& tool = simulation.tools()[i];
-    Reaction& before = record_.history_tools[i];
-    const Vec3 force = elapsed > 0 ? Vec3((tool.felt.impulse - before.impulse) / elapsed) : tool.force;
+    FeltAt& before = record_.history_tools[i];
+    const Reaction felt = rate_of(before.felt, tool.felt);
+    const Vec3 force = elapsed > 0 ? felt.impulse : tool.force;
     add(values, force);
     add(values, tool.position);
     if (simulation.model().axisymmetric)
-      values.push_back(csv_number(elapsed > 0 ? (tool.felt.radial - before.radial) / elapsed : tool.radial_force));
+      values.push_back(csv_number(elapsed > 0 ? felt.radial : tool.radial_force));
     else
-      add(values, elapsed > 0 ? Vec3((tool.felt.angular - before.angular) / elapsed - tool.position.cross(force)) : tool.moment);
-    before = tool.felt;
+      add(values, elapsed > 0 ? about_place(felt, before.position, tool.position) : tool.moment);
+    before = {tool.felt, tool.position};
   }
   values.push_back(csv_number(measures.plastic_strain.value));
   values.push_back(csv_number(measures.surface_strain.value));
@@ -117,15 +128,14 @@ void History::write(const Simulation& simulation) {
     for (int k = 0; k < 6; ++k) values.push_back(csv_number(probe.stress[k]));
     if (!gauge_.probes()[i].held) continue;
     const Reaction now = simulation.reaction(gauge_.probes()[i].nodes);
-    Reaction& before = record_.history_reactions[i];
-    const double rate = elapsed > 0 ? 1 / elapsed : 0;
-    const Vec3 force = rate * (now.impulse - before.impulse), about_origin = rate * (now.angular - before.angular);
-    add(values, force);
+    FeltAt& before = record_.history_reactions[i];
+    const Reaction felt = rate_of(before.felt, now);
+    add(values, felt.impulse);
     if (simulation.model().axisymmetric)
-      values.push_back(csv_number(rate * (now.radial - before.radial)));
+      values.push_back(csv_number(felt.radial));
     else
-      add(values, Vec3(about_origin - probe.position.cross(force)));
-    before = now;
+      add(values, about_place(felt, before.position, probe.position));
+    before = {now, probe.position};
   }
   record_.history_time = simulation.time();
   file_->append(values);

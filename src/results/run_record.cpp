@@ -18,6 +18,9 @@ Vec3 vector(const json& j) { return Vec3(j.at(0), j.at(1), j.at(2)); }
 json of(const Reaction& r) { return {of(r.impulse), of(r.angular), r.radial}; }
 Reaction reaction(const json& j) { return {vector(j.at(0)), vector(j.at(1)), j.at(2)}; }
 
+json of(const FeltAt& f) { return {of(f.felt), of(f.position)}; }
+FeltAt felt_at(const json& j) { return {reaction(j.at(0)), vector(j.at(1))}; }
+
 json of(const Peak& peak) {
   return {{"value", peak.value}, {"element", peak.element}, {"position", of(peak.position)}, {"time", peak.time}};
 }
@@ -81,8 +84,8 @@ std::string RunRecord::to_json() const {
             {"history_reactions", json::array()}};
   for (const auto& [level, most] : kinetic_peak.levels) j["kinetic_peak"].push_back({level, most});
   for (const StageRecord& s : stages) j["stages"].push_back(of(s));
-  for (const Reaction& tool : history_tools) j["history_tools"].push_back(of(tool));
-  for (const Reaction& reaction : history_reactions) j["history_reactions"].push_back(of(reaction));
+  for (const FeltAt& tool : history_tools) j["history_tools"].push_back(of(tool));
+  for (const FeltAt& reaction : history_reactions) j["history_reactions"].push_back(of(reaction));
   return j.dump();
 }
 
@@ -103,8 +106,8 @@ RunRecord RunRecord::from_json(const std::string& text) {
     for (const json& s : j.at("stages")) record.stages.push_back(stage(s));
     record.notes = j.at("notes").get<std::vector<std::string>>();
     record.history_time = j.at("history_time");
-    for (const json& tool : j.at("history_tools")) record.history_tools.push_back(reaction(tool));
-    for (const json& held : j.at("history_reactions")) record.history_reactions.push_back(reaction(held));
+    for (const json& tool : j.at("history_tools")) record.history_tools.push_back(felt_at(tool));
+    for (const json& held : j.at("history_reactions")) record.history_reactions.push_back(felt_at(held));
     return record;
   } catch (const json::exception& error) {
     throw Error(Code::resume_error, std::string("the checkpoint's record of the run cannot be read: ") + error.what());

@@ -66,8 +66,9 @@ Outcome run_scene(const Scene& scene, const std::string& directory, int threads,
     note_refusal(scene, directory, error.faults(), error.code(), error.what());
     throw;
   } catch (const Error& error) {
-    // What could not be written because of the directory is no business of what stands in it.
-    if (error.code() != Code::output_error) note_refusal(scene, directory, {}, error.code(), error.what());
+    // What could not be written because of the directory is no business of what stands in it; and a run that cannot be resumed keeps the summary that it has.
+    const bool kept = error.code() == Code::resume_error && std::filesystem::exists(std::filesystem::path(directory) / "summary.json");
+    if (error.code() != Code::output_error && !kept) note_refusal(scene, directory, {}, error.code(), error.what());
     return {error.code(), error.what()};
   } catch (const std::exception& error) {
     note_refusal(scene, directory, {}, Code::internal_error, error.what());

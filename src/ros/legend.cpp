@@ -13,11 +13,11 @@ using visualization_msgs::Marker;
 void RunMarkers::add_legend(const RunFrame& frame, const ros::Time& stamp,
                             visualization_msgs::MarkerArray& array) const {
   constexpr int bar_cubes = 24;
-  const double size = box_.size(), height = 0.5 * size, text_height = 0.04 * size;
+  const double size = box_.sizes().maxCoeff(), height = 0.5 * size, text_height = 0.04 * size;
   const Vec3 up = dimension_ == 2 ? Vec3::UnitY() : Vec3::UnitZ();
-  const Vec3 centre = 0.5 * (box_.min + box_.max);
+  const Vec3 centre = box_.center();
   Vec3 foot = centre - 0.5 * height * up;
-  foot.x() = box_.min.x() - 0.3 * size;
+  foot.x() = box_.min().x() - 0.3 * size;
 
   Marker bar = marker("legend", 0, Marker::CUBE_LIST, stamp);
   bar.scale.x = bar.scale.y = bar.scale.z = height / bar_cubes;

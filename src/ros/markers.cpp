@@ -36,7 +36,7 @@ std::size_t RunMarkers::triangle_count() const {
 
 RunMarkers::ToolDrawing RunMarkers::draw(const ToolModel& tool, int budget) const {
   ToolDrawing drawing;
-  const double size = box_.size();
+  const double size = box_.sizes().maxCoeff();
   // In dimension 2 a tool is a line with a short band behind it.
   const auto band = [&](const Vec3& a, const Vec3& b) {
     const Vec3 back(0, 0, -0.1 * size);
@@ -140,7 +140,7 @@ void RunMarkers::add_tools(const RunFrame& frame, const ros::Time& stamp, Marker
     if (tools_[k].edges.empty()) continue;
     m.ns = "tool_edges";
     m.type = Marker::LINE_LIST;
-    m.scale.x = 0.006 * box_.size();
+    m.scale.x = 0.006 * box_.sizes().maxCoeff();
     m.color.a = 1;
     m.points = tools_[k].edges;
     array.markers.push_back(m);

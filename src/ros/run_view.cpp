@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forming_sim/results/history.h"
 #include "forming_sim/simulation/simulation.h"
 
 namespace forming_sim {
@@ -43,23 +44,10 @@ RunFrame frame_of(const Simulation& simulation, bool contact) {
   return frame;
 }
 
-std::string stage_name(const Simulation& simulation) {
-  const auto& stages = simulation.plan().stages;
-  if (stages.empty()) return "";
-  const int last = static_cast<int>(stages.size()) - 1;
-  const StageConfig& stage = stages[std::clamp(simulation.stage(), 0, last)];
-  return stage.title();
-}
-
-Box box_of(const NodeField& positions) {
-  Box box{Vec3::Zero(), Vec3::Zero()};
-  if (positions.empty()) return box;
-  box.min = box.max = vec3(positions.front());
-  for (const Node& x : positions) {
-    box.min = box.min.cwiseMin(vec3(x));
-    box.max = box.max.cwiseMax(vec3(x));
-  }
-  return box;
+Eigen::AlignedBox3d box_of(const NodeField& positions) {
+  Eigen::AlignedBox3d box;
+  for (const Node& x : positions) box.extend(vec3(x));
+  return positions.empty() ? Eigen::AlignedBox3d(Vec3::Zero(), Vec3::Zero()) : box;
 }
 
 }  // namespace forming_sim

@@ -118,7 +118,12 @@ void FormingServer::on_goal(Goal goal) {
       return;
     }
   }
-  const auto result = result_of(Code::busy, "another run is under way; send the goal again when it has ended, or cancel it");
+  const bool stops = [&] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return stopping_ || !ros::ok();
+  }();
+  const auto result = result_of(Code::busy, stops ? "the server is being shut down; send the goal when it runs again"
+                                                  : "another run is under way; send the goal again when it has ended, or cancel it");
   wait_for_client(received);
   goal.setRejected(result, result.message);
 }

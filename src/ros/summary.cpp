@@ -81,7 +81,7 @@ RunSummary read_summary(const std::string& directory) {
     ToolState state;
     state.name = tool.value("name", "");
     const json force = tool.value("peak_force", json::array());
-    if (force.is_array() && force.size() == 3) state.peak_force = vector_message(Vec3(force[0], force[1], force[2]));
+    if (force.is_array() && force.size() == 3) state.peak_force = vector_message(Vec3(number(tool, "/peak_force/0"), number(tool, "/peak_force/1"), number(tool, "/peak_force/2")));
     if (const auto radial = tool.find("peak_radial_force"); radial != tool.end() && radial->is_number()) state.peak_radial_force = *radial;
     state.pose.orientation.w = 1;
     summary.tools.push_back(state);

@@ -1,8 +1,8 @@
 #include "forming_sim/scene/build.h"
 
 #include <algorithm>
-#include <map>
 
+#include "forming_sim/simulation/release.h"
 #include "geometry.h"
 
 namespace forming_sim {
@@ -14,19 +14,6 @@ Model build_model(const Scene& scene) {
 }
 
 namespace {
-
-/// Every stage by its own name: unnamed ones take their kind, "form", then "form 2".
-void name_stages(std::vector<StageConfig>& stages) {
-  std::map<std::string, int> count;
-  for (const StageConfig& stage : stages) {
-    if (!stage.name.empty()) count[stage.name] = 1;
-  }
-  for (StageConfig& stage : stages) {
-    if (!stage.name.empty()) continue;
-    const int number = ++count[stage.kind];
-    stage.name = number == 1 ? stage.kind : stage.kind + "_" + std::to_string(number);
-  }
-}
 
 /// A withdrawal without a list takes all tools that are left.
 void list_withdrawn_tools(const std::vector<ToolConfig>& tools, std::vector<StageConfig>& stages) {
@@ -49,8 +36,7 @@ RunPlan build_plan(const Scene& scene) {
   plan.gravity = scene.gravity;
   plan.contact = scene.contact;
   plan.time_step = scene.time_step;
-  plan.stages = scene.stages;
-  name_stages(plan.stages);
+  plan.stages = named(scene.stages);
   list_withdrawn_tools(scene.tools, plan.stages);
   return plan;
 }

@@ -91,7 +91,8 @@ void tell_late(const Scene& scene, double end, std::vector<std::string>& notes) 
       if (!rests(l.tractions) || !rests(l.forces)) tell("the load on set " + l.set + " of body " + body.name, l.times);
   }
   for (const ToolConfig& tool : scene.tools)
-    if (tool.motion) tell("the motion of tool " + tool.name, tool.motion->times);
+    if (const auto& m = tool.motion; m && (!rests(m->positions) || !rests(m->rotations_deg) || !rests(m->velocities) || !rests(m->spins_deg_s) || !rests(m->forces)))
+      tell("the motion of tool " + tool.name, m->times);
 }
 
 }  // namespace

@@ -135,6 +135,7 @@ void check_velocity_field(const BodyConfig& body, const std::string& path, int d
 }  // namespace
 
 void check_bodies(const Scene& scene, FaultList& faults) {
+  const std::vector<StageConfig> stages = named(scene.stages);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const BodyConfig& body = scene.bodies[i];
     const std::string path = body_path(i);
@@ -155,9 +156,9 @@ void check_bodies(const Scene& scene, FaultList& faults) {
       const BoundaryConfig& boundary = body.boundaries[k];
       const std::string here = join_path(path + ".boundaries", k);
       check_set(boundary.set, here);
-      if (!boundary.until.empty() && release_stage(boundary.until, scene.stages) == static_cast<int>(scene.stages.size())) {
+      if (!boundary.until.empty() && release_stage(boundary.until, stages) == static_cast<int>(stages.size())) {
         std::vector<std::string> later;
-        for (std::size_t s = 1; s < scene.stages.size(); ++s) later.push_back(scene.stages[s].title());
+        for (std::size_t s = 1; s < stages.size(); ++s) later.push_back(stages[s].name);
         faults.add(here + ".until", given_text(boundary.until),
                    later.empty() ? "leave it out: there is no stage after the first" : "the stages after the first are " + one_of(later, ", ") + did_you_mean(boundary.until, later));
       }

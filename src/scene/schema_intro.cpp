@@ -33,7 +33,7 @@ leave a field out: there 0, "" and [] mean "not given", and the default holds.
   profiles lie at x >= 0. Forces, masses and energies are those of the whole circle (N, kg, J). What lies on the axis
   stays on it without being told; a set of nodes on the axis carries no pressure and no traction. Tools, gravity and initial velocities
   go along y. Of the force on a tool what goes along the axis is its force; what presses outward holds itself in balance, and is told as its `radial_force`, summed around the circle.
-- `dimension: 3` is a solid of tetrahedra or one-point hexahedra.
+- `dimension: 3` is a solid of hexahedra (each of 24 or 6 tetrahedra, or of one point) or of free tetrahedra.
 - Relative file names refer to the directory of the scene file; `package://NAME/PATH` and `file://` URLs are understood.
 - Names of bodies, tools, stages, probes and sets are of letters, digits, `_`, `-` and `.`; a tool has another name than a body.
 - What is said twice can be said once: keys that begin with `x-` at the top of a scene are free, for groups of fields with an
@@ -118,9 +118,9 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 
 | key | meaning |
 |---|---|
-| `status` | `code` and `message`: how the run ended |
-| `scene`, `dimension`, `axisymmetric`, `nodes`, `cells`, `elements`, `steps` | what was run; elements are the triangles or tetrahedra of `result.h5`, also those that a one-point cell is shown as |
-| `sim_time_s`, `wall_time_s`, `output_time_s`, `ns_per_element_step` | simulated time, time that the solver took, time that measuring and writing took beside it, speed; a one-point cell counts as one element there |
+| `status` | `code`, its `name` and `message`: how the run ended; of a scene that was refused `faults` lists all of them: `field`, `given`, `remedy` |
+| `version`, `scene`, `dimension`, `axisymmetric`, `per_metre_of_width`, `nodes`, `cells`, `elements`, `steps` | what was run; elements are the triangles or tetrahedra of `result.h5`, also those that a one-point cell is shown as |
+| `sim_time_s`, `wall_time_s`, `output_time_s`, `ns_per_element_step` | simulated time (`resumed_at_s`: where the last part of a resumed run began), time that the solver took, time that measuring and writing took beside it, speed; a one-point cell counts as one element there |
 | `time_step_s` | `first`, `min`, `limited_by` |
 | `energy_J` | `kinetic` (of a swing as fast as the mesh bears less than half of mass times speed squared: what its steps keep), `elastic`, `plastic`, `contact`, `friction`, `damping`, `work`, `initial`; `balance_error`: the residual of the ledger over the largest work + initial (and no less than the energy of a strain of 1e-12), a fraction; where it is above .05 at the end of a stage, `warnings` say so; `kinetic_over_internal_forming`: the largest of kinetic over elastic and plastic energy in the form stages, a guard for mass scaling and tool speed: a few percent are good; a body that moves as a whole counts too, and where nothing resists it for long the ratio says little |
 | `options` | what viscosity, damping, settling and mass scaling took or added; `time_step`: the limit and its cost, and `shortened`, how often steps were made shorter because energy came from nowhere; `raised_step`: mass added by `time_step.raise_to`, in kg, as a fraction, by body, and where most |
@@ -129,9 +129,11 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | `surface_strain` | the largest principal logarithmic strain on the surface, extrapolated to it |
 | `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom` |
 | `thinning` | the largest 1 - t/t0 of a node of `top`, t its thickness, t0 that of the start; where and when it is |
-| `bodies` | for each body: name, mass, centre, momentum, angular momentum about the origin, `bounding_box` (`min`, `max`) |
-| `tools` | for each tool: name and the vector of its peak force (axisymmetric: along the axis, and `peak_radial_force` outward, summed around the circle), of means over some 50 steps: shorter peaks are in `history.csv`, as means from row to row |
+| `bodies` | for each body: name, mass (that of the solver, with what `mass_scaling` and `raise_to` add), centre, momentum, angular momentum about the origin, `bounding_box` (`min`, `max`) |
+| `tools` | for each tool: name and the vector of its peak force (axisymmetric: along the axis, and `peak_radial_force` outward, summed around the circle), of means over some 50 steps: shorter peaks are in `history.csv`, as means from row to row; their `unit`; `position` at the end, and whether it is `present` then |
 | `springback` | `angle_deg_formed`, `angle_deg_released`, `change_deg`, `probe`, `kinetic_over_internal` |
+| `stages` | for each stage that has ended: name, kind, when, and the energies then |
+| `warnings` | what was odd in the scene or happened on the way, in sentences |
 )";
 }
 

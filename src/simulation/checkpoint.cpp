@@ -11,7 +11,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f660000000du;
+constexpr std::uint64_t kLayout = 0x6d726f660000000eu;
 
 template <class T> std::size_t mark_of(const T* values, std::size_t count) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(values), count * sizeof(T)});
@@ -59,6 +59,12 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.number(rests);
   a.number(settled);
   a.number(pressed);
+  std::size_t told = warnings.size() - told_at_start;
+  a.number(told);
+  warnings.resize(told_at_start + told);
+  for (std::size_t k = told_at_start; k < warnings.size(); ++k) a.text(warnings[k]);
+  a.number(ledger_told);
+  a.number(overstepped);
   fading.exchange(a);
   a.numbers(contact_force.data(), contact_force.size());
   const auto exchange_reaction = [&](Reaction& reaction) {

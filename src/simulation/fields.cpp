@@ -21,6 +21,7 @@ long Simulation::steps() const { return impl_->steps; }
 double Simulation::dt() const { return impl_->dt; }
 int Simulation::stage() const { return impl_->stages.index(); }
 double Simulation::progress() const { return impl_->stages.progress(impl_->time); }
+bool Simulation::quiet() const { return impl_->stages.settling() && impl_->settle.is_quiet(); }
 double Simulation::wall_time() const { return impl_->wall; }
 double Simulation::observed_time() const { return impl_->observed; }
 const NodeField& Simulation::initial_positions() const { return impl_->X; }

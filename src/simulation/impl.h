@@ -76,6 +76,7 @@ struct Simulation::Impl {
   long halvings = 0, sweeps = 0, swept_steps = 0, unsettled_steps = 0;
   double min_gap = 1;
   double explicit_stable_dt = 0;
+  std::size_t told_at_start = 0;    ///< of the warnings
   bool overstepped = false;         ///< a step was longer than the explicit contact is stable, and it has been told
   long active_pairs = 0;
   long crossings = 0;

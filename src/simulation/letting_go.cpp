@@ -29,9 +29,10 @@ double time_to_rest(const std::vector<StageConfig>& stages, int begin) {
   }
   return longest_time(until);
 }
-/// The projector on the directions in which no node of the body is held.
-Mat3 free_ways(const BoundarySet& held, const BodyModel& body) {
+/// The projector on the directions in which no node of the body is held; a ring cannot go outward as a whole.
+Mat3 free_ways(const BoundarySet& held, const BodyModel& body, bool axisymmetric) {
   Mat3 all = Mat3::Zero();
+  if (axisymmetric) all(0, 0) = 1;
   for (std::size_t i = 0; i < held.nodes().size(); ++i)
     if (held.nodes()[i] >= body.first_node && held.nodes()[i] < body.first_node + body.node_count) all += Mat3::Identity() - held.projector(static_cast<int>(i));
   const Eigen::SelfAdjointEigenSolver<Mat3> directions(all);
@@ -104,7 +105,7 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
       if (!held_by[n].isZero(0)) forces.push_back({n, on_surface[n] != 0, held_by[n]});
     if (forces.empty()) continue;
     const auto mass = elements.nodal_mass().begin();
-    fading.begin(time, duration, elements.stored_energy(x), {body.first_node, body.node_count, std::accumulate(mass + body.first_node, mass + end, 0.0), free_ways(boundaries, body)}, std::move(forces), faces, x);
+    fading.begin(time, duration, elements.stored_energy_of(body, x), {body.first_node, body.node_count, std::accumulate(mass + body.first_node, mass + end, 0.0), free_ways(boundaries, body, model.axisymmetric)}, std::move(forces), faces, x);
   }
 }
 

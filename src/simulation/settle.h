@@ -23,7 +23,7 @@ class Settle {
   Settle() = default;
   /// shortest: s, time for which the body must be quiet (size^2 / (thickness wave
   /// speed), about the slowest swing of a strip). least: J, of which positions tell nothing: what has less rests.
-  Settle(double start, double shortest, double fraction, double least) : shortest_(shortest), fraction_(fraction), least_(least), quiet_since_(start) {}
+  Settle(double start, double shortest, double fraction, double least) : shortest_(shortest), fraction_(fraction), least_(least), quiet_since_(start), looked_(start) {}
 
   /// v . (f_n - f_(n-1)) and v . M v of the free motion over a step dt.
   void estimate(double v_df, double v_Mv, double dt) {
@@ -37,17 +37,20 @@ class Settle {
   bool at_rest(double t, double f_Mf, double kinetic, double elastic, double put_in) {
     restless_ = kinetic + (omega_ > 0 ? 0.5 * f_Mf / (omega_ * omega_) : 0);
     quiet_ = std::max(fraction_ * std::max(elastic, 1e-6 * put_in), least_);
+    looked_ = t;
     if ((omega_ == 0 && restless_ > least_) || restless_ > quiet_) quiet_since_ = t;
     return t - quiet_since_ > shortest_;
   }
   /// The body is not on its own yet: what it was held by fades.
   void not_yet(double t) { quiet_since_ = t; }
+  /// It was quiet when it was last looked at: it rests when it stays so.
+  bool is_quiet() const { return looked_ > quiet_since_; }
   /// Kinetic and releasable energy when it was last looked at, and what it should be below, J.
   double restless() const { return restless_; }
   double quiet() const { return quiet_; }
 
  private:
-  double shortest_ = 0, fraction_ = 0, least_ = 0, quiet_since_ = 0, omega_ = 0, restless_ = 0, quiet_ = 0;
+  double shortest_ = 0, fraction_ = 0, least_ = 0, quiet_since_ = 0, looked_ = 0, omega_ = 0, restless_ = 0, quiet_ = 0;
 };
 
 }  // namespace forming_sim

@@ -79,6 +79,7 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
   initial = most = kinetic;
   begin_stage();
   choose_dt();
+  told_at_start = warnings.size();
 }
 
 void Simulation::Impl::set_up_loads() {

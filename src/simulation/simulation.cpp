@@ -85,6 +85,7 @@ bool Simulation::step() {
     const int ended = s.stages.index();
     for (Observer* o : s.observers) o->on_stage_end(*this, ended);
     s.stages.advance(s.time);
+    s.place_tools();  // which it may take away
     s.begin_stage();
   }
   s.observed += std::chrono::duration<double>(Clock::now() - stepped).count();
@@ -132,8 +133,9 @@ Outcome Simulation::run(const std::atomic<bool>& cancel) {
   for (Observer* o : s.observers) {
     try {
       o->on_end(*this, outcome.code, outcome.message);
-    } catch (const Error& error) {
-      if (outcome.code == Code::success || outcome.code == Code::limit_reached) outcome = {error.code(), error.what()};
+    } catch (const std::exception& error) {  // the others have what they keep to write all the same
+      const auto* known = dynamic_cast<const Error*>(&error);
+      if (outcome.code == Code::success || outcome.code == Code::limit_reached) outcome = {known ? known->code() : Code::internal_error, error.what()};
       else if (outcome.message.find(error.what()) == std::string::npos) outcome.message += std::string("; and ") + error.what();
     }
   }

@@ -119,7 +119,7 @@ TEST_P(ClosedSurface, force_is_minus_the_gradient_of_p_times_volume) {
 TEST_P(ClosedSurface, has_no_net_force_and_no_net_moment) {
   const Closed& shape = GetParam();
   NodeField f(shape.x.size(), Node::Zero());
-  EXPECT_GT(constant(shape, 3).add(0, shape.x, f), 3);
+  constant(shape, 3).add(0, shape.x, f);
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   for (size_t i = 0; i < f.size(); ++i) {
     EXPECT_GT(f[i].norm(), 0.05);
@@ -145,10 +145,12 @@ TEST(PressureSet, follows_its_pulse) {
   const PressureSet pulse({{ScalarProfile({0, 1, 2}, {0, 10, 0}), polygon().faces}});
   const NodeField x = polygon().x;
   NodeField none(7, Node::Zero()), half(7, Node::Zero()), full(7, Node::Zero());
-  EXPECT_EQ(pulse.add(2, x, none), 0);
-  EXPECT_NEAR(pulse.add(0.5, x, half) * 2, pulse.add(1, x, full), 1e-12);
+  pulse.add(2, x, none);
+  pulse.add(0.5, x, half);
+  pulse.add(1, x, full);
   for (int i = 0; i < 7; ++i) {
     EXPECT_EQ(none[i], Node(Node::Zero()));
+    EXPECT_GT(full[i].norm(), 1);
     EXPECT_LT((2 * half[i] - full[i]).norm(), 1e-12);
   }
 }

@@ -91,7 +91,7 @@ Mesh load(const std::string& name, const std::string& text, std::vector<std::str
 std::string error_of_file(const std::string& name, const std::string& text) {
   const TempDir dir;
   dir.write(name, text);
-  return error_of([&] { load_tool_surface(file(name), dir.str()); });
+  return error_of([&] { tool_surface(file(name), dir.str()); });
 }
 
 void expect_box(const Mesh& mesh) {
@@ -137,14 +137,14 @@ TEST(MeshImportTool, InlineTriangles) {
   MeshConfig config;
   config.unit_scale = 1e-3, config.points = kCorners;
   for (const Triangle& t : kBox) config.cells.insert(config.cells.end(), t.begin(), t.end());
-  expect_box(load_tool_surface(config, ""));
+  expect_box(tool_surface(config, ""));
   config.cell_type = "triangle";
-  expect_box(load_tool_surface(config, ""));
+  expect_box(tool_surface(config, ""));
   config.cell_type = "tetrahedron";
-  EXPECT_TRUE(has(error_of([&] { load_tool_surface(config, ""); }), "a tool's surface is made of triangles"));
+  EXPECT_TRUE(has(error_of([&] { tool_surface(config, ""); }), "a tool's surface is made of triangles"));
   config.cell_type = "";
   config.cells.pop_back();
-  EXPECT_TRUE(has(error_of([&] { load_tool_surface(config, ""); }), "given 35 indices; 3 per triangle"));
+  EXPECT_TRUE(has(error_of([&] { tool_surface(config, ""); }), "given 35 indices; 3 per triangle"));
 }
 
 TEST(MeshImportTool, FlatAndRepeatedTrianglesAreRemovedAndCounted) {
@@ -245,9 +245,9 @@ TEST(MeshImportTool, BrokenFilesAreRefused) {
   EXPECT_TRUE(has(error_of_file("nan.stl", ascii_stl(x)), "every coordinate must be a finite number"));
   EXPECT_TRUE(has(error_of_file("die.step", "x"), "the ending \".step\" is not known for a tool"));
   EXPECT_TRUE(has(error_of_file("die.msh", "x"), ".stl, .obj, .ply or .dae is needed"));
-  EXPECT_TRUE(has(error_of([] { load_tool_surface(file("none.stl"), "/nowhere"); }), "there is no file /nowhere/none.stl"));
-  EXPECT_TRUE(has(error_of([] { load_tool_surface(file("die.stl", -1), ""); }), "mesh.unit_scale: given -1"));
-  EXPECT_TRUE(has(error_of([] { load_tool_surface(file(""), ""); }), "neither url nor points"));
+  EXPECT_TRUE(has(error_of([] { tool_surface(file("none.stl"), "/nowhere"); }), "there is no file /nowhere/none.stl"));
+  EXPECT_TRUE(has(error_of([] { tool_surface(file("die.stl", -1), ""); }), "mesh.unit_scale: given -1"));
+  EXPECT_TRUE(has(error_of([] { tool_surface(file(""), ""); }), "neither url nor points"));
 }
 
 }  // namespace

@@ -60,11 +60,11 @@ TEST(MeshShipped, ToolsAreClosedAndPointOutwards) {
     EXPECT_NEAR(bounds(mesh).min().y(), -2 * mm, 1e-9);
     EXPECT_NEAR(bounds(mesh).max().y(), 12 * mm, 1e-9);
   }
-  const Mesh die = load_tool_surface(file("die.stl"), kMeshes);
+  const Mesh die = tool_surface(file("die.stl"), kMeshes);
   for (const Vec3& x : die.nodes) EXPECT_LT(distance_from_die(x), 1e-9);
   EXPECT_NEAR(bounds(die).max().x(), 10 * mm, 1e-9);
   EXPECT_NEAR(bounds(die).max().z(), 0, 1e-9);
-  const Mesh punch = load_tool_surface(file("punch.stl"), kMeshes);
+  const Mesh punch = tool_surface(file("punch.stl"), kMeshes);
   EXPECT_NEAR(bounds(punch).min().x(), (10 + .93 + .1) * mm, 1e-9);
   EXPECT_NEAR(bounds(punch).min().z(), .93 * mm, 1e-9);
 }

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/mesh/import.h"
 #include "forming_sim/mesh/measure.h"
 
 namespace forming_sim {
@@ -44,6 +45,12 @@ inline std::string error_of(const std::function<void()>& call, Code code = Code:
   }
   ADD_FAILURE() << "no error was thrown";
   return "";
+}
+
+/// Whatever was removed of it.
+inline Mesh tool_surface(const MeshConfig& config, const std::string& base_directory) {
+  std::vector<std::string> notes;
+  return load_tool_surface(config, base_directory, notes);
 }
 
 inline bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

@@ -71,6 +71,19 @@ TEST(MeshUrl, PackagesAreFoundByTheNameInTheirManifest) {
   }
 }
 
+TEST(MeshUrl, PackagesWithCatkinIgnoreAreNotThere) {
+  const TempDir dir;
+  dir.write("old/package.xml", kManifest);
+  dir.write("old/die.stl", "x");
+  dir.write("old/CATKIN_IGNORE", "");
+  dir.write("press_cell/package.xml", kManifest);
+  dir.write("press_cell/CATKIN_IGNORE", "");
+  dir.write("recent/package.xml", kManifest);
+  const std::string file = dir.write("recent/die.stl", "x");
+  const Variable ros("ROS_PACKAGE_PATH", dir.str()), cmake("CMAKE_PREFIX_PATH", "");
+  EXPECT_EQ(resolve_url("package://press_cell/die.stl", ""), file);
+}
+
 TEST(MeshUrl, InstalledPackagesAreFoundUnderShare) {
   const TempDir dir;
   dir.write("install/share/press_cell/package.xml", kManifest);

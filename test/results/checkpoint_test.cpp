@@ -28,7 +28,7 @@ Checkpoint example_checkpoint() {
   record.thinning = {0.2, 7, Vec3(4, 5, 6), 2e-3};
   record.pressed = {0.3, 8, Vec3(7, 8, 9), 3e-3};
   record.stages.push_back({"form", "form", 1e-3, 1, 2, 3});
-  record.history_tools = {{Vec3(0, -1, 0), Vec3(0, 0, 2), 3}};
+  record.history_tools = {{{Vec3(0, -1, 0), Vec3(0, 0, 2), 3}, Vec3(4, 5, 6)}};
   checkpoint.record = record.to_json();
   return checkpoint;
 }
@@ -64,9 +64,10 @@ TEST(Checkpoint, IsLoadedAsSaved) {
   EXPECT_EQ(record.pressed.value, 0.3);
   EXPECT_EQ(record.thinning.position, Vec3(4, 5, 6));
   EXPECT_EQ(record.stages[0].kinetic_over_internal(), 0.2);
-  EXPECT_EQ(record.history_tools[0].impulse, Vec3(0, -1, 0));
-  EXPECT_EQ(record.history_tools[0].angular, Vec3(0, 0, 2));
-  EXPECT_EQ(record.history_tools[0].radial, 3);
+  EXPECT_EQ(record.history_tools[0].felt.impulse, Vec3(0, -1, 0));
+  EXPECT_EQ(record.history_tools[0].felt.angular, Vec3(0, 0, 2));
+  EXPECT_EQ(record.history_tools[0].felt.radial, 3);
+  EXPECT_EQ(record.history_tools[0].position, Vec3(4, 5, 6));
   EXPECT_NO_THROW(require_same_run(loaded, small_scene(), "checkpoint.h5"));
 }
 

@@ -234,6 +234,36 @@ TEST(RunScene, LeavesFilesThatAgreeWithEachOther) {
   column("min_gap_over_h0");
 }
 
+// Of a stage shorter than the time between two rows there is one row, and it tells what bears the load at rest: not the mean of the
+// swings on the way, which for a strip that hangs still at first is a tenth less.
+TEST(RunScene, TheLastRowTellsWhatIsFeltAtRest) {
+  const TemporaryDirectory directory;
+  Scene scene = small_scene();
+  scene.tools.clear();
+  scene.output.springback.reset();
+  scene.output.probes = {{}};
+  scene.output.probes[0].name = "wall";
+  scene.output.probes[0].set = "left";
+  scene.output.interval = 1;
+  scene.bodies[0].blank->length = 0.02;
+  scene.bodies[0].material.hardening.reset();
+  LoadConfig load;
+  load.set = "right";
+  load.kind = "force";
+  load.times = {0};
+  load.forces = {Vec3(0, -1e3, 0)};
+  scene.bodies[0].loads = {load};
+  scene.stages.resize(1);
+  scene.stages[0] = StageConfig();
+  scene.stages[0].kind = "settle";
+  scene.stages[0].limit = 0.1;
+  run_scene(scene, directory.path(), 1, "", kNever);
+  const auto history = read_csv(directory.file("history.csv"));
+  const auto place = std::find(history[0].begin(), history[0].end(), "probe_wall_reaction_force_y_N_per_m");
+  ASSERT_NE(place, history[0].end());
+  EXPECT_NEAR(std::stod(history.back()[place - history[0].begin()]), 1e3, 3);
+}
+
 // A roller sinks into a strip and turns: its force and its moment about its place do the work of the run.
 TEST(RunScene, TheMomentOnAToolIsInItsHistory) {
   const TemporaryDirectory directory;
@@ -340,6 +370,41 @@ TEST_F(Resume, OfAnotherSceneIsRefusedWithTheDifference) {
   EXPECT_NE(outcome.message.find("0.25"), std::string::npos) << outcome.message;
   EXPECT_NE(outcome.message.find("in tools"), std::string::npos) << outcome.message;
   EXPECT_EQ(read_json(directory.file("summary.json"))["status"]["message"], outcome.message);
+  // In its own directory the run keeps its summary.
+  const std::string before = read_text(whole_.file("summary.json"));
+  EXPECT_EQ(run_scene(other, whole_.path(), 1, whole_.file("checkpoint.h5"), kNever).code, Code::resume_error);
+  EXPECT_EQ(read_text(whole_.file("summary.json")), before);
+}
+
+// What the first part of a run warned of is in the summary of the whole, once.
+TEST(RunScene, ThatIsResumedKeepsItsWarnings) {
+  Scene scene = small_scene();
+  scene.contact.method = "explicit";
+  scene.contact.layer = 1e-7;
+  scene.stages.resize(1);
+  const TemporaryDirectory whole, parts;
+  run_scene(scene, whole.path(), 1, "", kNever);
+  const json expected = read_json(whole.file("summary.json"));
+  const auto overstepped = [](const json& summary) {
+    return std::count_if(summary["warnings"].begin(), summary["warnings"].end(), [](const json& w) { return w.get<std::string>().find("explicit contact is stable") != std::string::npos; });
+  };
+  ASSERT_EQ(overstepped(expected), 1);
+  CancelAfter canceller(expected["steps"].get<long>() * 9 / 10);
+  ASSERT_EQ(run_scene(scene, parts.path(), 1, "", canceller.cancel, {&canceller}).code, Code::cancelled);
+  ASSERT_EQ(overstepped(read_json(parts.file("summary.json"))), 1);
+  run_scene(scene, parts.path(), 1, parts.file("checkpoint.h5"), kNever);
+  EXPECT_EQ(comparable(read_json(parts.file("summary.json"))), comparable(expected));
+}
+
+TEST(RunScene, ToolsThatWereWithdrawnLastAreGone) {
+  for (const Vec3& way : {Vec3(0, 1e-3, 0), Vec3(0, 0, 0)}) {
+    const TemporaryDirectory directory;
+    Scene scene = small_scene();
+    scene.stages.resize(2);
+    scene.stages[1].displacement = way;
+    run_scene(scene, directory.path(), 1, "", kNever);
+    EXPECT_EQ(read_json(directory.file("summary.json"))["tools"][0]["present"], false);
+  }
 }
 
 TEST_F(Resume, ARunFromItsStartTakesAwayTheCheckpointOfAnother) {

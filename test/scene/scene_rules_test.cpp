@@ -80,6 +80,8 @@ TEST(SceneRules, AnAxisymmetricSceneGoesAlongItsAxis) {
   expect_fault(with("[0, -0.020]", "[0.001, -0.020]"), "tools[2].motion.positions[1]", "along the axis y only");
   expect_fault(with("positions:", "rotations_deg: [[0, 0, 0], [0, 0, 3]]\n      positions:"), "tools[2].motion.rotations_deg[1]", "no ring");
   expect_fault(replaced(with("kind: trajectory", "kind: force"), "positions: [[0, 0], [0, -0.020]]", "forces: [[0, 0], [1, -2]]"), "tools[2].motion.forces[1]", "along the axis y only");
+  expect_fault(replaced(with("kind: trajectory", "kind: force"), "positions: [[0, 0], [0, -0.020]]", "initial_velocity: [-3, 0]\n      forces: [[0, 0], [0, 0]]"),
+               "tools[2].motion.initial_velocity", "along the axis y only");
   expect_fault(with("tools:\n", "contact: {method: geometric}\ntools:\n"), "contact.method", "implicit or explicit");
   EXPECT_TRUE(faults_of(with("axisymmetric: true", "axisymmetric: true\ngravity: [0, 9.81]")).empty());
   Scene scene = scene_of(turned);
@@ -216,6 +218,10 @@ TEST(SceneRules, Stages) {
   expect_flange_fault("{set: left, kind: fixed}", "{set: left, kind: fixed, until: spring}", "bodies[0].boundaries[0].until", "release, springback; did you mean springback?");
   expect_flange_fault("{set: left, kind: fixed}", "{set: left, kind: fixed, until: flanging}", "bodies[0].boundaries[0].until", "stages after the first");
   EXPECT_TRUE(faults_of(replaced(flange_example(), "{set: left, kind: fixed}", "{set: left, kind: fixed, until: springback}")).empty());
+  // Stages without a name have their kind's, and a number from the second on: the first settle stage cannot be meant.
+  const std::string twice = replaced(minimal_example(), "  - {kind: form, duration: 5e-4}  # s\n", "  - {kind: settle, limit: 1e-4}\n  - {kind: form, duration: 5e-4}\n  - {kind: settle, limit: 1e-4}\n");
+  expect_fault(replaced(twice, "kind: fixed", "kind: fixed, until: settle"), "bodies[0].boundaries[0].until", "form, settle_2");
+  EXPECT_TRUE(faults_of(replaced(twice, "kind: fixed", "kind: fixed, until: settle_2")).empty());
   expect_fault(replaced(minimal_example(), "kind: form", "kind: withdraw"), "stages[0]", "the scene has no tools");
   expect_fault(replaced(minimal_example(), "  - {kind: form, duration: 5e-4}  # s\n", "  []\n"), "stages", "required");
   expect_fault(replaced(minimal_example(), "kind: form, duration: 5e-4", "kind: form"), "stages[0].duration", "required where kind is form or withdraw");

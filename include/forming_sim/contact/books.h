@@ -7,9 +7,9 @@ namespace forming_sim {
 
 class Books {
  public:
-  /// Fills tool impulses, tool_work, held_work, friction_work, active and layer of the step,
-  /// which start at 0 (layer: at h0).
-  Books(const Workspace& work, const std::vector<Rub>& rubs, int bodies, int tools, double layer, ContactStep& step);
+  /// Fills tool impulses, tool_work, held_work, friction_work and active of the step,
+  /// which start at 0.
+  Books(const Workspace& work, const std::vector<Rub>& rubs, int bodies, int tools, ContactStep& step);
   void add(const TiePair& tie);
   void add(const ContactPair& pair);
   /// What another thread has booked of the same step.

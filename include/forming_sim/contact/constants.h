@@ -17,7 +17,7 @@ struct PairConstants {
   double modulus, layer;  ///< E, Pa; h0, m
   const ShearWaves* waves = nullptr;  ///< where the workspace has a steady motion
 
-  /// Sets stiffness, tool, w and, where the surfaces rub, adds a Rub. A is the mean
+  /// Sets stiffness, w and, where the surfaces rub, adds a Rub. A is the mean
   /// area of the pair's deformable nodes. A pair that nothing can move gets
   /// stiffness 0 and w 0.
   void set(ContactPair& pair, std::vector<Rub>& rubs) const;

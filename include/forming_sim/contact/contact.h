@@ -10,8 +10,8 @@
 //
 // Law of a pair: f = E A h0 (1/h - 1/h0) for a gap h < h0 (contact/law.h), taken
 // at the end of the step. A is the mean of the areas that the pair's deformable
-// nodes stand for; E, A and h0 are fixed at
-// set-up, weights and normals are those of the start of the step.
+// nodes stand for; E and A are fixed at
+// set-up, h0 but for what closes fast (src/contact/layers.cpp); weights and normals are those of the start of the step.
 #include <functional>
 #include <memory>
 #include <string>
@@ -81,7 +81,6 @@ struct ContactStep {
   bool settled = true;            ///< in the step taken they came to their end, not to max_sweeps
   long active = 0;                ///< pairs that carried an impulse
   double min_gap_over_layer = 1;  ///< smallest end-of-step gap / h0, at most 1
-  double layer = 0;               ///< thickest layer in use, m: h0, or more where the closing is fast
   double friction_work = 0;       ///< dissipated by friction
   double soft_start_work = 0;     ///< of layers that grew (or shrank back) at a fixed gap
   double tool_work = 0;           ///< of the tools on the bodies

@@ -14,8 +14,8 @@ struct ToolSet {
   std::vector<Vec3> point, normal;   ///< of planes, in the tool's frame, set back
   std::vector<std::string> names;
 
-  /// Places of all tool vertices with the tools at position0, rotation0 (or 1).
-  void place_all(const Features& features, const std::vector<ToolMotion>& motion, bool at_end, NodeField& place) const;
+  /// Places of all tool vertices with the tools at position0, rotation0.
+  void place_all(const Features& features, const std::vector<ToolMotion>& motion, NodeField& place) const;
   std::vector<PlanePose> planes(const std::vector<ToolMotion>& motion) const;
   static std::vector<bool> present(const std::vector<ToolMotion>& motion);
 };

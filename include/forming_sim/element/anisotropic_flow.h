@@ -52,9 +52,9 @@ template <class T, int D, class Metric>
                        mean.slope * over * over * (T(4) * n.root * n.root * n.root + T(3) * n.varied * n.varied);
   T L = share * T(2) * n.root * (n.root - T(1)) / resistance;
   // S : m/h of the end, which s follows: the edge lies where S will, not where its trial does
-  const T after = to.Sm - T(3) * L * work(softer, there.part);
-  const auto turned = (to.Sm * after < T(0)) & (to.edge > T(0));
-  if (any(turned)) L *= select(turned, to.Sm / select(turned, to.Sm - after, T(1)), T(1));
+  const T falls = T(3) * work(softer, there.part);  // per L
+  const auto turned = (to.Sm * (to.Sm - L * falls) < T(0)) & (to.edge > T(0));
+  if (any(turned)) L = select(turned, to.Sm / select(turned, falls, T(1)), L);
   repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] -= L * mean.modulus * by_S[i]; });
   ep = {ep.a + T(3) * L * by_s.a, ep.b + T(3) * L * by_s.b, ep.shear + T(3) * L * by_s.shear};
   rise += T(3) * L * to.varied * over * to.over_root;

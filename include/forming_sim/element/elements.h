@@ -94,7 +94,7 @@ class Elements {
   double slowest_wave() const;  ///< sqrt((K + 4 mu/3)/rho) of the slowest material, masses scaled, m/s
 
   /// f = internal forces at x as if nothing yielded on the way from the last positions: a change of
-  /// x gives the elastic tangent. Without viscosity; no memory changes. Not of Law::classical.
+  /// x gives the elastic tangent. Without viscosity; no memory changes, what nodal_forces() gave is lost. Not of Law::classical.
   void elastic_forces(const NodeField& x, NodeField& f);
 
   long blocks() const;           ///< of cells, over all groups
@@ -108,6 +108,7 @@ class Elements {
   /// J. v, since: the nodes have come here with these velocities in this time, s, since the memory was kept, for Law::classical;
   /// without them its stresses are those of the memory.
   double stored_energy(const NodeField& x, const NodeField* v = nullptr, double since = 0) const;
+  double stored_energy_of(const BodyModel& body, const NodeField& x) const;  ///< J, of one body
 
   /// Numbers that the next steps depend on, in a fixed order.
   void append_state(std::vector<double>& to) const;
@@ -130,6 +131,7 @@ class Elements {
   void nodal_pressure(const NodalView& view, double* slots) const;
   /// Likewise, in room of its own: the forces that the cells found last stay.
   void observe_pressure(const NodalView& view) const;
+  double stored_energy(const NodalView& view, const BodyModel* of) const;  // null: of all
   /// What the kernels observe of these blocks; stress and ratio: null where the energy is asked for alone.
   void observe_blocks(const Group& g, long first_block, long last_block, const NodalView& view, double* stress, double* ratio, double* energy) const;
   /// A group of the points at the edges of the body's simplices whose pressures are in the nodes.

@@ -95,7 +95,7 @@ template <class T> class OnePointRingBound {
     const T cross2 = T((1 + moduli.nu) * (1 + moduli.nu)) * (mixed[0] * mixed[0] + mixed[1] * mixed[1] + mixed[2] * mixed[2] + mixed[3] * mixed[3]);
     const T half = T(0.5) * (own[0] - own[1]), varied = T(0.5) * (own[0] + own[1]) + sqrt(half * half + cross2);
     const T tangent = point_tangent(g_.solid, e, J, memory);
-    const T volumetric = T(g_.solid.K) * (g_.solid.law == Law::classical ? T(1) : J * J) * sum_;
+    const T volumetric = T(g_.solid.K) * pressure_tangent(g_.solid, J) * sum_;
     omega2 = (T(2 * g_.solid.mu) * tangent * largest_eigenvalue(M) + volumetric + T(moduli.plane / 3) * varied) / rho;
     sum_ = sum_ * e.volume * e.volume / (rho * V0);
     V_ = e.volume;

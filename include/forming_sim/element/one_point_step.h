@@ -44,7 +44,7 @@ template <class T, int D> class OnePointBound {
     const T rho(g_.density), tangent = point_tangent(g_.solid, e, J, memory);
     const T deviatoric = T(g_.solid.mu) / rho * tangent * shape_bound(S, trace_S);
     sum_ = trace_S * e.volume * e.volume / (rho * V0);
-    const T uniform = deviatoric + T(g_.solid.K) / (g_.solid.law == Law::classical ? e.volume : V0) * sum_;
+    const T uniform = deviatoric + T(g_.solid.K) * pressure_tangent(g_.solid, J) / (J * e.volume) * sum_;
     T turned(0);
     load(constants, Cell::looseness, item);
     for (int a = 0; a < Cell::modes; ++a) {

@@ -96,7 +96,7 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
     const Shapes shapes = shapes_of(e, corner);
     const T J = e.volume / V0;
     const T omega2 = at_edges ? *at_edges : deviatoric(point_tangent(g_.solid, e, J, memory), shapes);
-    const T volumetric = T((D + 1) * g_.solid.K / g_.density) * J * J * shapes.volumetric;
+    const T volumetric = T((D + 1) * g_.solid.K / g_.density) * pressure_tangent(g_.solid, J) * shapes.volumetric;
     const T guard = T(g_.guard) * guard_slope(J, free);  // over K
     deviatoric_ = larger(deviatoric_, omega2);
     element_ = larger(element_, omega2 + volumetric * (T(1) + guard));
@@ -139,8 +139,7 @@ template <class T, int D, int Nodes, bool Ring> class StepBound {
       else
         sum += dot(gradient_[a], gradient_[a]) / mass_[a];
     }
-    // The classical pressure follows the rate of the current volume, not V/V0.
-    const T cell_volumetric = T(g_.solid.K) / (g_.solid.law == Law::classical ? V_ : V0_) * sum;
+    const T cell_volumetric = T(g_.solid.K) * pressure_tangent(g_.solid, V_ / V0_) * V0_ / (V_ * V_) * sum;
     const bool per_cell = g_.pressure == PressureMode::cell;
     const T omega2 = per_cell ? deviatoric_ + T(1 - g_.element_share) * cell_volumetric + own_ : element_;
     return {omega2 + middle_, viscous_damping<T, D>(g_, sum, V_, extent_, rate)};

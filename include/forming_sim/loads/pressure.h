@@ -33,8 +33,8 @@ class PressureSet {
   explicit PressureSet(std::vector<ResolvedPressure> pressures, bool axisymmetric = false);
 
   bool empty() const { return pressures_.empty(); }
-  /// f += forces at time t on positions x. Returns the sum of p A, N (N/m in 2D).
-  double add(double t, const NodeField& x, NodeField& f) const;
+  /// f += forces at time t on positions x.
+  void add(double t, const NodeField& x, NodeField& f) const;
 
  private:
   std::vector<ResolvedPressure> pressures_;

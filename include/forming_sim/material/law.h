@@ -56,6 +56,9 @@ template <class T, int D, bool Ring> T point_tangent(const SolidConstants& m, co
   return von_mises_tangent(m, e, J, memory);
 }
 
+/// V/V0 dp/d(ln V) over K, likewise: p = K (V/V0 - 1), and the classical pressure follows the rate of the current volume.
+template <class T> T pressure_tangent(const SolidConstants& m, const T& J) { return m.law == Law::classical ? J : J * J; }
+
 /// Equivalent plastic strain: the weighted mean of the layers'. at(item): a number of memory.
 template <int D, class At> double plastic_strain_of(const SolidConstants& m, At&& at) {
   constexpr int size = Symmetric<double, D>::size;

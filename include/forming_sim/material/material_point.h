@@ -1,5 +1,5 @@
 #pragma once
-// A law at a single point, driven through a history of deformation: the same code
+// A law at a single point, driven through a history of deformation: the same formulas
 // that the elements run, for one tetrahedron whose initial edges are the unit
 // vectors, x_m = F e_m.
 #include <array>

@@ -12,7 +12,7 @@ namespace forming_sim {
 ///   bar    bottom (least z) top side; symmetry_x (the face x = 0 of a half or
 ///          quarter, relative to the origin), symmetry_y (y = 0 of a quarter)
 /// Sets hold the face centres of hex24 too.
-/// Throws Error(invalid_scene) for a length, count or name out of range.
+/// Throws Error(invalid_scene) for a length, count or name out of range, and Error(mesh_error) for cells that rounding makes flat.
 Mesh generate_blank(const BlankConfig& blank);
 
 }  // namespace forming_sim

@@ -16,7 +16,7 @@ namespace forming_sim {
 /// balance_error, per tool force (mean since the row before) and position,
 /// max_plastic_strain, max_surface_strain, min_thickness_m, max_thinning, min_gap_over_h0, and
 /// per probe position, velocity and mean stress, and where boundaries hold or drive it
-/// what they push with: force, and moment about its position (means since the row before).
+/// what they push with: force, and moment about its place (means since the row before).
 std::vector<std::string> history_columns(const Model& model, const std::vector<Probe>& probes);
 
 class History : public Observer {
@@ -39,6 +39,7 @@ class History : public Observer {
   RunRecord& record_;
   std::unique_ptr<CsvFile> file_;
   long last_step_ = -1;
+  bool quiet_ = false;
 };
 
 /// Name of the running stage; of the last one when all have ended.

@@ -46,6 +46,12 @@ struct StageRecord {
   double kinetic_over_internal() const;          ///< kinetic / (elastic + plastic); NaN where that is 0
 };
 
+/// What a tool or a set has felt so far, and where it is.
+struct FeltAt {
+  Reaction felt;
+  Vec3 position = Vec3::Zero();  ///< m
+};
+
 struct RunRecord {
   std::optional<double> thickness_initial, thickness_min;  ///< m; absent without sets top and bottom
   Peak surface_strain, thinning;                           ///< over all times of the history
@@ -58,8 +64,8 @@ struct RunRecord {
   std::vector<StageRecord> stages;
   std::vector<std::string> notes;                          ///< said in the summary's warnings
   double history_time = 0;                                 ///< of the last row, s
-  std::vector<Reaction> history_tools;                     ///< what the tools had felt then
-  std::vector<Reaction> history_reactions;                 ///< on the probes then
+  std::vector<FeltAt> history_tools;                       ///< what the tools had felt then
+  std::vector<FeltAt> history_reactions;                   ///< on the probes then
 
   std::string to_json() const;
   /// Throws Error(resume_error) where the text is not such a record.

@@ -47,7 +47,7 @@ class RunMarkers {
 
   MarkerOptions options_;
   int dimension_ = 3;
-  Box box_{Vec3::Zero(), Vec3::Zero()};
+  Eigen::AlignedBox3d box_;
   DisplayMesh sheet_;
   std::vector<ToolDrawing> tools_;
   double range_ = 0;

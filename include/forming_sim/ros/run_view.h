@@ -1,6 +1,7 @@
 #pragma once
 // What of a run is drawn and published: taken from a running simulation or from
 // a result file, so that both look the same.
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -41,14 +42,7 @@ RunShape shape_of(const Simulation& simulation, const std::string& scene);
 /// contact: with the fields of contact, which are searched for.
 RunFrame frame_of(const Simulation& simulation, bool contact);
 
-/// Name of the stage that is running, of the last one at the end.
-std::string stage_name(const Simulation& simulation);
-
-/// Corners of the box around the nodes.
-struct Box {
-  Vec3 min, max;
-  double size() const { return (max - min).maxCoeff(); }
-};
-Box box_of(const NodeField& positions);
+/// The box around the nodes; where there is none, the origin.
+Eigen::AlignedBox3d box_of(const NodeField& positions);
 
 }  // namespace forming_sim

@@ -56,6 +56,7 @@ class Simulation {
   double dt() const;                 ///< of the last step; before the first, of that to come
   int stage() const;                 ///< index of the running stage; number of stages at the end
   double progress() const;           ///< 0..1, by simulated time; a settle stage counts by its limit
+  bool quiet() const;                ///< a settle stage runs and has nearly done: its bodies rest if they stay as they are
   double wall_time() const;          ///< s spent stepping and checking, observers excluded
   double observed_time() const;      ///< s that observers and the change of stages took between the steps
   const NodeField& initial_positions() const;

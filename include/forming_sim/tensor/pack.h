@@ -323,15 +323,15 @@ template <> constexpr int registers_of<FORMING_SIM_ISA::Pack> = 32;
 
 /// J^(-1/3) for J > 0. For |J - 1| <= 0.2 from its Taylor polynomial y of degree 4 about J = 1, which is
 /// right to 5e-5, by J^(-1/3) = y (1 - r)^(-1/3), r = 1 - J y^3, to the third power of r: to
-/// round-off. Farther away by Newton's method on y^-3 = J from the tangent at J = 1,
-/// which never lies above the root: the iteration rises to it without overshoot.
+/// round-off. Farther away by Newton's method on y^-3 = J from the tangent at J = 1 or, for large J, from .3 or 1/J,
+/// which never lie above the root: the iteration rises to it without overshoot.
 template <class T> T inverse_cube_root(const T& J) {
   const T d = J - T(1), d2 = d * d;
   T y = (T(1) - T(1.0 / 3) * d) + d2 * (T(2.0 / 9) - T(14.0 / 81) * d + T(35.0 / 243) * d2);
   const T r = T(1) - (J * y) * (y * y), yr = y * r;
   y += yr * (T(1.0 / 3) + r * (T(2.0 / 9) + T(14.0 / 81) * r));
   if (any(absolute(d) > T(0.2))) {
-    y = larger((T(4) - J) * T(1.0 / 3), T(0.3));
+    y = larger((T(4) - J) * T(1.0 / 3), select(J > T(36.0), T(1) / J, T(0.3)));
     for (int i = 0; i < 64; ++i) {
       const T next = y * (T(4) - J * y * y * y) * T(1.0 / 3);
       const T change = next - y;
