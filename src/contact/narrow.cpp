@@ -8,7 +8,32 @@
 #include "forming_sim/contact/closest_pack.h"
 
 namespace forming_sim {
+
+struct NarrowRoom {
+  struct Candidate {
+    int group, entry;
+  };
+  struct Hit {
+    Closest closest;
+    double distance = 0;
+    int entry = -1;
+    long candidate = -1;
+    std::uint64_t feature = 0;
+    bool taken = false;
+    Hit() {}  // without it all is set to zero before
+  };
+  std::vector<Candidate> candidates;  ///< listed pairs that are awake, group by group
+  std::vector<FacePack> faces;        ///< the same in lanes
+  std::vector<Hit> hits;              ///< of a group
+  LargeArray<ContactPair> corners;    ///< pairs of two vertices
+};
+
 namespace {
+
+NarrowRoom& room_of(Narrow& narrow) {
+  if (!narrow.room) narrow.room = std::make_shared<NarrowRoom>();
+  return *narrow.room;
+}
 
 // Slope up to which facets count as level, when it is asked whether a feature
 // is the nearest of its surface. Between vertices of one surface a hollow of the
@@ -35,7 +60,7 @@ constexpr int kEdgesAtOnce = 64;
 class Phase {
  public:
   Phase(const PairConstants& constants, const Layers* layers, bool all, const Range& range, Narrow& result)
-      : constants_(constants), layers_(layers), f_(constants.features), work_(constants.work), layer_(constants.layer), all_(all), range_(range), awake_((range.travel + range.reach) * (1 + 1e-12)), out_(result), finished_(result.pairs.size()) {}
+      : constants_(constants), layers_(layers), f_(constants.features), work_(constants.work), layer_(constants.layer), all_(all), range_(range), awake_((range.travel + range.reach) * (1 + 1e-12)), out_(result), room_(room_of(result)), finished_(result.pairs.size()) {}
 
   /// Looks at the facets that are awake of the groups first ... last - 1; of those out of reach it sets when they need be looked
   /// at again: the others will be awake in the next step too, and what is not written costs less.
@@ -80,7 +105,6 @@ class Phase {
     for (ContactPair& pair : out_.pairs) take(pair);
     finish();
   }
-  LargeArray<ContactPair>& corners() { return corners_; }
   void finish() {
     for (; finished_ < out_.pairs.size(); ++finished_) {
       ContactPair& pair = out_.pairs[finished_];
@@ -91,31 +115,22 @@ class Phase {
   }
 
  private:
-  struct Candidate {
-    int group, entry;
-  };
-  struct Hit {
-    Closest closest;
-    double distance = 0;
-    int entry = -1;
-    long candidate = -1;
-    std::uint64_t feature = 0;
-    bool taken = false;
-    Hit() {}  // without it all is set to zero before
-  };
+  using Candidate = NarrowRoom::Candidate;
+  using Hit = NarrowRoom::Hit;
 
   // The closest points of the candidates, in lanes; then group by group what they are.
   void meet_facets(NearList& list) {
     const long count = static_cast<long>(candidates_.size());
-    faces_.resize((count + kLanes - 1) / kLanes);
-    for (size_t p = 0; p < faces_.size(); ++p) {
+    const size_t packs = (count + kLanes - 1) / kLanes;
+    if (faces_.size() < packs) faces_.resize(packs);
+    for (size_t p = 0; p < packs; ++p) {
       for (int l = 0; l < kLanes; ++l) {
         const Candidate& c = candidates_[std::min<long>(p * kLanes + l, count - 1)];
         faces_[p].point[l] = list.groups[c.group].node;
         faces_[p].corner[l] = list.facets[c.entry].node;
       }
     }
-    (f_.dimension == 2 ? kernels_.segments : kernels_.faces)(work_.x.front().data(), &work_.share.front().inverse_mass, faces_.data(), static_cast<long>(faces_.size()));
+    (f_.dimension == 2 ? kernels_.segments : kernels_.faces)(work_.x.front().data(), &work_.share.front().inverse_mass, faces_.data(), static_cast<long>(packs));
     for (long i = 0; i < count;) {
       const int group = candidates_[i].group;
       NearList::VertexGroup& g = list.groups[group];
@@ -302,10 +317,11 @@ class Phase {
   const double awake_;  ///< entries that wake later sleep; distances are computed to rounding, the factor keeps the bound on its safe side
   Narrow& out_;
   const ClosestKernels& kernels_ = widest_kernels();
-  std::vector<Candidate> candidates_;  ///< listed pairs that are awake, group by group
-  std::vector<FacePack> faces_;        ///< the same in lanes
-  std::vector<Hit> hits_;              ///< of a group
-  LargeArray<ContactPair> corners_;   ///< pairs of two vertices
+  NarrowRoom& room_;
+  std::vector<Candidate>& candidates_ = room_.candidates;
+  std::vector<FacePack>& faces_ = room_.faces;
+  std::vector<Hit>& hits_ = room_.hits;
+  LargeArray<ContactPair>& corners_ = room_.corners;
   int vertex_ = -1;                   ///< whose pairs are being found
   size_t finished_;                   ///< so many pairs are in order and complete
   Layers::Place place_;
@@ -319,6 +335,7 @@ void Narrow::clear() {
   unmovable.clear();
   rubs.clear();
   close.clear();
+  if (room) room->corners.clear();
 }
 
 void put_in_order(LargeArray<ContactPair>& pairs) {
@@ -357,24 +374,25 @@ void join(const Narrow& share, Narrow& result) {
   }
   result.rubs.insert(result.rubs.end(), share.rubs.begin(), share.rubs.end());
   result.close.insert(result.close.end(), share.close.begin(), share.close.end());
+  room_of(result).corners.insert(room_of(result).corners.end(), share.room->corners.begin(), share.room->corners.end());
 }
 
-/// Calls work(share, into, first, last) for every thread's share of `count` things, then joins what
+/// Calls work(into, first, last) for every thread's share of `count` things, then joins what
 /// they found in the order of the things. together(i): i belongs to the share of i - 1.
 template <class Together, class Work> void share_out(Team& team, long count, long least, Together&& together, Narrow& result, Work&& work) {
   const long shares = std::max(1L, std::min<long>(team.size(), count / least));
-  if (shares == 1) return work(0, result, 0, count);
-  result.shares.resize(shares - 1);
+  if (shares == 1) return work(result, 0, count);
+  if (static_cast<long>(result.shares.size()) < shares - 1) result.shares.resize(shares - 1);
   std::vector<long> start(shares + 1, count);
   for (long s = 0; s < shares; ++s)
     for (start[s] = s * count / shares; start[s] > 0 && start[s] < count && together(start[s]);) ++start[s];
   team.share(shares, 1, [&](long first, long last) {
     for (long s = first; s < last; ++s) {
       if (s > 0) result.shares[s - 1].clear();
-      work(static_cast<int>(s), s == 0 ? result : result.shares[s - 1], start[s], start[s + 1]);
+      work(s == 0 ? result : result.shares[s - 1], start[s], start[s + 1]);
     }
   });
-  for (const Narrow& share : result.shares) join(share, result);
+  for (long s = 0; s + 1 < shares; ++s) join(result.shares[s], result);
 }
 
 }  // namespace
@@ -385,17 +403,13 @@ void narrow_phase(const PairConstants& constants, const Layers* layers, const st
   Phase on_planes(constants, layers, all, range, result);
   add_plane_pairs(constants.features, constants.work, planes, range, list, result.pairs);
   on_planes.finish_planes();
-  std::vector<LargeArray<ContactPair>> corners(team.size());
   const auto same_vertex = [&](long i) { return list.groups[i].vertex == list.groups[i - 1].vertex; };
-  share_out(team, static_cast<long>(list.groups.size()), kGroupsOfAThread, same_vertex, result, [&](int share, Narrow& into, long first, long last) {
-    Phase phase(constants, layers, all, range, into);
-    phase.vertices(list, first, last);
-    corners[share].swap(phase.corners());
+  share_out(team, static_cast<long>(list.groups.size()), kGroupsOfAThread, same_vertex, result, [&](Narrow& into, long first, long last) {
+    Phase(constants, layers, all, range, into).vertices(list, first, last);
   });
-  for (std::size_t s = 1; s < corners.size(); ++s) corners[0].insert(corners[0].end(), corners[s].begin(), corners[s].end());
-  Phase(constants, layers, all, range, result).finish_corners(corners[0]);
+  Phase(constants, layers, all, range, result).finish_corners(room_of(result).corners);
   list.watch(range.reach, range.travel);
-  share_out(team, static_cast<long>(list.watched.size()), kEdgesOfAThread, [](long) { return false; }, result, [&](int, Narrow& into, long first, long last) {
+  share_out(team, static_cast<long>(list.watched.size()), kEdgesOfAThread, [](long) { return false; }, result, [&](Narrow& into, long first, long last) {
     Phase(constants, layers, all, range, into).edges(list, first, last);
   });
 }

@@ -39,16 +39,15 @@ void ShearWaves::hold(const std::vector<double>& inverse_mass, const std::vector
     if (moving_[b].hold(inverse_mass, held)) last_masses_[b].known = false;
 }
 
-std::vector<const RubbedNode*> ShearWaves::holds_of(const WaveBody& body, const std::vector<RubbedNode>& pressed) const {
-  std::vector<const RubbedNode*> on_tools;
+void ShearWaves::find_asked(const WaveBody& body, const std::vector<RubbedNode>& pressed) {
+  asked_.clear();
   const auto before = [](const RubbedNode& r, int n) { return r.node < n; };
   const auto first = std::lower_bound(pressed.begin(), pressed.end(), body.first_node, before), last = std::lower_bound(first, pressed.end(), body.first_node + body.nodes, before);
   for (auto r = first; r != last; ++r)
-    if (r->by_tools.squaredNorm() > 0) on_tools.push_back(&*r);
-  const std::size_t stride = on_tools.size() / kHolds + 1;
-  for (std::size_t i = 0; i * stride < on_tools.size(); ++i) on_tools[i] = on_tools[i * stride];
-  on_tools.resize((on_tools.size() + stride - 1) / stride);
-  return on_tools;
+    if (r->by_tools.squaredNorm() > 0) asked_.push_back(&*r);
+  const std::size_t stride = asked_.size() / kHolds + 1;
+  for (std::size_t i = 0; i * stride < asked_.size(); ++i) asked_[i] = asked_[i * stride];
+  asked_.resize((asked_.size() + stride - 1) / stride);
 }
 
 void ShearWaves::know_places() {
@@ -76,15 +75,14 @@ void ShearWaves::follow(Team& team, double dt, double last_dt, const NodeField& 
     const WaveBody& body = bodies_[b];
     if (body.impedance == 0) continue;
     if (of != b) {
-      const std::vector<const RubbedNode*> asked = holds_of(body, pressed);
-      std::vector<Hold> held_before, held_after;
-      held_before.reserve(asked.size());
-      held_after.reserve(asked.size());
-      for (const RubbedNode* h : asked) {
+      find_asked(body, pressed);
+      held_before_.clear();
+      held_after_.clear();
+      for (const RubbedNode* h : asked_) {
         const double size = h->by_tools.norm();
         const Node along = h->by_tools / size;
-        held_before.push_back({place_before(h->node), along, h->told_before / size});
-        held_after.push_back({place_after(h->node), along, h->told / size});
+        held_before_.push_back({place_before(h->node), along, h->told_before / size});
+        held_after_.push_back({place_after(h->node), along, h->told / size});
       }
       if (!last_masses_[b].known) {
         NodeField x_before(x.size());
@@ -92,7 +90,7 @@ void ShearWaves::follow(Team& team, double dt, double last_dt, const NodeField& 
         last_masses_[b].sums = moving_[b].masses(team, x_before, before, 0);
       }
       masses_[b] = {true, moving_[b].masses(team, x, after, 0.5 * dt)};
-      whole = ChangeOfMotion(moving_[b].motion(last_masses_[b].sums, before, place_before, std::move(held_before)), moving_[b].motion(masses_[b].sums, after, place_after, std::move(held_after)));
+      whole = ChangeOfMotion(moving_[b].motion(last_masses_[b].sums, before, place_before, held_before_), moving_[b].motion(masses_[b].sums, after, place_after, held_after_));
       part = dt / (body.time + dt);
       of = b;
     }

@@ -193,6 +193,8 @@ Vec3 BoundarySet::prescribed(int k, double t, double dt, const Vec3& x) const { 
 
 BoundarySet::Prescription BoundarySet::prescription(double t, double dt) const {
   Prescription step{t, dt, {}, {}};
+  step.u.reserve(groups_.size());
+  step.speed.reserve(groups_.size());
   for (const Group& group : groups_) {
     step.u.push_back(group.turns ? Vec3(Vec3::Zero()) : prescribed(group, t, dt, Vec3::Zero()));
     step.speed.push_back(step.u.back().norm());

@@ -23,7 +23,7 @@ struct Cloud {
       inverse_mass.push_back(1 / (2 + in(random)));
     }
   }
-  BodyMotion motion(const MovingBody& body, const std::vector<Hold>& holds = {}) const {
+  BodyMotion motion(const MovingBody& body, std::vector<Hold> holds = {}) const {
     Team team(1);
     return body.motion(body.masses(team, x, v, 0), v, [&](int n) { return x[n]; }, holds);
   }

@@ -67,8 +67,8 @@ class MovingBody {
   bool hold(const std::vector<double>& inverse_mass, const std::vector<HeldNode>& held);
   /// How the masses move that stand at x - back v. x, v: of all nodes.
   MassSums masses(Team& team, const NodeField& x, const NodeField& v, double back) const { return sum_masses(team, mass_, first_node_, x, v, back); }
-  /// v: of all nodes; place(n): where node n is when it has that velocity; masses: with these. holds: beside the held nodes.
-  template <class Place> BodyMotion motion(const MassSums& masses, const NodeField& v, Place&& place, std::vector<Hold> holds = {}) const {
+  /// v: of all nodes; place(n): where node n is when it has that velocity; masses: with these. holds: beside the held nodes, which are added to them.
+  template <class Place> BodyMotion motion(const MassSums& masses, const NodeField& v, Place&& place, std::vector<Hold>& holds) const {
     const double points = static_cast<double>(holds.size() + held_points_);
     for (const HeldAlong& h : held_) holds.push_back({place(h.node), h.along, h.along.dot(v[h.node])});
     return modes_ == 1 ? of<1>(masses, holds, points) : modes_ == 3 ? of<3>(masses, holds, points) : of<6>(masses, holds, points);

@@ -8,6 +8,7 @@
 // groove has a pair with each wall. Two edges meet where their closest points
 // lie inside both and they are not parallel.
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "forming_sim/contact/constants.h"
@@ -34,6 +35,8 @@ struct ClosePair {
   ClosePair(int entry_of_list, int group_of_list, double now) : entry(entry_of_list), group(group_of_list), distance(now) {}
 };
 
+struct NarrowRoom;  // what the search fills on its way (src/contact/narrow.cpp)
+
 struct Narrow {
   LargeArray<ContactPair> pairs;   ///< in the order of their keys, each once
   std::vector<long> born;          ///< which of them are new and inside their layer
@@ -41,6 +44,8 @@ struct Narrow {
   std::vector<Rub> rubs;           ///< of those that rub
   std::vector<ClosePair> close;    ///< for the continuous check: those that can touch in this step
   std::vector<Narrow> shares;      ///< what the other threads of a team find, before it is joined to the above
+
+  std::shared_ptr<NarrowRoom> room;  ///< used again from step to step
 
   void clear();
 };

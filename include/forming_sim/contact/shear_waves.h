@@ -88,7 +88,7 @@ class ShearWaves {
     MassSums sums;
   };
   int body_of(int n) const;
-  std::vector<const RubbedNode*> holds_of(const WaveBody& body, const std::vector<RubbedNode>& pressed) const;
+  void find_asked(const WaveBody& body, const std::vector<RubbedNode>& pressed);
   void know_places();
 
   std::vector<WaveBody> bodies_;
@@ -96,6 +96,9 @@ class ShearWaves {
   std::vector<LastMasses> last_masses_, masses_;  ///< of every body; masses_: of the step
   std::vector<Rubbing> rubs_, next_;  ///< in rising order of their nodes
   std::vector<int> place_;            ///< of every node in rubs_, -1: none
+  // Of one body in follow()
+  std::vector<const RubbedNode*> asked_;  ///< vertices on tools whose motion is told
+  std::vector<Hold> held_before_, held_after_;
 };
 
 }  // namespace forming_sim
