@@ -135,6 +135,7 @@ struct Contact::Impl {
   /// Books the pairs of a step that was taken, lets their layers grow, keeps their records.
   void close_books(ContactStep& step);
   bool touches(double dt, const ClosePair& close) const;
+  bool pushed_in(double dt) const;
   int first_touch(double dt);
   std::string name_of_vertex(int v) const;
   std::string name_of_entry(int entry) const;

@@ -9,6 +9,7 @@
 
 #include "contact/impl.h"
 #include "forming_sim/contact/continuous.h"
+#include "forming_sim/contact/impulse.h"
 #include "forming_sim/contact/law.h"
 
 namespace forming_sim {
@@ -79,6 +80,11 @@ int Contact::Impl::first_touch(double dt) {
       }
   });
   return found == kNone ? -1 : static_cast<int>(found);
+}
+
+// Has what others bear pushed a pair in that was set aside?
+bool Contact::Impl::pushed_in(double dt) const {
+  return std::any_of(near.aside.begin(), near.aside.end(), [&](const AsidePair& pair) { return pair.gap + dt * dot3(pair.normal, relative(pair, work.v)) <= pair.layer; });
 }
 
 std::string Contact::Impl::name_of_vertex(int v) const {
@@ -220,8 +226,9 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
     const std::vector<PlanePose> planes = tools.planes(motion);
     SweepResult swept;
     double way = 0;
+    bool aside = true;  // pairs may be set aside
     // The sweeps may make a node or a driven tool faster than was predicted: then look farther.
-    for (;; bound = 1.5 * way) {
+    for (;;) {
       const double reach = std::max(thickest, std::min(ceiling, 0.1 * bound)) + bound;
       ensure_list(x, motion, reach, bound);
       near.clear();
@@ -230,7 +237,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
       if (list.size() > 0) {
         gather(x, v, v_star, dt, motion, planes);
         const Layers layers(records, tried, work, dt, previous_dt, layer, ceiling);
-        narrow_phase(constants(), &layers, planes, all, {reach, bound, travel, thickest}, team, list, near);
+        narrow_phase(constants(), &layers, planes, all, {reach, bound, travel, thickest, aside ? dt : 0}, team, list, near);
         layers.hand_over(near.born, near.pairs);
         if (waves.any()) delay.recall(work, near.pairs, near.rubs);
         laps.done(&ContactTimes::narrow);
@@ -242,11 +249,16 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
         times.lanes -= swept.seconds;
         times.sweeps += swept.seconds;
         step.sweeps += swept.sweeps;
+        if (pushed_in(dt)) {
+          aside = false;
+          continue;
+        }
         for (int i = 0; i < work.body_entries; ++i) most = std::max(most, dot3(work.v[i], work.v[i]));
       }
       for (const DrivenTool& tool : driven) tool_way = std::max(tool_way, std::abs(tool.speed + tool.push) * dt);
       way = std::max(bound / 2, std::max(predicted, both * std::sqrt(most) * dt) + tool_way);
       if (way <= bound) break;
+      bound = 1.5 * way;
     }
     check_unmovable(time + dt);
     const int touch = swept.open ? first_touch(dt) : -1;

@@ -3,16 +3,11 @@
 #include <algorithm>
 
 #include "forming_sim/contact/closest.h"
+#include "forming_sim/contact/impulse.h"
 #include "forming_sim/contact/law.h"
 
 namespace forming_sim {
 namespace {
-
-double closing_speed(const ContactPair& pair, const Workspace& work) {
-  double vn = 0;
-  for (int k = 0; k < pair.nodes; ++k) vn += pair.weight[k] * dot3(pair.normal, work.v[pair.node[k]]);
-  return std::max(0.0, -vn);
-}
 
 /// A vertex (or, + kEdge, an edge) and the surface that it meets.
 struct Meeting {
@@ -108,8 +103,8 @@ bool Layers::give(ContactPair& pair, std::vector<Rub>& rubs, Place& place) const
     pair.layer = pair.gap;
     return true;
   }
-  const double raised = std::min(ceiling_, 0.1 * closing_speed(pair, work_) * dt_);
-  pair.layer = std::max(base, std::min(pair.gap, raised));
+  const double closing = std::max(0.0, -dot3(pair.normal, relative(pair, work_.v)));
+  pair.layer = std::max(base, std::min(pair.gap, raised(closing)));
   return false;
 }
 

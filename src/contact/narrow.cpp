@@ -6,6 +6,7 @@
 
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/closest_pack.h"
+#include "forming_sim/contact/impulse.h"
 
 namespace forming_sim {
 
@@ -40,6 +41,7 @@ NarrowRoom& room_of(Narrow& narrow) {
 // layer's own depth counts as level too: a pressed layer is that wavy, and pairs
 // that came and went with the waves would lose their potential each time.
 constexpr double kWedge = 1e-3;
+constexpr double kAside = 1e-3;  ///< of h0: so far from its layer a pair ends at least that is set aside
 
 bool rising(const ContactPair& a, const ContactPair& b) { return a.key < b.key; }
 
@@ -215,6 +217,10 @@ class Phase {
                             node(pack.normal[0][l], pack.normal[1][l], pack.normal[2][l]));
     ContactPair& pair = out_.pairs.back();
     pair.link({e.node[0], e.node[1], e.node[2], e.node[3]}, 1 - s, s, t - 1, -t);
+    if (set_aside(pair)) {
+      out_.pairs.pop_back();
+      return;
+    }
     take(pack.shares, l, pair);
     finish();
   }
@@ -291,7 +297,7 @@ class Phase {
       const int i = c.which == 2 ? 0 : c.which, j = c.which == 2 ? 2 : c.which + 1;
       pair.link({g.node, e.node[i], e.node[j]}, 1, -c.weight[i], -c.weight[j]);
     }
-    if (is_clear(range_, gap) && all_stand(work_, pair.node, pair.nodes)) pairs.pop_back();
+    if ((is_clear(range_, gap) && all_stand(work_, pair.node, pair.nodes)) || set_aside(pair)) pairs.pop_back();
     else if (c.feature == Closest::face) take(faces_[hit.candidate / kLanes].shares, static_cast<int>(hit.candidate % kLanes), pair);
     else take(pair);
   }
@@ -303,6 +309,14 @@ class Phase {
   void take(ContactPair& pair) const {
     const PairShares<double> sum = constants_.shares_of(pair);
     constants_.take(sum.w, sum.mean_area(), sum.movers, sum.held, pair);
+  }
+
+  bool set_aside(const ContactPair& pair) {
+    if (all_ || !layers_ || range_.dt == 0 || !is_clear(range_, pair.gap)) return false;
+    const double opening = dot3(pair.normal, relative(pair, work_.v)), layer = std::max(layer_, layers_->raised(std::max(0.0, -opening)));
+    if (pair.gap <= layer || pair.gap + range_.dt * opening <= layer + kAside * layer_) return false;
+    out_.aside.emplace_back(pair, pair.normal, pair.gap, layer);
+    return true;
   }
 
   bool offered(bool askew, double gap) const { return all_ || !askew || gap < layer_ / 2; }
@@ -334,6 +348,7 @@ void Narrow::clear() {
   born.clear();
   unmovable.clear();
   rubs.clear();
+  aside.clear();
   close.clear();
   if (room) room->corners.clear();
 }
@@ -373,6 +388,7 @@ void join(const Narrow& share, Narrow& result) {
     if (pair.rub >= 0) result.pairs.back().rub += rubs;
   }
   result.rubs.insert(result.rubs.end(), share.rubs.begin(), share.rubs.end());
+  result.aside.insert(result.aside.end(), share.aside.begin(), share.aside.end());
   result.close.insert(result.close.end(), share.close.begin(), share.close.end());
   room_of(result).corners.insert(room_of(result).corners.end(), share.room->corners.begin(), share.room->corners.end());
 }

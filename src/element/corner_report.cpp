@@ -29,6 +29,21 @@ bool Elements::corners_pressed() const {
   });
 }
 
+std::vector<int> Elements::pressed_cells(const NodeField& x) const {
+  std::vector<int> found;
+  for (const Group& g : groups_) {
+    if (!is_one_point(static_cast<CellKind>(g.kind))) continue;
+    for (int cell = 0; cell < g.cells; ++cell) {
+      if (!g.pressed[cell / kLanes]) continue;
+      with_dimension(dimension_, g.ring, [&](auto d, auto ring) {
+        const StandingCell<d> at(g, x, cell);
+        if (LeastCorner<d, ring>(at.constants.data(), at.x).q < kPressedCorner) found.push_back(g.element(cell, 0));
+      });
+    }
+  }
+  return found;
+}
+
 void Elements::report_corner_inversion(const NodeField& x) const {
   for (const Group& g : groups_) {
     if (!is_one_point(static_cast<CellKind>(g.kind))) continue;

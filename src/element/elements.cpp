@@ -34,7 +34,7 @@ PressureMode mode_of(const BodyModel& body, CellKind kind) {
 /// Cells with a node of their own (the centre of a crossed quadrilateral, centre
 /// and faces of 24 tetrahedra) leave that node to the deviator alone when the
 /// pressure is one per cell: in a strong impact it yields and the simplices around
-/// it collapse. Crossed triangles have a guard against that, element/guard.h. The seven nodes that 24 tetrahedra have of
+/// it collapse. All but 24 tetrahedra have a guard against that, element/guard.h. The seven nodes that 24 tetrahedra have of
 /// their own would use what it leaves free: the thick sphere is 8 to 20 % too soft with it. There a small share theta of each
 /// simplex' own pressure holds them,
 ///   U = V0 [(1-theta) K/2 (J_cell - 1)^2 + theta K/2 (J - 1)^2].
@@ -48,8 +48,8 @@ double element_share_of(CellKind kind, const SolidConstants& solid) {
   return kind == CellKind::hex24 || crossed_alone ? 0.02 * std::min(1.0, 3 * solid.mu / solid.K) : 0;
 }
 double guard_of(CellKind kind, PressureMode pressure, const SolidConstants& solid) {
-  const bool crossed = kind == CellKind::crossed && pressure == PressureMode::cell && solid.law != Law::classical;
-  return crossed || pressure == PressureMode::node ? kGuard : 0;
+  const bool in_cells = (kind == CellKind::crossed || kind == CellKind::quad2 || kind == CellKind::hex6) && pressure == PressureMode::cell && solid.law != Law::classical;
+  return in_cells || pressure == PressureMode::node ? kGuard : 0;
 }
 
 /// Share of corner a in the mass of a simplex: equal shares; of a ring the integral of

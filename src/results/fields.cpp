@@ -62,6 +62,7 @@ void Fields::write(const Simulation& simulation, bool interrupted) {
   frame.interrupted = interrupted;
   file_->write(frame);
   record_.pressed.rise_to(greatest_pressure(simulation, frame.stress));
+  record_.pressed_cells.rise_to(number_of_pressed_cells(simulation));
   if (Clock::now() >= xdmf_due_) write_xdmf();
 }
 

@@ -69,6 +69,12 @@ Peak greatest_pressure(const Simulation& simulation, const std::vector<std::arra
   return peak;
 }
 
+Peak number_of_pressed_cells(const Simulation& simulation) {
+  const std::vector<int> cells = simulation.pressed_cells();
+  if (cells.empty()) return {};
+  return {static_cast<double>(cells.size()), cells[0], centre(simulation.elements()[cells[0]], simulation.model().dimension + 1, simulation.positions()), simulation.time()};
+}
+
 Gauge::Gauge(const Simulation& simulation, const std::vector<ProbeConfig>& probes)
     : probes_(find_probes(probes, simulation.model(), simulation.elements())), sheets_(simulation.model()), top_(sheets_.top()) {
   for (Probe& probe : probes_) {

@@ -145,12 +145,27 @@ void tell_flat_layers(const ContactStatus& contact, std::vector<std::string>& wa
   warnings.push_back("contact layers were pressed to " + three_digits(contact.min_gap_over_layer) + " of their thickness h0, " + three_digits(contact.layer) + " m, by pressures far above their stiffness: a body that is shut in is too soft by that much room; give contact.stiffness its bulk modulus, or a smaller contact.layer");
 }
 
+std::vector<BodyModel>::const_iterator body_of(const Simulation& simulation, int element) {
+  const std::vector<BodyModel>& bodies = simulation.model().bodies;
+  return std::find_if(bodies.begin(), bodies.end(), [&](const BodyModel& b) { return element < b.first_element + b.element_count; });
+}
+
+/// One-point cells that have lost their shape: what keeps them from turning inside out bears load.
+void tell_pressed_cells(const Simulation& simulation, const Peak& cells, std::vector<std::string>& warnings) {
+  if (cells.element < 0) return;
+  std::ostringstream text;
+  text.precision(3);
+  text << "at " << cells.time << " s " << cells.value << " one-point cells had a corner with less than a fifth of its share in the cell, one of them with element " << cells.element << " of body "
+       << body_of(simulation, cells.element)->name << " at (" << cells.position.transpose() << ") m: what keeps such cells from turning inside out bears load, and forces can be many times too large. "
+       << "Take pattern fine for this body, cells of another shape, finer ones, or give concave corners of tools a radius";
+  warnings.push_back(text.str());
+}
+
 /// Metals that are pressed as forming never does: what cannot flow out and is pushed on, or corners of tools that hold a node of it.
 void tell_jams(const Simulation& simulation, const Peak& pressed, std::vector<std::string>& warnings) {
   constexpr double kMuch = 0.1;  // of the bulk modulus: 16 GPa in steel
   if (!(pressed.value > kMuch)) return;
-  const std::vector<BodyModel>& bodies = simulation.model().bodies;
-  const auto body = std::find_if(bodies.begin(), bodies.end(), [&](const BodyModel& b) { return pressed.element < b.first_element + b.element_count; });
+  const auto body = body_of(simulation, pressed.element);
   std::ostringstream text;
   text.precision(3);
   text << "at " << pressed.time << " s body " << body->name << " was pressed by " << pressed.value * body->material.K() << " Pa, " << 100 * pressed.value << " % of its bulk modulus, in element "
@@ -274,6 +289,7 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
   j["stages"] = stages(record);
   std::vector<std::string> warnings = simulation.warnings();
   tell_jams(simulation, record.pressed, warnings);
+  tell_pressed_cells(simulation, record.pressed_cells, warnings);
   if (came_to_its_end(code)) {
     tell_idle_tools(simulation, warnings);
     tell_unfinished_motions(simulation, warnings);

@@ -5,6 +5,8 @@
 #include <random>
 
 #include "contact/point_bodies.h"
+#include "forming_sim/contact/closest.h"
+#include "forming_sim/contact/impulse.h"
 #include "forming_sim/contact/narrow.h"
 
 using namespace forming_sim;
@@ -95,6 +97,43 @@ TEST(ContactSearch, SleepingPairsAreMissedByNone) {
     if (dimension == 3) {
       EXPECT_LT(watched, steps * static_cast<long>(list.edges.size()) / 2);
     }
+  }
+}
+
+// Pairs that are out of their layers at both ends of the step are set aside, and no others; with them nothing is lost.
+TEST(ContactSearch, PairsThatStayOutOfTheirLayersAreSetAside) {
+  for (const int dimension : {2, 3}) {
+    const Scene scene(dimension);
+    const double reach = .09, layer = .02, ceiling = .05, dt = 1;
+    Workspace work;
+    NearList list = scene.list(.2, work);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> number(-1, 1);
+    work.v.resize(work.x.size());
+    for (int i = 0; i < static_cast<int>(work.v.size()); ++i) {
+      const double down = i < work.body_entries ? -.04 : 0;
+      work.v[i] = .03 * Node(number(random), number(random), dimension == 3 ? number(random) : 0, 0) + (dimension == 3 ? Node(0, 0, down, 0) : Node(0, down, 0, 0));
+    }
+    const PairRecords none;
+    const Layers layers(none, none, work, dt, dt, layer, ceiling);
+    Narrow all, some;
+    Team two(2);
+    const auto find = [&](double step, Narrow& into) { narrow_phase({scene.features, work, 1, layer}, &layers, scene.planes, false, {reach, .9 * reach, 0, layer, step}, two, list, into); };
+    find(0, all);
+    find(dt, some);
+    EXPECT_EQ(all.aside.size(), 0u);
+    std::size_t kept = 0;
+    for (const ContactPair& pair : all.pairs) {
+      const double end = pair.gap + dt * dot3(pair.normal, relative(pair, work.v));
+      const bool is_kept = kept < some.pairs.size() && some.pairs[kept].key == pair.key;
+      const double own = std::max(layer, layers.raised(std::max(0., pair.gap - end)));
+      EXPECT_EQ(is_kept, pair.gap <= own || end <= own + 1e-3 * layer) << pair.gap << ' ' << end;
+      if (is_kept) EXPECT_EQ(some.pairs[kept++].layer, pair.layer);
+      else EXPECT_TRUE(std::any_of(some.aside.begin(), some.aside.end(), [&](const AsidePair& a) { return a.gap == pair.gap && a.normal == pair.normal && a.layer >= layer; }));
+    }
+    EXPECT_EQ(kept, some.pairs.size());
+    EXPECT_GT(kept, 10u);
+    EXPECT_GT(all.pairs.size(), kept + 10);
   }
 }
 

@@ -277,6 +277,8 @@ TEST(CornerGuard, WidthsAgree) {
         NodeField f(X.size(), Node::Zero());
         elements.forces(x, v, 0, 0, f);
         EXPECT_TRUE(elements.corners_pressed());
+        EXPECT_EQ(elements.pressed_cells(x), std::vector<int>{0});
+        EXPECT_TRUE(elements.pressed_cells(X).empty());
         return f;
       });
     }

@@ -59,6 +59,8 @@ class Layers {
   struct Place {
     long before = -1, last_try = -1;
   };
+  /// Layer of a new pair that closes so fast, m/s, m; not thicker than its gap and not thinner than its base.
+  double raised(double closing) const { return std::min(ceiling_, 0.1 * closing * dt_); }
   /// Gives to one pair. Keys rise from call to call with the same `place`. Returns whether the pair is born inside its layer.
   bool give(ContactPair& pair, std::vector<Rub>& rubs, Place& place) const;
   /// Then, once all have been given: from the pairs that are gone to those born inside their layer (`born`: which, rising).

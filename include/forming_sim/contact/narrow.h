@@ -24,6 +24,7 @@ struct Range {
   double closing;  ///< bound on how much nearer any two features come in the step, m
   double travel;   ///< bound on all relative motion since the list was built, m
   double thickest = std::numeric_limits<double>::infinity();  ///< of all layers, m; while it is not known nothing counts as at rest
+  double dt = 0;         ///< of the step, s; 0: no pair is set aside
 };
 
 /// A listed vertex-facet or edge-edge pair near enough to be met in this step.
@@ -35,6 +36,14 @@ struct ClosePair {
   ClosePair(int entry_of_list, int group_of_list, double now) : entry(entry_of_list), group(group_of_list), distance(now) {}
 };
 
+/// A pair that as things stand is out of its layer all the step: it bears nothing, unless what others bear pushes it in.
+struct AsidePair : Link {
+  Node normal = Node::Zero();  ///< as those of ContactPair
+  double gap = 0, layer = 0;
+
+  AsidePair(const Link& link, const Node& along, double h, double h0) : Link(link), normal(along), gap(h), layer(h0) {}
+};
+
 struct NarrowRoom;  // what the search fills on its way (src/contact/narrow.cpp)
 
 struct Narrow {
@@ -42,6 +51,7 @@ struct Narrow {
   std::vector<long> born;          ///< which of them are new and inside their layer
   std::vector<long> unmovable;     ///< which of them nothing can move
   std::vector<Rub> rubs;           ///< of those that rub
+  LargeArray<AsidePair> aside;     ///< beside these
   std::vector<ClosePair> close;    ///< for the continuous check: those that can touch in this step
   std::vector<Narrow> shares;      ///< what the other threads of a team find, before it is joined to the above
 
@@ -58,7 +68,8 @@ struct Narrow {
 /// thick: such a pair pushes askew, and is needed only where nothing else has
 /// held. It counts only once it is inside its layer: where a fast step would end
 /// along a frozen, askew normal says little. `all`: without this restriction
-/// (for a step that met something). The pairs have geometry, key and constants and, where `layers` are given, what
+/// (for a step that met something). Without `all`, and where range.dt is given, pairs that are out of their layers now and will be at the end of the
+/// step, as far as Workspace::v tells, go to Narrow::aside: sheets that lie on each other have ten such pairs for one that bears something. The pairs have geometry, key and constants and, where `layers` are given, what
 /// these give but for what is handed over.
 void narrow_phase(const PairConstants& constants, const Layers* layers, const std::vector<PlanePose>& planes, bool all, const Range& range, Team& team,
                   NearList& list, Narrow& result);

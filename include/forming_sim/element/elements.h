@@ -80,6 +80,8 @@ class Elements {
   void stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const;
   /// In the last force pass a corner of a one-point cell was so far in the range of its guard that every step asks for its limit.
   bool corners_pressed() const;
+  /// The cells of which that is so, at x where that pass was or behind it: an element of each.
+  std::vector<int> pressed_cells(const NodeField& x) const;
 
   // element/step_bounds.h
   void find_rates(const NodeField& x, const NodeField& v, CellRates& rates) const;

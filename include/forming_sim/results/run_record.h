@@ -56,6 +56,7 @@ struct RunRecord {
   std::optional<double> thickness_initial, thickness_min;  ///< m; absent without sets top and bottom
   Peak surface_strain, thinning;                           ///< over all times of the history
   Peak pressed;                                            ///< -tr sigma/3 over the bulk modulus, of metals, over all frames
+  Peak pressed_cells;                                      ///< how many there were, over all frames
   std::optional<Peak> surface_strain_formed;               ///< at the end of the last form stage so far
   std::optional<double> angle_formed_deg;                  ///< likewise
   std::optional<double> kinetic_over_internal_formed;      ///< likewise

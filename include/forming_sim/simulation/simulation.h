@@ -83,6 +83,7 @@ class Simulation {
 
   // ---- fields per element, computed when asked
   std::vector<double> plastic_strain() const;
+  std::vector<int> pressed_cells() const;  ///< an element of each one-point cell that is kept from turning inside out at a corner (element/corner_guard.h)
   ElementFields element_fields() const;         ///< the two below at the cost of one
   std::vector<Sym> stress() const;              ///< Cauchy, Pa
   std::vector<Sym> stress(const std::vector<int>& elements) const;  ///< of these alone, in their order
