@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "contact/impl.h"
+#include "forming_sim/contact/alike.h"
 #include "forming_sim/contact/continuous.h"
 #include "forming_sim/contact/impulse.h"
 #include "forming_sim/contact/law.h"
@@ -240,6 +241,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
         narrow_phase(constants(), &layers, planes, all, {reach, bound, travel, thickest, aside ? dt : 0}, team, list, near);
         layers.hand_over(near.born, near.pairs);
         if (waves.any()) delay.recall(work, near.pairs, near.rubs);
+        if (!all) join_alike(work, near.pairs, near.rubs);
         laps.done(&ContactTimes::narrow);
         swept = SweepResult();
         for (DrivenTool& tool : driven) gather_driven(tool);

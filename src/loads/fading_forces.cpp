@@ -66,8 +66,9 @@ bool FadingForces::work(double kick, const std::vector<double>& mass, const Node
     for (std::size_t i = 0; i < set.added.size(); ++i) done += set.added[i].dot(v_before[set.forces[i].node] + v[set.forces[i].node]);
     if (!set.acceleration.isZero(0))
       for (int n = set.body.first_node; n < set.body.first_node + set.body.nodes; ++n) done -= mass[n] * set.acceleration.dot(v_before[n] + v[n]);
-    set.may_do -= 0.5 * kick * done;
-    return set.may_do < 0;
+    const double of_step = 0.5 * kick * done;
+    set.may_do -= of_step;
+    return set.may_do < std::max(of_step, 0.0);  // the next step would do too much
   };
   sets_.erase(std::remove_if(sets_.begin(), sets_.end(), spent), sets_.end());
   return sets_.size() < before;

@@ -19,7 +19,15 @@ ContactPair pair_of(const PairKey& key, int own, int surface, double gap) {
   pair.own = own;
   pair.surface = surface;
   pair.gap = gap;
+  pair.nodes = 1;
+  pair.node[0] = 0;
+  pair.weight[0] = 1;
   return pair;
+}
+Workspace at_rest() {
+  Workspace work;
+  work.v = {Node::Zero()};
+  return work;
 }
 PairKey on_facet(int vertex, int facet) { return PairKey::make(PairKey::vertex_facet, vertex, Closest::face, facet); }
 PairKey on_vertex(int vertex, int other) { return PairKey::make(PairKey::vertex_vertex, std::min(vertex, other), 0, std::max(vertex, other)); }
@@ -30,7 +38,7 @@ std::vector<double> layers(LargeArray<PairRecord> before, LargeArray<ContactPair
   std::sort(before.begin(), before.end(), [](const PairRecord& a, const PairRecord& b) { return a.key < b.key; });
   std::sort(pairs.begin(), pairs.end(), [](const ContactPair& a, const ContactPair& b) { return a.key < b.key; });
   std::vector<Rub> rubs;
-  const Workspace work;
+  const Workspace work = at_rest();
   give_layers(Layers({before, {}}, {}, work, 1e-6, 1e-6, h0, h0), pairs, rubs);
   std::vector<double> found;
   for (const ContactPair& pair : pairs) found.push_back(pair.layer);
@@ -84,7 +92,7 @@ TEST(ContactLayers, AForceOutlivesItsRaisedLayer) {
   LargeArray<ContactPair> pairs{pair_of(on_facet(7, 20), 0, 1, .9 * h0)};
   pairs[0].w = 1;
   std::vector<Rub> rubs;
-  const Workspace work;
+  const Workspace work = at_rest();
   give_layers(Layers(before, {}, work, dt, dt, h0, h0), pairs, rubs);
   EXPECT_EQ(pairs[0].layer, .9 * h0);
   EXPECT_EQ(pairs[0].impulse, dt * force);

@@ -62,13 +62,13 @@ TEST(FadingForces, DriveNothingOnByMoreThanTheyMay) {
   forces.begin(2, 4, 10, {0, 4, 8}, {{1, false, node(Vec3(0, 5, 0))}}, {}, kPlaces);  // 5 N that may do 10 J
   const NodeField along(4, node(Vec3(7, 1, 0))), against(4, node(Vec3(7, -1, 0)));
   on(forces, 1, 2);
-  EXPECT_FALSE(forces.work(1.9, kMasses, along, along)) << "9.5 J";
-  EXPECT_FALSE(forces.work(1, kMasses, against, against)) << "what springs back moves against them: 4.5 J";
+  EXPECT_FALSE(forces.work(0.9, kMasses, along, along)) << "4.5 J";
+  EXPECT_FALSE(forces.work(1, kMasses, against, against)) << "what springs back moves against them: -.5 J";
   on(forces, 1, 4);
-  EXPECT_FALSE(forces.work(1, kMasses, along, along)) << "half of them is left: 7 J";
+  EXPECT_FALSE(forces.work(1, kMasses, along, along)) << "half of them is left: 2 J";
   EXPECT_FALSE(forces.work(9, kMasses, along, against)) << "and stays so where the mean velocity is none";
   on(forces, 1, 2);
-  EXPECT_TRUE(forces.work(0.7, kMasses, along, along)) << "10.5 J";
+  EXPECT_TRUE(forces.work(0.9, kMasses, along, along)) << "6.5 J, and the next such step would do 4.5 more";
   EXPECT_TRUE(forces.empty());
   EXPECT_FALSE(forces.work(1, kMasses, along, along));
 }

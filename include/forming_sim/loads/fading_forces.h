@@ -27,7 +27,7 @@ class FadingForces {
     double mass = 0;
     Mat3 free = Mat3::Identity();
   };
-  /// From `start` for `duration`, s; at most until they have done the work `may_do`, J. surface: of the bodies, at x.
+  /// From `start` for `duration`, s; at most until one more step would do more work than `may_do` in all, J. surface: of the bodies, at x.
   void begin(double start, double duration, double may_do, const OfBody& body, std::vector<HoldingForce> forces, const std::vector<Face>& surface, const NodeField& x);
   /// f += forces at time t, of bodies at x.
   void add(double t, const NodeField& x, const std::vector<double>& mass, NodeField& f);
