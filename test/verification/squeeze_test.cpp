@@ -53,6 +53,19 @@ Found squeeze(double less, double layer, bool plastic, int cells = 4, bool walls
   return found;
 }
 
+/// A ring or a disc on its plane of symmetry is pressed by a plane within a millisecond.
+std::unique_ptr<Simulation> press_ring(const BlankConfig& blank, const MaterialConfig& material, double friction, double way) {
+  OneBody run(body_of(generate_blank(blank), material), 1e-3);
+  run.model.axisymmetric = true;
+  run.plan.bodies[0].boundaries = {symmetric("bottom", Vec3::UnitY())};
+  ToolModel plane = plane_at("punch", 2, Vec3::Zero(), Vec3(0, -1, 0));
+  plane.position = Vec3(0, blank.thickness, 0);
+  plane.friction = friction;
+  lead(plane, 1e-3, Vec3(0, -way, 0));
+  run.model.tools.push_back(plane);
+  return run.start();
+}
+
 /// Half of a billet of 20 x 20 mm, of cells four times as high as wide, is upset by a plane with friction to 40 % of its height.
 /// r: as it was rolled, the same all around.
 std::unique_ptr<Simulation> upset(double r) {
@@ -67,15 +80,7 @@ std::unique_ptr<Simulation> upset(double r) {
   swift.prestrain = .01;
   swift.exponent = .2;
   material.hardening = swift;
-  OneBody run(body_of(generate_blank(strip_of(10e-3, 20e-3, 20, 10)), material), 1e-3);
-  run.model.axisymmetric = true;
-  run.plan.bodies[0].boundaries = {symmetric("bottom", Vec3::UnitY())};
-  ToolModel plane = plane_at("punch", 2, Vec3::Zero(), Vec3(0, -1, 0));
-  plane.position = Vec3(0, 20e-3, 0);
-  plane.friction = .1;
-  lead(plane, 1e-3, Vec3(0, -12e-3, 0));
-  run.model.tools.push_back(plane);
-  return run.start();
+  return press_ring(strip_of(10e-3, 20e-3, 20, 10), material, .1, 12e-3);
 }
 
 /// The upper half of a ring 6 : 3 : 2 is pressed to half of its height, with friction; the largest force, N.
@@ -85,15 +90,7 @@ double forge_ring(const std::string& pattern) {
   BlankConfig blank = strip_of(3e-3, 2e-3, 12, 8);
   blank.origin = Vec3(3e-3, 0, 0);
   blank.pattern = pattern;
-  OneBody run(body_of(generate_blank(blank), material), 1e-3);
-  run.model.axisymmetric = true;
-  run.plan.bodies[0].boundaries = {symmetric("bottom", Vec3::UnitY())};
-  ToolModel plane = plane_at("punch", 2, Vec3::Zero(), Vec3(0, -1, 0));
-  plane.position = Vec3(0, 2e-3, 0);
-  plane.friction = .3;
-  lead(plane, 1e-3, Vec3(0, -1e-3, 0));
-  run.model.tools.push_back(plane);
-  auto sim = run.start();
+  auto sim = press_ring(blank, material, .3, 1e-3);
   while (sim->step()) {}
   EXPECT_EQ(sim->contact_status().crossings, 0) << pattern;
   EXPECT_LT(std::abs(sim->balance_error()), 1e-4) << pattern;
