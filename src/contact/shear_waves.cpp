@@ -131,7 +131,7 @@ void ShearWaves::restore(const std::vector<double>& saved) {
   for (LastMasses& last : last_masses_) {
     if (i + kSavedMasses > saved.size()) break;
     last.known = saved[i] != 0;
-    std::memcpy(&last.sums, &saved[i + 1], sizeof last.sums);
+    std::memcpy(static_cast<void*>(&last.sums), &saved[i + 1], sizeof last.sums);
     i += kSavedMasses;
   }
   for (; i + kSaved <= saved.size(); i += kSaved) {
