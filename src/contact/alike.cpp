@@ -52,7 +52,7 @@ void join_alike(const Workspace& work, LargeArray<ContactPair>& pairs, std::vect
   for (auto pair = edges; pair != pairs.end(); ++pair)
     for (int k = 0; k < 4; ++k) {
       if (std::abs(pair->weight[k]) < 1 - kAtEnd) continue;
-      const int vertex = work.vertex[pair->node[k]], edge = k < 2 ? static_cast<int>(pair->key.feature & 0xffffffffu) : pair->key.first();
+      const int vertex = work.vertex[pair->node[k]], edge = k < 2 ? pair->key.second() : pair->key.first();
       const PairKey key = PairKey::make(PairKey::vertex_facet, vertex, Closest::edge, edge);
       const auto of_vertex = std::lower_bound(pairs.begin(), edges, key, [](const ContactPair& p, const PairKey& sought) { return p.key < sought; });
       ContactPair* other = of_vertex != edges && of_vertex->key == key ? &*of_vertex : first.try_emplace({vertex, edge}, &*pair).first->second;

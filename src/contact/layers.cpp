@@ -22,8 +22,8 @@ constexpr std::int64_t kEdge = std::int64_t{1} << 32;
 template <class PairOrRecord> int meetings(const PairOrRecord& pair, Meeting (&all)[2]) {
   const bool edges = pair.key.kind() == PairKey::edge_edge;
   const std::int64_t tag = edges ? kEdge : 0;
-  all[0] = {tag + static_cast<std::int64_t>(pair.key.group & 0xffffffffu), pair.surface};
-  all[1] = {tag + static_cast<std::int64_t>(pair.key.feature & 0xffffffffu), pair.own};
+  all[0] = {tag + pair.key.first(), pair.surface};
+  all[1] = {tag + pair.key.second(), pair.own};
   return edges || pair.key.kind() == PairKey::vertex_vertex ? 2 : 1;
 }
 

@@ -1,82 +1,20 @@
-// A run from its scene to its files: what they hold, how it fails, how it resumes.
+// A run from its scene to its files: what they hold, how it fails.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
 #include <cmath>
 #include <csignal>
-#include <sstream>
 
 #include "forming_sim/results/estimate.h"
-#include "forming_sim/results/result_reader.h"
 #include "forming_sim/results/directory_lock.h"
-#include "forming_sim/results/run_scene.h"
 #include "forming_sim/results/start.h"
 #include "forming_sim/config/words.h"
-#include "results/small_scene.h"
+#include "results/run_files_tools.h"
 
 namespace forming_sim {
 namespace {
 
 using nlohmann::json;
-
-const std::atomic<bool> kNever{false};
-
-/// Cancels the run after a number of steps.
-class CancelAfter : public Observer {
- public:
-  CancelAfter(long steps) : steps_(steps) {}
-  void on_step(const Simulation& simulation) override { cancel = simulation.steps() >= steps_; }
-  std::atomic<bool> cancel{false};
-
- private:
-  long steps_;
-};
-
-std::vector<std::vector<std::string>> read_csv(const std::string& path) {
-  std::istringstream text(read_text(path));
-  std::vector<std::vector<std::string>> rows;
-  for (std::string line; std::getline(text, line);) {
-    EXPECT_EQ(line.back(), '\r');
-    line.pop_back();
-    rows.emplace_back();
-    std::istringstream cells(line + ",");
-    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
-  }
-  return rows;
-}
-
-/// What takes wall-clock time or tells of the resume is not compared.
-json comparable(json summary) {
-  for (const char* key : {"wall_time_s", "output_time_s", "ns_per_element_step", "resumed_at_s"}) summary.erase(key);
-  return summary;
-}
-
-/// Compares line by line, so that a difference is told by its line alone.
-void expect_same_text(const std::string& path, const std::string& expected_path) {
-  std::istringstream text(read_text(path)), expected(read_text(expected_path));
-  std::string line, expected_line;
-  for (int number = 1; std::getline(expected, expected_line); ++number) {
-    ASSERT_TRUE(std::getline(text, line)) << path << " ends before line " << number;
-    ASSERT_EQ(line, expected_line) << "line " << number;
-  }
-  EXPECT_FALSE(std::getline(text, line)) << path << " goes on with: " << line;
-}
-
-void expect_same_frames(const std::string& path, const std::string& expected_path) {
-  const ResultReader file(path), expected(expected_path);
-  ASSERT_EQ(file.frames().size(), expected.frames().size());
-  for (std::size_t i = 0; i < file.frames().size(); ++i) {
-    const Frame a = file.frame(i), b = expected.frame(i);
-    EXPECT_EQ(a.time, b.time);
-    EXPECT_EQ(a.step, b.step);
-    EXPECT_EQ(a.stage, b.stage);
-    EXPECT_EQ(a.positions, b.positions);
-    EXPECT_EQ(a.velocities, b.velocities);
-    EXPECT_EQ(a.plastic_strain, b.plastic_strain);
-    EXPECT_EQ(a.stress, b.stress);
-    EXPECT_EQ(a.tools[0].force, b.tools[0].force);
-  }
-}
 
 // A body that nothing has touched rests at once, and its ledger is not open: what rounding makes of nothing is nothing.
 TEST(RunScene, NothingHappensAndAllIsWell) {
@@ -313,89 +251,6 @@ TEST(RunScene, WritesTheSameNumbersWithTwoThreads) {
   expect_same_text(one.file("history.csv"), two.file("history.csv"));
 }
 
-class Resume : public testing::Test {
- protected:
-  void SetUp() override { run_scene(small_scene(), whole_.path(), 1, "", kNever); }
-  long steps() const { return read_json(whole_.file("summary.json"))["steps"]; }
-  TemporaryDirectory whole_;
-};
-
-TEST_F(Resume, AfterACancelGivesTheFilesOfAnUnbrokenRun) {
-  const json expected = read_json(whole_.file("summary.json"));
-  for (double part : {0.1, 0.5, 0.8, 0.97}) {
-    const TemporaryDirectory directory;
-    CancelAfter canceller(static_cast<long>(part * steps()));
-    const Outcome cancelled = run_scene(small_scene(), directory.path(), 1, "", canceller.cancel, {&canceller});
-    ASSERT_EQ(cancelled.code, Code::cancelled);
-    EXPECT_EQ(read_json(directory.file("summary.json"))["status"]["name"], name_of(Code::cancelled));
-    EXPECT_TRUE(ResultReader(directory.file("result.h5")).frames().back().interrupted);
-
-    const Outcome resumed = run_scene(small_scene(), directory.path(), 1, directory.file("checkpoint.h5"), kNever);
-    ASSERT_EQ(static_cast<int>(resumed.code), expected["status"]["code"].get<int>()) << resumed.message;
-    expect_same_frames(directory.file("result.h5"), whole_.file("result.h5"));
-    expect_same_text(directory.file("history.csv"), whole_.file("history.csv"));
-    const json summary = read_json(directory.file("summary.json"));
-    EXPECT_EQ(comparable(summary), comparable(expected));
-    EXPECT_GT(summary["resumed_at_s"].get<double>(), 0);
-  }
-}
-
-TEST_F(Resume, FromTheLastIntervalGoesOnInTheSameDirectory) {
-  run_scene(small_scene(), whole_.path(), 1, whole_.file("checkpoint.h5"), kNever);
-  const TemporaryDirectory again;
-  run_scene(small_scene(), again.path(), 1, "", kNever);
-  expect_same_frames(whole_.file("result.h5"), again.file("result.h5"));
-  expect_same_text(whole_.file("history.csv"), again.file("history.csv"));
-}
-
-TEST_F(Resume, IntoAnotherDirectoryBeginsThereAndSaysSo) {
-  const TemporaryDirectory directory;
-  run_scene(small_scene(), directory.path(), 1, whole_.file("checkpoint.h5"), kNever);
-  const json summary = read_json(directory.file("summary.json")), expected = read_json(whole_.file("summary.json"));
-  EXPECT_EQ(summary["steps"], expected["steps"]);
-  EXPECT_EQ(summary["bodies"], expected["bodies"]);
-  EXPECT_EQ(summary["warnings"].size(), expected["warnings"].size() + 2);
-  const ResultReader result(directory.file("result.h5")), whole(whole_.file("result.h5"));
-  EXPECT_GT(result.frames().front().step, 0);
-  EXPECT_EQ(result.frame(result.frames().size() - 1).positions, whole.frame(whole.frames().size() - 1).positions);
-}
-
-TEST_F(Resume, OfAnotherSceneIsRefusedWithTheDifference) {
-  Scene other = small_scene();
-  other.tools[0].friction = 0.25;
-  const TemporaryDirectory directory;
-  const Outcome outcome = run_scene(other, directory.path(), 1, whole_.file("checkpoint.h5"), kNever);
-  EXPECT_EQ(outcome.code, Code::resume_error);
-  EXPECT_NE(outcome.message.find("was written for another scene"), std::string::npos) << outcome.message;
-  EXPECT_NE(outcome.message.find("0.25"), std::string::npos) << outcome.message;
-  EXPECT_NE(outcome.message.find("in tools"), std::string::npos) << outcome.message;
-  EXPECT_EQ(read_json(directory.file("summary.json"))["status"]["message"], outcome.message);
-  // In its own directory the run keeps its summary.
-  const std::string before = read_text(whole_.file("summary.json"));
-  EXPECT_EQ(run_scene(other, whole_.path(), 1, whole_.file("checkpoint.h5"), kNever).code, Code::resume_error);
-  EXPECT_EQ(read_text(whole_.file("summary.json")), before);
-}
-
-// What the first part of a run warned of is in the summary of the whole, once.
-TEST(RunScene, ThatIsResumedKeepsItsWarnings) {
-  Scene scene = small_scene();
-  scene.contact.method = "explicit";
-  scene.contact.layer = 1e-7;
-  scene.stages.resize(1);
-  const TemporaryDirectory whole, parts;
-  run_scene(scene, whole.path(), 1, "", kNever);
-  const json expected = read_json(whole.file("summary.json"));
-  const auto overstepped = [](const json& summary) {
-    return std::count_if(summary["warnings"].begin(), summary["warnings"].end(), [](const json& w) { return w.get<std::string>().find("explicit contact is stable") != std::string::npos; });
-  };
-  ASSERT_EQ(overstepped(expected), 1);
-  CancelAfter canceller(expected["steps"].get<long>() * 9 / 10);
-  ASSERT_EQ(run_scene(scene, parts.path(), 1, "", canceller.cancel, {&canceller}).code, Code::cancelled);
-  ASSERT_EQ(overstepped(read_json(parts.file("summary.json"))), 1);
-  run_scene(scene, parts.path(), 1, parts.file("checkpoint.h5"), kNever);
-  EXPECT_EQ(comparable(read_json(parts.file("summary.json"))), comparable(expected));
-}
-
 TEST(RunScene, ToolsThatWereWithdrawnLastAreGone) {
   for (const Vec3& way : {Vec3(0, 1e-3, 0), Vec3(0, 0, 0)}) {
     const TemporaryDirectory directory;
@@ -405,16 +260,6 @@ TEST(RunScene, ToolsThatWereWithdrawnLastAreGone) {
     run_scene(scene, directory.path(), 1, "", kNever);
     EXPECT_EQ(read_json(directory.file("summary.json"))["tools"][0]["present"], false);
   }
-}
-
-TEST_F(Resume, ARunFromItsStartTakesAwayTheCheckpointOfAnother) {
-  const TemporaryDirectory directory;
-  std::filesystem::copy_file(whole_.file("checkpoint.h5"), directory.file("checkpoint.h5"));
-  Scene other = small_scene();
-  other.output.checkpoint_interval = 0;
-  const Outcome outcome = run_scene(other, directory.path(), 1, "", kNever);
-  EXPECT_EQ(outcome.code, Code::limit_reached) << outcome.message;
-  EXPECT_FALSE(std::filesystem::exists(directory.file("checkpoint.h5")));
 }
 
 TEST(RunScene, ThatIsInvalidIsRefusedWithAllFaultsInTheSummary) {

@@ -171,7 +171,6 @@ TEST(LettingGo, TiedSheetsSpringBackAsOne) {
       above.origin = Vec3(0, 0.5e-3, 0);
       BodyModel high = body_of(generate_blank(above), aluminium(true));
       low.name = "low", high.name = "high";
-      low.name = "low";
       run.model.bodies = {low};
       const std::vector<BoundaryConfig> clamped = run.plan.bodies[0].boundaries;
       add_flying(run.model, run.plan, std::move(high), "high", Vec3::Zero()).boundaries = clamped;

@@ -20,6 +20,7 @@ struct PairKey {
 
   Kind kind() const { return static_cast<Kind>(group >> 32); }
   int first() const { return static_cast<int>(group & 0xffffffffu); }  ///< vertex, or first edge
+  int second() const { return static_cast<int>(feature & 0xffffffffu); }  ///< facet, vertex, edge or tool
   static PairKey make(Kind kind, int first, std::uint64_t type, int second) {
     return {static_cast<std::uint64_t>(kind) << 32 | static_cast<std::uint32_t>(first), type << 32 | static_cast<std::uint32_t>(second)};
   }

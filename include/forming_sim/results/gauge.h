@@ -36,9 +36,9 @@ class Gauge {
   long step_ = -1;
 };
 
-/// Where -tr sigma/3 of a metal is the largest part of its bulk modulus. stress: of the elements, Pa.
 /// The number of Simulation::pressed_cells(), and the first of them.
 Peak number_of_pressed_cells(const Simulation& simulation);
+/// Where -tr sigma/3 of a metal is the largest part of its bulk modulus. stress: of the elements, Pa.
 Peak greatest_pressure(const Simulation& simulation, const std::vector<std::array<float, 6>>& stress);
 
 /// Angle of the springback line now, degrees; NaN where its probes are not there.
