@@ -38,6 +38,7 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
   }
   for (const Features::Relation& relation : m.features.relations)
     if (relation.meet && relation.friction > 0) m.slip.assign(at.size(), 0.0);
+  m.shear_limit = ShearLimit(m.features, setup.axisymmetric);
   m.both = m.features.bodies_meet() ? 2 : 1;
   if (m.method == Impl::Method::implicit && m.config.swing == "damped" && !m.slip.empty()) {
     std::vector<WaveBody> bodies;
@@ -226,7 +227,7 @@ std::vector<SurfacePair> Contact::surface_pairs() const {
   for (int a = 0; a < f.bodies; ++a)
     for (int b = a; b < static_cast<int>(names.size()); ++b) {
       const Features::Relation& relation = f.relation(a, b);
-      if (relation.meet || relation.tie >= 0) all.push_back({names[a], names[b], relation.friction, relation.tie >= 0});
+      if (relation.meet || relation.tie >= 0) all.push_back({names[a], names[b], relation.friction, relation.friction_limit, relation.tie >= 0});
     }
   return all;
 }

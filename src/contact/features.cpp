@@ -135,20 +135,20 @@ void measure_bodies(Features& f, const NodeField& x, bool axisymmetric) {
 void set_relations(const ContactSetup& setup, Features& f) {
   const int bodies = f.bodies, surfaces = static_cast<int>(f.surfaces.size());
   f.relations.assign(surfaces * surfaces, Features::Relation());
-  const auto set = [&](int a, int b, bool meet, double friction) { f.relation(a, b) = f.relation(b, a) = {meet, friction, -1}; };
+  const auto set = [&](int a, int b, bool meet, double friction, double limit) { f.relation(a, b) = f.relation(b, a) = {meet, friction, limit, -1}; };
   const auto find = [&](const std::string& name) {
     for (int s = 0; s < surfaces; ++s)
       if ((s < bodies ? setup.bodies[s] : setup.tools[s - bodies]).name == name) return s;
     throw Error(Code::invalid_scene, "contact.pairs names " + name + ", which is neither a body nor a tool");
   };
   for (int a = 0; a < bodies; ++a) {
-    set(a, a, setup.bodies[a].meets_itself, setup.config.friction);
-    for (int b = a + 1; b < bodies; ++b) set(a, b, true, setup.config.friction);
-    for (int t = bodies; t < surfaces; ++t) set(a, t, true, setup.tools[t - bodies].friction);
+    set(a, a, setup.bodies[a].meets_itself, setup.config.friction, setup.config.friction_limit);
+    for (int b = a + 1; b < bodies; ++b) set(a, b, true, setup.config.friction, setup.config.friction_limit);
+    for (int t = bodies; t < surfaces; ++t) set(a, t, true, setup.tools[t - bodies].friction, setup.tools[t - bodies].friction_limit);
   }
   for (const PairConfig& pair : setup.config.pairs)
     set(find(pair.first), find(pair.second), pair.kind != "none",
-        pair.kind == "sticking" ? std::numeric_limits<double>::max() : pair.kind == "frictionless" ? 0 : pair.friction);
+        pair.kind == "sticking" ? std::numeric_limits<double>::max() : pair.kind == "frictionless" ? 0 : pair.friction, pair.friction_limit);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "forming_sim/contact/layers.h"
 #include "forming_sim/contact/list.h"
 #include "forming_sim/contact/narrow.h"
+#include "forming_sim/contact/shear_limit.h"
 #include "forming_sim/contact/shear_waves.h"
 #include "forming_sim/contact/sweeps.h"
 #include "forming_sim/contact/ties.h"
@@ -53,6 +54,7 @@ struct Contact::Impl {
   std::vector<double> slip; ///< of the bodies' nodes, m; empty where nothing rubs
   ShearWaves waves;
   FrictionDelay delay;
+  ShearLimit shear_limit;
   double previous_dt = 0;   ///< of the step before, s; 0 at the start
   std::vector<ToolMotion> previous_motion;  ///< of the tools: position0, rotation0 at the start of the step before
   // ---- the list and how much of its margin is used

@@ -80,7 +80,8 @@ inline Pack visit(double dt, const Movers& movers, PairPack& p, RubPack* rub, in
   if (rub) {
     // Along the surface friction q and what takes waves away, e: u = u0 + w (q + e), e = -beta (u - u_s).
     const Triple had_q = load3(rub->slip, at), had_e = load3(rub->radiated, at), slip = u - vn * normal, steady = load3(rub->steady, at);
-    const Pack rub_w = Pack::load(rub->w + at), most = Pack::load(rub->friction + at) * select(j > zero, Pack::load(rub->own + at) * j + Pack::load(rub->before + at), zero);
+    const Pack rub_w = Pack::load(rub->w + at);
+    const Pack most = select(j > zero, smaller(Pack::load(rub->friction + at) * (Pack::load(rub->own + at) * j + Pack::load(rub->before + at)), Pack::load(rub->most + at)), zero);
     const Pack beta = select(j > zero, Pack::load(rub->beta + at), zero);
     const Triple free = slip - rub_w * (had_q + had_e) + (beta * rub_w) * steady;  // (1 + beta w) u without friction
     Triple q = Pack(-1.0) / rub_w * free;

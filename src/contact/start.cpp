@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -55,44 +56,7 @@ class Start {
     for (const auto& g : list.groups) {
       const bool with_tool = f_.rigid(g.vertex) || g.surface >= f_.bodies;
       if (with_tool != (tool >= 0) || f_.vertex_surface[g.vertex] == g.surface) continue;
-      const Node& p = at(g.vertex);
-      double best = 1e300, slope = -1e300;
-      StartGap gap, out;
-      gap.vertex = out.vertex = g.vertex;
-      gap.surface = out.surface = g.surface;
-      double most_room = -1e300;
-      for (int i = g.first; i < g.last; ++i) {
-        const int facet = list.facets[i].facet;
-        const auto& c = f_.facets[facet];
-        if (f_.about_ties(f_.relation(f_.vertex_surface[g.vertex], g.surface), std::array<int, 1>{g.vertex}, c)) continue;
-        const Node& third = at(c[f_.corners() - 1]);
-        const Closest q = closest_on_facet(f_.corners(), p, at(c[0]), at(c[1]), third);
-        const Node& d = q.apart;
-        const int side = f_.rigid(c[0]) ? sides_[facet] : f_.facet_outward[facet];
-        const Node n = side * facet_normal(f_.dimension, at(c[0]), at(c[1]), third);
-        const double distance = std::sqrt(q.squared), along = dot3(d, n);
-        if (distance < kShallow * layer_ && along <= 1e-6 * layer_ - 0.999 * distance) {  // behind it, or on it
-          const double free = room(g.vertex, n, at);
-          if (free > most_room + 1e-6 || (free > most_room - 1e-6 && along > out.gap)) {
-            most_room = std::max(free, most_room);
-            out.gap = along;
-            out.away = f_.rigid(g.vertex) ? Node(-n) : n;
-          }
-        }
-        if (q.squared > best * (1 + 1e-9) + 1e-12 * layer_ * layer_) continue;
-        // Of facets that are equally near, the one that is met most squarely; where the vertex
-        // lies on them, the one with the most of the vertex' own surface before it.
-        const double square = distance > 1e-6 * layer_ ? std::abs(along) : room(g.vertex, n, at);
-        if (q.squared >= best * (1 - 1e-9) - 1e-12 * layer_ * layer_ && square <= slope) continue;
-        slope = square;
-        best = std::min(best, q.squared);
-        gap.gap = along < 0 ? -distance : distance;
-        // From the second feature to the vertex, on the outer side; then from tool to body.
-        gap.away = distance > 1e-6 * layer_ ? Node(d / gap.gap) : n;
-        if (f_.rigid(g.vertex)) gap.away = -gap.away;
-      }
-      // Inside a corner the nearest facet need not be the way out: that is where the vertex' own surface has room.
-      if (best < 1e300) found.push_back(gap.gap < 1e-6 * layer_ && most_room > -1e300 ? out : gap);
+      if (const std::optional<StartGap> gap = gap_of(g, list, at)) found.push_back(*gap);
     }
     for (const auto& e : list.edges) {
       if (f_.about_ties(f_.relation(e.own, e.surface), f_.edges[e.first].node, f_.edges[e.second].node)) continue;
@@ -157,6 +121,49 @@ class Start {
   }
 
  private:
+  // Of a vertex to the facets near it: to the nearest, or, where it lies inside, to the one by which it comes out.
+  template <class At> std::optional<StartGap> gap_of(const NearList::VertexGroup& g, const NearList& list, At&& at) const {
+    const Node& p = at(g.vertex);
+    double best = 1e300, slope = -1e300;
+    StartGap gap, out;
+    gap.vertex = out.vertex = g.vertex;
+    gap.surface = out.surface = g.surface;
+    double most_room = -1e300;
+    for (int i = g.first; i < g.last; ++i) {
+      const int facet = list.facets[i].facet;
+      const auto& c = f_.facets[facet];
+      if (f_.about_ties(f_.relation(f_.vertex_surface[g.vertex], g.surface), std::array<int, 1>{g.vertex}, c)) continue;
+      const Node& third = at(c[f_.corners() - 1]);
+      const Closest q = closest_on_facet(f_.corners(), p, at(c[0]), at(c[1]), third);
+      const Node& d = q.apart;
+      const int side = f_.rigid(c[0]) ? sides_[facet] : f_.facet_outward[facet];
+      const Node n = side * facet_normal(f_.dimension, at(c[0]), at(c[1]), third);
+      const double distance = std::sqrt(q.squared), along = dot3(d, n);
+      if (distance < kShallow * layer_ && along <= 1e-6 * layer_ - 0.999 * distance) {  // behind it, or on it
+        const double free = room(g.vertex, n, at);
+        if (free > most_room + 1e-6 || (free > most_room - 1e-6 && along > out.gap)) {
+          most_room = std::max(free, most_room);
+          out.gap = along;
+          out.away = f_.rigid(g.vertex) ? Node(-n) : n;
+        }
+      }
+      if (q.squared > best * (1 + 1e-9) + 1e-12 * layer_ * layer_) continue;
+      // Of facets that are equally near, the one that is met most squarely; where the vertex
+      // lies on them, the one with the most of the vertex' own surface before it.
+      const double square = distance > 1e-6 * layer_ ? std::abs(along) : room(g.vertex, n, at);
+      if (q.squared >= best * (1 - 1e-9) - 1e-12 * layer_ * layer_ && square <= slope) continue;
+      slope = square;
+      best = std::min(best, q.squared);
+      gap.gap = along < 0 ? -distance : distance;
+      // From the second feature to the vertex, on the outer side; then from tool to body.
+      gap.away = distance > 1e-6 * layer_ ? Node(d / gap.gap) : n;
+      if (f_.rigid(g.vertex)) gap.away = -gap.away;
+    }
+    // Inside a corner the nearest facet need not be the way out: that is where the vertex' own surface has room.
+    if (best == 1e300) return std::nullopt;
+    return gap.gap < 1e-6 * layer_ && most_room > -1e300 ? out : gap;
+  }
+
   // How far the vertex' own surface lies before the plane through it with normal n:
   // the least slope of the edges that leave it.
   template <class At> double room(int vertex, const Node& n, At&& at) const {

@@ -174,6 +174,7 @@ void Sweeps::pack(Tile& tile, const LargeArray<ContactPair>& pairs, const std::v
     r.own[l] = rub.own;
     r.before[l] = rub.before;
     r.friction[l] = rub.friction;
+    r.most[l] = rub.most;
     r.w[l] = rub.w;
   }
 }

@@ -151,6 +151,13 @@ RigidMotion withdraw(const Pose& from, const Vec3& displacement, double start, d
   return motion;
 }
 
+RigidMotion stay(const Pose& at) {
+  RigidMotion motion;
+  motion.path_ = Curve::linear({0}, {at.translation});
+  motion.base_ = at.rotation;
+  return motion;
+}
+
 ToolPose tool_pose(const ToolModel& tool, const RigidMotion& motion, double t) {
   const Vec3 centre = tool.motion ? tool.motion->centre : Vec3(Vec3::Zero());
   const Pose pose = motion.at(t);

@@ -25,8 +25,9 @@ std::string law_of(const MaterialConfig& m, int layers) {
 
 std::string kind_of(const SurfacePair& pair) {
   if (pair.tied) return "tied";
-  if (pair.friction == std::numeric_limits<double>::max()) return "sticking";
-  return pair.friction > 0 ? "friction " + number_text(pair.friction) : "no friction";
+  if (!(pair.friction > 0)) return "no friction";
+  const std::string limit = pair.friction_limit > 0 ? " up to " + number_text(pair.friction_limit) + " Pa" : "";
+  return (pair.friction == std::numeric_limits<double>::max() ? "sticking" : "friction " + number_text(pair.friction)) + limit;
 }
 
 /// One line of the plan: a word that starts it once, then text.

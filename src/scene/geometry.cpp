@@ -257,6 +257,7 @@ void add_tool(const ToolConfig& config, Mesh mesh, Model& model) {
   tool.rotation_deg = config.rotation_deg;
   tool.motion = config.motion;
   tool.friction = config.friction;
+  tool.friction_limit = config.friction_limit;
   model.tools.push_back(std::move(tool));
 }
 

@@ -7,6 +7,13 @@
 namespace forming_sim {
 namespace {
 
+/// A limit needs something to limit, and what each node has borne before all of its pairs.
+void check_limit(const ContactConfig& contact, double limit, bool rubs, const std::string& path, FaultList& faults) {
+  if (!(limit > 0)) return;
+  if (!rubs) faults.add(path, given_text(limit), "give friction beside it, which it limits, or leave it out");
+  else if (contact.method == "geometric") faults.add(path, given_text(limit), "set contact.method to implicit or explicit: method geometric knows no limit of friction");
+}
+
 void check_pair(const Scene& scene, const PairConfig& pair, const std::string& path, FaultList& faults) {
   std::vector<std::string> bodies, all;
   for (const BodyConfig& body : scene.bodies) bodies.push_back(body.name);
@@ -30,6 +37,9 @@ void check_pair(const Scene& scene, const PairConfig& pair, const std::string& p
 
 void check_contact(const Scene& scene, FaultList& faults) {
   const ContactConfig& contact = scene.contact;
+  check_limit(contact, contact.friction_limit, contact.friction > 0, "contact.friction_limit", faults);
+  for (std::size_t i = 0; i < scene.tools.size(); ++i)
+    check_limit(contact, scene.tools[i].friction_limit, scene.tools[i].friction > 0, join_path("tools", i) + ".friction_limit", faults);
   if (contact.method == "explicit" && contact.coefficient > 0 && contact.stiffness > 0)
     faults.add("contact.stiffness", given_text(contact.stiffness), "leave it out, or leave out coefficient: the coefficient c of the force already says how stiff the layer is");
   std::set<std::pair<std::string, std::string>> seen;
@@ -37,6 +47,7 @@ void check_contact(const Scene& scene, FaultList& faults) {
     const PairConfig& pair = contact.pairs[i];
     const std::string path = join_path("contact.pairs", i);
     check_pair(scene, pair, path, faults);
+    if (pair.kind != "none" && pair.kind != "frictionless") check_limit(contact, pair.friction_limit, pair.kind == "sticking" || pair.friction > 0, path + ".friction_limit", faults);
     if (!seen.insert(std::minmax(pair.first, pair.second)).second)
       faults.add(path, pair.first + " and " + pair.second + " again", "give each pair once");
   }

@@ -74,7 +74,8 @@ A tool is rigid. It is a surface mesh (dimension 3), a profile of lines and arcs
 lies to the left of the way along the profile; arcs become segments, fine enough for the cells of the bodies unless `chord_error` says otherwise), or a plane given by `point` and `normal`, the normal towards the body.
 A tool that touches a body at the start is backed off by what the contact layer needs, and the run says by how much; a
 body that starts inside a tool is refused. The motion of a tool is a trajectory (where it is at given times, from
-where it stands at the start), a velocity, or a force. Without a motion it rests.
+where it stands at the start), a velocity, or a force. Without a motion it rests. A press
+that stops under its force has a way and a `stop_force`.
 
 A tool of kind `force` is a blank holder: guided along the line of its force, it goes where the force and the bodies push it,
 and yields as a flange thickens. Its force is all that acts on it: gravity does not. How fast it goes is found together with the forces of
@@ -88,7 +89,7 @@ Its place is in `history.csv`. A `withdraw` stage takes it away like any other t
 
 A run is a list of stages. Times of motions, boundaries, pressures and loads count from the start of the run, not of a stage.
 
-- `form` runs for `duration`.
+- `form` runs for `duration`, or until a tool has stopped (`until_stopped`).
 - `withdraw` moves tools away from where they stand by `displacement`, smoothly, in `duration`; then they are gone.
   Without a displacement they are gone at once, and what they held the bodies by fades in `release_time`, as does what a boundary
   with `until` held: what lets go of a sheet in one step (`release: sudden`) makes it flow anew as it springs back.

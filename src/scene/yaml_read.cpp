@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "forming_sim/scene/validate.h"
 #include "forming_sim/scene/yaml.h"
@@ -29,6 +31,21 @@ std::string odd_characters(const std::string& text) {
   return "";
 }
 
+/// The first line that is not UTF-8, from 1; 0: there is none.
+int line_in_other_encoding(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    if (std::none_of(line.begin(), line.end(), [](unsigned char c) { return c > 0x7f; })) continue;
+    try {
+      nlohmann::json(line).dump();
+    } catch (const nlohmann::json::type_error&) {
+      return number;
+    }
+  }
+  return 0;
+}
+
 }  // namespace
 
 void merge_faults(std::vector<Fault>& known, const std::vector<Fault>& more) {
@@ -43,6 +60,10 @@ Scene read_scene(const std::string& yaml_text, const std::string& base_directory
   Scene scene;
   scene.base_directory = base_directory;
   scene.text = yaml_text;
+  if (const int line = line_in_other_encoding(yaml_text); line > 0) {
+    FaultList(faults).add("scene", "a text that is not UTF-8 at line " + std::to_string(line), "save it as UTF-8: the files of a run hold it, and whoever reads them expects that");
+    return scene;
+  }
   std::vector<Fault> found;
   YamlReader reader(found);
   try {

@@ -11,7 +11,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f660000000eu;
+constexpr std::uint64_t kLayout = 0x6d726f660000000fu;
 
 template <class T> std::size_t mark_of(const T* values, std::size_t count) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(values), count * sizeof(T)});
@@ -91,6 +91,7 @@ std::vector<char> Simulation::save() const {
   out.number(s.tools.size());
   out.list(marks_of(s.model, s.X));
   out.list(s.stages.starts());
+  out.list(s.stages.stops());
   s.stages.exchange_drives(out);
   s.exchange(out);
   std::vector<double> memory;
@@ -121,11 +122,12 @@ void Simulation::restore(const std::vector<char>& data) {
   in.list(marks);
   if (const std::string part = changed_part(s.model, marks_of(s.model, s.X), marks); !part.empty())
     throw Error(Code::resume_error, part + " has changed since the checkpoint was written: its file is another; resume with the file of then, or run the scene from its start");
-  std::vector<double> starts, memory;
+  std::vector<double> starts, stops, memory;
   in.list(starts);
+  in.list(stops);
   s.stages = StageRunner(s.plan.stages, s.model);
   s.stages.exchange_drives(in);
-  s.stages.replay(starts);
+  s.stages.replay(starts, stops);
   s.release_boundaries();
   s.exchange(in);
   in.list(memory);

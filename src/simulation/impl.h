@@ -157,6 +157,7 @@ struct Simulation::Impl {
   void check_crossings();
   /// Warns, once, of energies that do not add up at the end of a stage; residual, J, and error: of Simulation.
   void check_ledger(double residual, double error);
+  void tell_unstopped();
   double least_energy() const;  ///< J
 
   // checkpoint.cpp

@@ -178,6 +178,7 @@ void Simulation::Impl::set_up_contact() {
     s.rigid = true;
     s.facets = tool.mesh.surface;
     s.friction = tool.friction;
+    s.friction_limit = tool.friction_limit;
     s.plane = tool.is_plane();
     s.point = tool.point;
     s.normal = tool.normal;

@@ -42,7 +42,18 @@ void Simulation::Impl::check_ledger(double residual, double error) {
   warnings.push_back(text.str());
 }
 
+void Simulation::Impl::tell_unstopped() {
+  const StageConfig& stage = stages.stage();
+  if (stage.until_stopped.empty() || stages.stopped(stage.until_stopped)) return;
+  const auto tool = std::find_if(model.tools.begin(), model.tools.end(), [&](const ToolModel& t) { return t.name == stage.until_stopped; });
+  std::ostringstream text;
+  text << "stage " << stage.title() << " ended after its duration: tool " << tool->name << " felt " << tools[tool - model.tools.begin()].peak_force.norm() << " of the "
+       << tool->motion->stop_force << (model.per_width() ? " N/m" : " N") << " that stop it";
+  warnings.push_back(text.str());
+}
+
 bool Simulation::Impl::stage_over() {
+  if (!stages.settling() && stages.stopped(stages.stage().until_stopped)) return true;
   if (!stages.settling()) return stages.remaining(time) <= 1e-12 * (time + stages.stage().duration);
   const bool to_limit = stages.stage().ends == "limit";
   if (rests && !to_limit) return true;
@@ -77,6 +88,7 @@ bool Simulation::step() {
   if (over) {
     s.elements.check_upright(s.x);
     s.check_ledger(energies().residual(), balance_error());
+    s.tell_unstopped();
   }
   const Clock::time_point stepped = Clock::now();
   s.wall += std::chrono::duration<double>(stepped - start).count();

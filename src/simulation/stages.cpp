@@ -1,6 +1,7 @@
 #include "simulation/stages.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "forming_sim/simulation/release.h"
 
@@ -14,9 +15,11 @@ StageRunner::StageRunner(const std::vector<StageConfig>& stages, const Model& mo
   for (const ToolModel& tool : model.tools) {
     const bool by_force = tool.motion && tool.motion->kind == "force";
     motions_.push_back(tool.motion && !by_force ? RigidMotion(*tool.motion, model.dimension) : RigidMotion());
+    stop_force_.push_back(tool.motion && !by_force ? tool.motion->stop_force : 0);
     drives_.push_back(by_force ? std::optional<ForceDrive>(*tool.motion) : std::nullopt);
   }
   present_.assign(model.tools.size(), 1);
+  stops_.assign(model.tools.size(), std::numeric_limits<double>::quiet_NaN());
   known_.resize(motions_.size());
   starts_.push_back(0);
   if (!finished()) begin(0);
@@ -32,6 +35,7 @@ void StageRunner::begin(double t) {
     const ForceDrive* by = drive(static_cast<int>(k));
     Pose from = motions_[k].at(t);
     if (by) from.translation = by->way();
+    stop_force_[k] = 0;
     if (at_once) present_[k] = 0;
     if (!at_once || by) motions_[k] = withdraw(from, stages_[index_].displacement, t, stages_[index_].duration);
   }
@@ -77,8 +81,30 @@ ToolPose StageRunner::pose(int tool, double t) const {
   return known[0].pose;
 }
 
-void StageRunner::replay(const std::vector<double>& starts) {
-  for (std::size_t k = 1; k < starts.size(); ++k) advance(starts[k]);
+void StageRunner::stop(int tool, double t) {
+  motions_[tool] = stay(motions_[tool].at(t));
+  stop_force_[tool] = 0;
+  stops_[tool] = t;
+  known_[tool] = {};
+}
+
+bool StageRunner::stopped(const std::string& tool) const {
+  if (tool.empty()) return false;
+  for (std::size_t k = 0; k < stops_.size(); ++k)
+    if (model_->tools[k].name == tool) return !std::isnan(stops_[k]);
+  return false;
+}
+
+void StageRunner::replay(const std::vector<double>& starts, const std::vector<double>& stops) {
+  const auto stop_until = [&](double t) {
+    for (std::size_t k = 0; k < stops.size(); ++k)
+      if (stops[k] <= t && std::isnan(stops_[k])) stop(static_cast<int>(k), stops[k]);
+  };
+  for (std::size_t k = 1; k < starts.size(); ++k) {
+    stop_until(starts[k]);  // before what the next stage does to the tool
+    advance(starts[k]);
+  }
+  stop_until(std::numeric_limits<double>::infinity());
 }
 
 }  // namespace forming_sim

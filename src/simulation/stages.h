@@ -35,12 +35,20 @@ class StageRunner {
   const ForceDrive* drive(int tool) const { return driven(tool) ? &*drives_[tool] : nullptr; }
   ForceDrive* drive(int tool) { return driven(tool) ? &*drives_[tool] : nullptr; }
   bool present(int tool) const { return present_[tool]; }
+  /// Force at which the tool stops, N; 0: none does, or it has stopped or is on its way off.
+  double stop_force(int tool) const { return stop_force_[tool]; }
+  /// The tool stays for good where it is at time t.
+  void stop(int tool, double t);
+  /// The tool of this name has been stopped.
+  bool stopped(const std::string& tool) const;
   /// 1: tools that were there until the running stage began.
   const std::vector<char>& left() const { return left_; }
 
-  /// Start times of the stages begun so far: all that a checkpoint needs.
+  /// Start times of the stages begun so far.
   const std::vector<double>& starts() const { return starts_; }
-  void replay(const std::vector<double>& starts);
+  /// With them, when tools were stopped; NaN: not.
+  const std::vector<double>& stops() const { return stops_; }
+  void replay(const std::vector<double>& starts, const std::vector<double>& stops);
   /// What forces have done to the tools: before replay().
   template <class Archive> void exchange_drives(Archive& a) {
     for (std::optional<ForceDrive>& drive : drives_)
@@ -57,7 +65,7 @@ class StageRunner {
   std::vector<RigidMotion> motions_;
   std::vector<std::optional<ForceDrive>> drives_;  ///< of the tools that a force drives
   std::vector<char> present_, left_;
-  std::vector<double> starts_;
+  std::vector<double> starts_, stops_, stop_force_;
   int index_ = 0;
   struct KnownPose {
     double time = std::numeric_limits<double>::quiet_NaN();

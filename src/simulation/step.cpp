@@ -107,6 +107,7 @@ void Simulation::Impl::book(const ContactStep& done) {
     run_on(tool.radial_force, felt.radial);
     if (tool.force.squaredNorm() > tool.peak_force.squaredNorm()) tool.peak_force = tool.force;
     if (std::abs(tool.radial_force) > std::abs(tool.peak_radial_force)) tool.peak_radial_force = tool.radial_force;
+    if (const double most = stages.stop_force(static_cast<int>(k)); most > 0 && tool.force.norm() >= most) stages.stop(static_cast<int>(k), time + done.dt);
   }
 }
 

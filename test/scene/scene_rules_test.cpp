@@ -40,6 +40,8 @@ TEST(SceneRules, OptionsOfAnotherContactMethodAreRefused) {
   expect_fault(with("method: explicit, exponent: 4"), "contact.exponent", "at most 3");
   expect_fault(with("method: penalty"), "contact.method", "implicit, explicit or geometric");
   expect_fault(with("method: explicit, stiffness: 1e9, coefficient: 7e7"), "contact.stiffness", "leave out coefficient");
+  expect_fault(with("friction_limit: 1e7"), "contact.friction_limit", "give friction beside it");
+  expect_fault(with("friction: .1, friction_limit: 1e7, method: geometric"), "contact.friction_limit", "implicit or explicit");
 }
 
 TEST(SceneRules, ToolsHaveOneSource) {
@@ -184,6 +186,12 @@ TEST(SceneRules, AForceGoesAlongOneLine) {
   expect_fault(with("forces: [[0, 0], [0, -2000]]\n      initial_velocity: [1, -3]"), motion + ".initial_velocity", "along the line of the forces");
   expect_fault(with("forces: [[0, -1], [1, -2000]]"), motion + ".forces[0]", "along one line");
   expect_fault(with("forces: [[0, -1]]"), motion + ".forces", "2 times");
+  expect_fault(with("forces: [[0, 0], [0, -2000]]\n      stop_force: 1e3"), motion + ".stop_force", "where kind is trajectory or velocity");
+  const std::string flanging = "kind: form, duration: 0.006", until = flanging + ", until_stopped: punch";
+  expect_fault(replaced(flange_example(), flanging, until), "stages[0].until_stopped", "stop_force");
+  const std::string stops = replaced(flange_example(), "kind: trajectory", "kind: trajectory\n      stop_force: 1e5");
+  expect_fault(replaced(stops, flanging, flanging + ", until_stopped: die"), "stages[0].until_stopped", "the tools that stop are punch");
+  EXPECT_TRUE(faults_of(replaced(stops, flanging, until)).empty());
   expect_fault(with("forces: [[0, 0], [0, -2000, 1]]"), motion + ".forces[1]", "z = 0");
   expect_fault(with("forces: [[0, 0], [0, -2000]]\n      mass: -1"), motion + ".mass", "at least 0");
   expect_fault(with("forces: [[0, 0], [0, -2000]]\n      profile: spline"), motion + ".profile", "trajectories");

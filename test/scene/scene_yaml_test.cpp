@@ -95,6 +95,8 @@ TEST(SceneYaml, SyntaxErrorNamesItsLine) {
   expect_fault(minimal_example() + "---\nname: b\n", "scene", "2 YAML documents");
   expect_fault("just words", "scene", "give its fields");
   expect_fault("name: a\nbodies:\n\t- name: b\n", "scene", "line 3 has a tab");
+  expect_fault(replaced(minimal_example(), "\n", " # 20 \xb0\x43\n"), "scene", "not UTF-8 at line 1");
+  EXPECT_TRUE(faults_of(replaced(minimal_example(), "\n", " # 20 \xc2\xb0\x43\n")).empty());
   expect_fault(std::string("name: a\nbodies: \"\0", 18), "scene", "line 2 has a NUL");
 }
 

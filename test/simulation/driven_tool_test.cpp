@@ -54,6 +54,66 @@ TEST(DrivenTool, AHolderPressesWithItsForce) {
   }
 }
 
+/// A ram presses the strip by `way` within half a millisecond, and stops under `force`; then it is taken away.
+OneBody stopping_ram(double force, double way) {
+  OneBody run = held_strip(20, 2, 0, 5e-4);
+  lead(holder_of(run), 5e-4, Vec3(0, -way, 0));
+  holder_of(run).motion->stop_force = force;
+  run.plan.time_step.damping = 2e4;
+  run.plan.stages[0].until_stopped = "holder";
+  StageConfig away;
+  away.name = away.kind = "withdraw";
+  away.duration = 1e-4;
+  away.tools = {"holder"};
+  away.displacement = Vec3(0, 1e-3, 0);
+  run.plan.stages.push_back(away);
+  return run;
+}
+
+/// The warning that a tool did not stop; empty: none.
+std::string told_unstopped(const Simulation& sim) {
+  for (const std::string& warning : sim.warnings())
+    if (warning.find("that stop it") != std::string::npos) return warning;
+  return "";
+}
+
+TEST(DrivenTool, ARamStopsUnderItsForce) {
+  const double force = 2e5, way = 50e-6;
+  auto sim = stopping_ram(force, way).start();
+  const double start = sim->tools()[1].position.y();
+  double felt = 0;
+  while (sim->stage() == 0) {
+    felt = sim->tools()[1].force.y();
+    sim->step();
+  }
+  const double stands = sim->tools()[1].position.y(), ended = sim->time();
+  std::printf("  stopped at %.3g s under %.6g N/m, after %.3g m\n", ended, sim->tools()[1].force.y(), start - stands);
+  EXPECT_LT(felt, force);
+  EXPECT_GE(sim->tools()[1].force.y(), force);
+  EXPECT_LT(sim->tools()[1].force.y(), 1.01 * force);
+  EXPECT_LT(ended, 4e-4);
+  EXPECT_LT(start - stands, .5 * way);
+  const std::vector<char> saved = sim->save();
+  while (sim->step()) {}
+  EXPECT_NEAR(sim->time(), ended + 1e-4, 1e-9);
+  EXPECT_NEAR(sim->tools()[1].position.y(), stands + 1e-3, 1e-9);  // from where it stood
+  EXPECT_TRUE(told_unstopped(*sim).empty());
+
+  auto resumed = stopping_ram(force, way).start();
+  resumed->restore(saved);
+  while (resumed->step()) {}
+  EXPECT_EQ(resumed->time(), sim->time());
+  EXPECT_EQ(resumed->tools()[1].position, sim->tools()[1].position);
+  EXPECT_EQ(vec3(resumed->positions()[5]), vec3(sim->positions()[5]));
+}
+
+TEST(DrivenTool, WhatDidNotStopIsTold) {
+  auto sim = stopping_ram(1e9, 5e-6).start();
+  while (sim->step()) {}
+  EXPECT_NEAR(sim->time(), 6e-4, 1e-9);
+  EXPECT_NE(told_unstopped(*sim).find("of the 1e+09 N/m"), std::string::npos) << told_unstopped(*sim);
+}
+
 // Where it lies its force does not let it fall, however light it is: contact looks no farther than for a heavy one.
 TEST(DrivenTool, ALightOneIsNotSoughtFarAway) {
   long listed[2] = {0, 0};

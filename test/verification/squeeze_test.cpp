@@ -54,13 +54,14 @@ Found squeeze(double less, double layer, bool plastic, int cells = 4, bool walls
 }
 
 /// A ring or a disc on its plane of symmetry is pressed by a plane within a millisecond.
-std::unique_ptr<Simulation> press_ring(const BlankConfig& blank, const MaterialConfig& material, double friction, double way) {
+std::unique_ptr<Simulation> press_ring(const BlankConfig& blank, const MaterialConfig& material, double friction, double way, double friction_limit = 0) {
   OneBody run(body_of(generate_blank(blank), material), 1e-3);
   run.model.axisymmetric = true;
   run.plan.bodies[0].boundaries = {symmetric("bottom", Vec3::UnitY())};
   ToolModel plane = plane_at("punch", 2, Vec3::Zero(), Vec3(0, -1, 0));
   plane.position = Vec3(0, blank.thickness, 0);
   plane.friction = friction;
+  plane.friction_limit = friction_limit;
   lead(plane, 1e-3, Vec3(0, -way, 0));
   run.model.tools.push_back(plane);
   return run.start();
@@ -104,6 +105,30 @@ TEST(Squeeze, ARingOfTwoTrianglesACellIsForged) {
   const double crossed = forge_ring("fine"), two = forge_ring("coarse");
   std::printf("  largest force %.4g kN, of crossed cells %.4g\n", two / 1e3, crossed / 1e3);
   EXPECT_NEAR(two, crossed, .03 * crossed);
+}
+
+// A flat disc pressed with the friction factor m = .3: tau = m Y/sqrt(3) all over it but for the middle, which sticks. A slab of
+// it bears the mean pressure Y (1 + 2/3 tau/Y R/H), H the height.
+TEST(Squeeze, ADiscWithAFrictionFactor) {
+  MaterialConfig material = aluminium(true);
+  material.hardening->curve = "perfect";
+  const double Y = material.hardening->yield_stress, tau = .3 * Y / std::sqrt(3.), half = 1e-3;
+  BlankConfig blank = strip_of(10 * half, half, 40, 4);
+  blank.pattern = "coarse";
+  const auto press = [&](double limit) {
+    auto sim = press_ring(blank, material, limit > 0 ? 10 : 0, .1 * half, limit);
+    while (sim->step()) {}
+    EXPECT_LT(std::abs(sim->balance_error()), 1e-4);
+    return sim;
+  };
+  const auto with = press(tau), without = press(0);
+  const ToolStatus& tool = with->tools()[0];
+  double R = 0;
+  for (const Node& x : with->positions()) R = std::max(R, x[0]);
+  const double area = 3.14159265 * R * R, slab = 1 + 2. / 3 * tau / Y * R / (2 * .9 * half), found = tool.force.y() / without->tools()[0].force.y();
+  std::printf("  force %.4f of that without friction (slab %.4f), outward %.4f of tau times the area\n", found, slab, tool.radial_force / (tau * area));
+  EXPECT_NEAR(found, slab, .03 * slab);
+  EXPECT_NEAR(tool.radial_force, tau * area, .02 * tau * area);
 }
 
 // What winds its way down in zigzag does not get there: rows of nodes stay rows.

@@ -12,6 +12,7 @@ struct PairConfig {
   std::string first, second;            ///< a body; a body or a tool
   std::string kind = "sliding";         ///< sliding | frictionless | sticking | tied | none
   double friction = 0;
+  double friction_limit = 0;
   double tie_distance = 0;
 
   template <class Visitor> static void declare(Visitor&& visit) {
@@ -19,6 +20,7 @@ struct PairConfig {
     visit(FORMING_SIM_FIELD(second), Field().required().doc("name of another body or of a tool, or the same name again for a body and itself"));
     visit(FORMING_SIM_FIELD(kind), Field().choices({"sliding", "frictionless", "sticking", "tied", "none"}).doc("sliding: with Coulomb friction; frictionless; sticking: no slip while pressed together, free to part; tied: what touches at the start stays together, the rest slides; none: they do not see each other"));
     visit(FORMING_SIM_FIELD(friction), Field().at_least(0).at_most(10).when("kind", {"sliding", "tied"}).doc("Coulomb friction of the pair, in place of that of the tool or of contact.friction"));
+    visit(FORMING_SIM_FIELD(friction_limit), Field().unit("Pa").at_least(0).when("kind", {"sliding", "sticking", "tied"}).computed("no limit").doc("largest shear stress of the pair's friction, in place of that of the tool or of contact.friction_limit; with kind sticking surfaces stay together up to it and slide under it, whatever presses them"));
     visit(FORMING_SIM_FIELD(tie_distance), Field().unit("m").at_least(0).when("kind", {"tied"}).computed("a tenth of the smallest edge of the two surfaces, of a tool's those of the body alone").doc("vertices of one surface up to so far from the other are tied to it"));
   }
 };
@@ -32,6 +34,7 @@ struct ContactConfig {
   std::string pairing = "node_side";    ///< node_side | node_node
   double push_speed = 0;                ///< v_push
   double friction = 0;                  ///< of bodies against each other and themselves
+  double friction_limit = 0;            ///< likewise
   std::string swing = "damped";         ///< damped | free (shear_waves.h)
   std::vector<PairConfig> pairs;
   int max_sweeps = 100;
@@ -46,6 +49,7 @@ struct ContactConfig {
     visit(FORMING_SIM_FIELD(pairing), Field().choices({"node_side", "node_node"}).when("method", {"explicit"}).doc("what repels a node: node_side: the nearest points of the other surface's sides; node_node: its nearest node, so that meshes have to match"));
     visit(FORMING_SIM_FIELD(push_speed), Field().unit("m/s").at_least(0).when("method", {"implicit"}).computed("the smaller of 0.1 m/s and 1e-3 of the wave speed").doc("speed at which the soft start lets the layer of a pair that is born close grow"));
     visit(FORMING_SIM_FIELD(friction), Field().at_least(0).at_most(10).doc("Coulomb friction of bodies against each other and against themselves; that of tools is theirs"));
+    visit(FORMING_SIM_FIELD(friction_limit), Field().unit("Pa").at_least(0).computed("no limit").doc("largest shear stress of that friction"));
     visit(FORMING_SIM_FIELD(swing), Field().choices({"damped", "free"}).when("method", {"implicit"}).doc("of a body that slides under friction: damped: waves of shear leave where it rubs, as into tools of its own material, and friction follows the normal force with a delay of the way of such a wave through the thickness; steady sliding feels neither; free: rigid tools throw all waves back, so that a body that slides begins to swing, and its friction on the whole is too small"));
     visit(FORMING_SIM_FIELD(pairs), Field().doc("pairs of surfaces that meet in another way than the rest"));
     visit(FORMING_SIM_FIELD(max_sweeps), Field().at_least(1).at_most(1000).when("method", {"implicit"}).doc("most Gauss-Seidel sweeps in a step; most steps need fewer"));

@@ -34,6 +34,7 @@ struct ContactSurface {
   bool rigid = false;
   std::vector<Facet> facets;  ///< bodies: joined numbering; tools: the tool mesh's own numbering. Orientation is used of bodies only
   double friction = 0;        ///< tools: Coulomb coefficient against every body
+  double friction_limit = 0;  ///< tools: largest shear stress of friction, Pa; 0: none
   bool meets_itself = false;  ///< bodies: contact with itself
   WaveBody waves;             ///< bodies: of a body that is given none, no waves leave
   bool plane = false;         ///< rigid half space without facets
@@ -98,6 +99,7 @@ struct ContactStep {
 struct SurfacePair {
   std::string first, second;
   double friction = 0;       ///< the largest double: sticking
+  double friction_limit = 0; ///< Pa; 0: none
   bool tied = false;
 };
 

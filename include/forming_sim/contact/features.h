@@ -26,7 +26,9 @@ struct Features {
   struct Relation {
     bool meet = false;
     double friction = 0;              ///< the largest double: sticking
+    double friction_limit = 0;        ///< largest shear stress of friction, Pa; 0: none
     int tie = -1;                     ///< which of `tied_zones`
+    bool limited() const { return meet && friction > 0 && friction_limit > 0; }
   };
   struct Edge {
     int node[2] = {-1, -1};           ///< rising

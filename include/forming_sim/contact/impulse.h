@@ -1,5 +1,7 @@
 #pragma once
 // Relative motion at a pair, and what an impulse on it does to its nodes.
+#include <algorithm>
+
 #include "forming_sim/contact/pair.h"
 
 namespace forming_sim {
@@ -27,13 +29,13 @@ inline void push(const Link& pair, const Node& impulse, const Workspace& work, N
 }
 
 /// The impulse by which friction comes nearest to ending the slip of the pair
-/// within the Coulomb cone of its normal impulse, N s; into rub.slip and
+/// within the Coulomb cone of its normal impulse and the limit of its shear stress, N s; into rub.slip and
 /// added to the velocities.
 inline void end_slip(const ContactPair& pair, Rub& rub, Workspace& work) {
   if (pair.impulse == 0) return;
   const Node u = relative(pair, work.v);
   Node q = -(u - pair.normal.dot(u) * pair.normal) / rub.w;
-  const double size = q.norm(), most = rub.friction * pair.impulse;
+  const double size = q.norm(), most = std::min(rub.friction * pair.impulse, rub.most);
   if (size > most) q *= most / size;
   rub.slip = q;
   push(pair, q, work, work.v);

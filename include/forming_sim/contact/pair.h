@@ -4,6 +4,7 @@
 // of a rigid tool has inverse mass 0 and a prescribed velocity.
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <tuple>
 #include <vector>
 
@@ -49,6 +50,7 @@ struct Rub {
   Node slip = Node::Zero();    ///< impulse of both, N s; before the sweeps: of friction, to start from
   double friction = 0;
   double w = 0;                ///< inverse mass of the pair, 1/kg
+  double most = std::numeric_limits<double>::infinity();  ///< of friction (shear_limit.h), N s
   // Where waves leave
   double lasting = 0;          ///< phi
   double beta = 0;             ///< z phi A times the kick, kg

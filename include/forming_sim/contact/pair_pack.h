@@ -24,7 +24,7 @@ struct alignas(64) RubPack {
   double slip[3][kLanes];    ///< of friction alone
   double radiated[3][kLanes];
   double steady[3][kLanes];  ///< along the surface
-  double friction[kLanes], w[kLanes], beta[kLanes], own[kLanes], before[kLanes];
+  double friction[kLanes], most[kLanes], w[kLanes], beta[kLanes], own[kLanes], before[kLanes];
 };
 
 /// What the kernels change and read of the nodes.

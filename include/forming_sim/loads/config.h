@@ -82,6 +82,7 @@ struct MotionConfig {
   Vec3 initial_velocity = Vec3::Zero();  ///< force
   double mass = 0;                  ///< force; 0: that of the bodies
   double damping = 0;               ///< force
+  double stop_force = 0;            ///< trajectory, velocity; 0: none
   Vec3 centre = Vec3::Zero();
   std::string profile = "smooth";
 
@@ -96,6 +97,7 @@ struct MotionConfig {
     visit(FORMING_SIM_FIELD(initial_velocity), Field().unit("m/s").when("kind", {"force"}).doc("velocity that the tool starts with, along the line of its forces: a hammer. Where all forces are 0 it is guided along this"));
     visit(FORMING_SIM_FIELD(mass), Field().unit("kg").at_least(0).computed("that of all bodies").when("kind", {"force"}).doc("mass of the tool, kg/m in plane strain; at least a thousandth of that of all bodies, mass scaling included"));
     visit(FORMING_SIM_FIELD(damping), Field().unit("1/s").at_least(0).when("kind", {"force"}).doc("rate at which the tool loses speed to its guide: a force of damping times mass times velocity"));
+    visit(FORMING_SIM_FIELD(stop_force), Field().unit("N").at_least(0).when("kind", {"trajectory", "velocity"}).computed("it goes its whole way").doc("the tool stops for good where it is when the force on it, the mean over some 50 steps, has reached this; plane strain: N/m; axisymmetric: along the axis, of the whole circle. stages[].until_stopped ends a stage with it"));
     visit(FORMING_SIM_FIELD(centre), Field().unit("m").when("kind", {"trajectory", "velocity"}).doc("centre of rotation at the start; it moves with the tool"));
     visit(FORMING_SIM_FIELD(profile), Field().choices({"smooth", "linear", "spline"}).doc("smooth: from rest to rest between knots (quintic trajectory, cubic velocity and force); linear: straight lines; spline: a trajectory that passes the inner knots without stopping"));
   }
@@ -110,6 +112,7 @@ struct ToolConfig {
   Vec3 position = Vec3::Zero(), rotation_deg = Vec3::Zero();
   std::optional<MotionConfig> motion;
   double friction = 0;
+  double friction_limit = 0;
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(name), Field().required().doc("name of the tool"));
@@ -121,6 +124,7 @@ struct ToolConfig {
     visit(FORMING_SIM_FIELD(rotation_deg), Field().unit("deg").doc("rotation vector of the tool's mesh or profile about its origin at the start"));
     visit(FORMING_SIM_FIELD(motion), Field().doc("how the tool moves; absent: it rests"));
     visit(FORMING_SIM_FIELD(friction), Field().at_least(0).at_most(10).doc("Coulomb friction of every body against this tool; 0: frictionless"));
+    visit(FORMING_SIM_FIELD(friction_limit), Field().unit("Pa").at_least(0).computed("no limit").doc("largest shear stress of that friction: min(friction p, friction_limit) where the pressure is p; in bulk forming m Y/sqrt(3), with a friction factor m from 0 to 1 and the yield stress Y"));
   }
 };
 

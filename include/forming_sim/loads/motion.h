@@ -49,6 +49,7 @@ class RigidMotion {
 
  private:
   friend RigidMotion withdraw(const Pose&, const Vec3&, double, double);
+  friend RigidMotion stay(const Pose&);
   /// Orientations reached by spins of changing axis.
   struct Turns {
     std::vector<double> times;
@@ -67,6 +68,9 @@ class RigidMotion {
 /// and ends at rest; the orientation stays. Whatever velocity `from` had is not
 /// carried on: it jumps to 0 at `start`. Throws Error(invalid_scene) unless duration > 0.
 RigidMotion withdraw(const Pose& from, const Vec3& displacement, double start, double duration);
+
+/// Rests where a motion has got to.
+RigidMotion stay(const Pose& at);
 
 /// A tool's frame in the world: x_world = position + rotation * x_tool.
 struct ToolPose {

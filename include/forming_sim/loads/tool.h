@@ -17,6 +17,7 @@ struct ToolModel {
   Vec3 position = Vec3::Zero(), rotation_deg = Vec3::Zero();  ///< initial pose of the frame
   std::optional<MotionConfig> motion;
   double friction = 0;
+  double friction_limit = 0;  ///< Pa; 0: none
 };
 
 }  // namespace forming_sim

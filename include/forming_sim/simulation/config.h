@@ -40,6 +40,7 @@ struct StageConfig {
   std::string name;
   std::string kind;             ///< form | withdraw | settle
   double duration = 0;
+  std::string until_stopped;
   std::vector<std::string> tools;
   Vec3 displacement = Vec3::Zero();
   double kinetic_fraction = 1e-5;
@@ -56,6 +57,7 @@ struct StageConfig {
     visit(FORMING_SIM_FIELD(kind), Field().required().choices({"form", "withdraw", "settle"})
           .doc("form: run for a duration; withdraw: the tools move away from where they stand, then they are gone; settle: damping adapted to the body's own slowest swing until it rests"));
     visit(FORMING_SIM_FIELD(duration), Field().unit("s").above(0).required().when("kind", {"form", "withdraw"}).doc("length of the stage in simulated time"));
+    visit(FORMING_SIM_FIELD(until_stopped), Field().when("kind", {"form"}).computed("the stage lasts for its duration").doc("name of a tool whose motion has a stop_force: the stage ends when the tool has stopped, and after its duration at the latest. Times go on counting from the start of the run: what moves by times in later stages is as early as told"));
     visit(FORMING_SIM_FIELD(tools), Field().when("kind", {"withdraw"}).computed("all tools").doc("tools that leave"));
     visit(FORMING_SIM_FIELD(displacement), Field().unit("m").when("kind", {"withdraw"}).doc("how far the tools move from where they stand, smoothly; [0, 0, 0]: they are gone at once"));
     visit(FORMING_SIM_FIELD(kinetic_fraction), Field().above(0).below(1).when("kind", {"settle"}).doc("the bodies rest when their kinetic energy, and the energy that forces out of balance could still set free, stay below this fraction of their elastic energy, or of a millionth of all the energy put in where that is more"));
