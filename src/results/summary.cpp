@@ -8,9 +8,8 @@
 #include "forming_sim/config/words.h"
 #include "forming_sim/results/body_measures.h"
 #include "forming_sim/results/text_file.h"
+#include "forming_sim/results/unfinished.h"
 #include "forming_sim/results/version.h"
-#include "forming_sim/scene/stage_times.h"
-#include "forming_sim/simulation/release.h"
 
 namespace forming_sim {
 namespace {
@@ -122,20 +121,6 @@ void tell_idle_tools(const Simulation& simulation, std::vector<std::string>& war
   for (std::size_t i = 0; i < simulation.tools().size(); ++i)
     if (!simulation.tools()[i].touched)
       warnings.push_back("tool " + simulation.model().tools[i].name + " has touched nothing in the whole run: look at its position, unit_scale and motion, or leave it out");
-}
-
-/// Motions that a settle stage cut off: they were planned for one that takes its limit, and the bodies rested before.
-void tell_unfinished_motions(const Simulation& simulation, std::vector<std::string>& warnings) {
-  const std::vector<StageConfig>& stages = simulation.plan().stages;
-  const double end = simulation.time() * (1 + 1e-9), longest = longest_time(stages) * (1 + 1e-9);
-  for (const ToolModel& tool : simulation.model().tools) {
-    const bool leaves = std::any_of(stages.begin(), stages.end(), [&](const StageConfig& stage) { return takes_away(stage, tool.name); });
-    if (!tool.motion || tool.motion->times.empty() || leaves) continue;
-    const double last = tool.motion->times.back();
-    if (last <= end || last > longest) continue;
-    warnings.push_back("the motion of tool " + tool.name + " goes to " + number_text(last) + " s, and the run ended at " + three_digits(simulation.time()) +
-                       " s: its times count from the start of the run, and a settle stage ends when the bodies rest, unless it has `ends: limit`");
-  }
 }
 
 /// Layers that bodies leave no room: what is shut in by tools that stand almost h0 too far out is too soft.
@@ -292,7 +277,7 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
   tell_pressed_cells(simulation, record.pressed_cells, warnings);
   if (came_to_its_end(code)) {
     tell_idle_tools(simulation, warnings);
-    tell_unfinished_motions(simulation, warnings);
+    tell_unfinished(simulation, record, warnings);
     tell_late_flow(simulation, record, warnings);
     if (simulation.plan().contact.method == "implicit") tell_flat_layers(contact, warnings);
   }

@@ -33,6 +33,8 @@ struct NearestNode {
   }
 };
 
+constexpr double kMostShear = 5;  ///< of the top against the bottom
+
 using NodeTree = Eigen::KdBVH<double, 3, PlacedNode>;
 int nearest_node(const NodeTree& tree, const Vec3& point) {
   NearestNode nearest{point};
@@ -70,9 +72,19 @@ Thickness::Thickness(const Model& model) {
     const NodeTree top_tree(top_nodes.begin(), top_nodes.end()), bottom_tree(facets.begin(), facets.end());
     for (const Vec3& X : mesh.nodes) sheet.above.push_back(nearest_node(top_tree, X));
     for (const PlacedNode& node : top_nodes) sheet.below.push_back(nearest_node(bottom_tree, node.x));
+    for (const PlacedNode& node : top_nodes) sheet.top_start.push_back(node.x);
+    for (const PlacedNode& facet : facets) sheet.bottom_start.push_back(facet.x);
+    sheet.reach.assign(sheet.top.size(), std::numeric_limits<double>::infinity());
     sheets_.push_back(std::move(sheet));
   }
-  if (any()) start_ = at(start);
+  if (!any()) return;
+  start_ = at(start);
+  for (Sheet& sheet : sheets_) {
+    double largest = 0;
+    for (const auto& c : sheet.bottom)
+      for (int k = 0; k < 3; ++k) largest = std::max(largest, (start[c[k]] - start[c[(k + 1) % 3]]).norm());
+    for (std::size_t i = 0; i < sheet.top.size(); ++i) sheet.reach[i] = kMostShear * start_[sheet.top[i]] + 2 * largest;
+  }
 }
 
 std::vector<int> Thickness::top() const {
@@ -103,7 +115,11 @@ std::vector<double> Thickness::at(const NodeField& positions) const {
     std::vector<double> of_top;
     for (std::size_t i = 0; i < sheet.top.size(); ++i) {
       const Node& p = positions[sheet.top[i]];
-      of_top.push_back(grid.nearest(p, distance(p, sheet.below[i]), [&](int facet) { return distance(p, facet); }));
+      const auto through_metal = [&](int facet) {
+        const double from_start = (sheet.top_start[i] - sheet.bottom_start[facet]).norm();
+        return from_start <= sheet.reach[i] ? distance(p, facet) : std::numeric_limits<double>::infinity();
+      };
+      of_top.push_back(grid.nearest(p, distance(p, sheet.below[i]), through_metal));
     }
     for (std::size_t i = 0; i < sheet.above.size(); ++i) thickness[sheet.first_node + i] = of_top[sheet.above[i]];
   }

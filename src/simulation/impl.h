@@ -138,6 +138,11 @@ struct Simulation::Impl {
   double damping_rate() const;
   /// Settling: estimates the frequency; forces() are complete.
   void watch_settling();
+  /// Of the tools that forces drive those that press on the bodies settle with them.
+  bool settles(int tool) const { return stages.drive(tool) && tools[tool].present && tools[tool].force.norm() > 1e-3 * tools[tool].peak_force.norm(); }
+  void slow_tools();
+  /// A motion, a pressure or a load is on its way from one knot to another; in the last stage also where that is still to come in it.
+  bool still_driven() const;
   /// Settling: whether the bodies rest, from the force m dv/dt + m alpha v that is left on
   /// each node when contact and supports have answered; v_before, v and dt are those of the step.
   void see_rest();
@@ -158,6 +163,7 @@ struct Simulation::Impl {
   /// Warns, once, of energies that do not add up at the end of a stage; residual, J, and error: of Simulation.
   void check_ledger(double residual, double error);
   void tell_unstopped();
+  std::string why_unsettled() const;
   double least_energy() const;  ///< J
 
   // checkpoint.cpp

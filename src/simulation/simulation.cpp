@@ -70,6 +70,28 @@ void Simulation::Impl::check_crossings() {
   next_crossing_check = stages.progress(time) + 1.0 / kCrossingChecks;
 }
 
+std::string Simulation::Impl::why_unsettled() const {
+  std::ostringstream text;
+  text << "a settle stage reached its limit ";
+  const bool quiet = unsettled.restless() <= unsettled.quiet();
+  if (quiet && fading.empty()) {
+    text << "while a motion, a pressure or a load still changed: a longer limit lets the bodies come to rest after it, and with `ends: limit` the stage does not wait for it";
+    return text.str();
+  }
+  text << "before the bodies rested";
+  if (!quiet)
+    text << ": at its end their kinetic energy, and what the forces out of balance could still set free, were " << unsettled.restless() << " J, and should stay below stages[].kinetic_fraction of the elastic energy, "
+         << unsettled.quiet() << " J";
+  NodeField loads(x.size(), Node::Zero());
+  pressures.add(time, x, loads);
+  dead_loads.add(time, loads);
+  if (std::any_of(loads.begin(), loads.end(), [](const Node& f) { return !f.isZero(0); }))
+    text << "; pressures or loads still act on them: let these end before (last entry 0) if nothing holds the bodies against them";
+  else if (fading.empty()) text << "; a longer limit lets them come to rest";
+  else text << "; what held them was still fading, until " << fading.end() << " s: a longer limit or a shorter stages[].release_time lets them come to rest";
+  return text.str();
+}
+
 Simulation::Simulation(const RunPlan& plan, Model model, int threads)
     : impl_(std::make_unique<Impl>(plan, std::move(model), threads)) {}
 Simulation::~Simulation() = default;
@@ -121,18 +143,7 @@ Outcome Simulation::run(const std::atomic<bool>& cancel) {
     if (outcome.code == Code::none) {
       outcome = {Code::success, "completed"};
       if (!s.settled) {
-        std::ostringstream text;
-        text << "a settle stage reached its limit before the bodies rested: at its end their kinetic energy, and what the forces out of balance could still set free, were "
-             << s.unsettled.restless() << " J, and should stay below stages[].kinetic_fraction of the elastic energy, " << s.unsettled.quiet()
-             << " J";
-        NodeField loads(s.x.size(), Node::Zero());
-        s.pressures.add(s.time, s.x, loads);
-        s.dead_loads.add(s.time, loads);
-        const bool loaded = std::any_of(loads.begin(), loads.end(), [](const Node& f) { return !f.isZero(0); });
-        if (loaded) text << "; pressures or loads still act on them: let these end before (last entry 0) if nothing holds the bodies against them";
-        else if (s.fading.empty()) text << "; a longer limit lets them come to rest";
-        else text << "; what held them was still fading, until " << s.fading.end() << " s: a longer limit or a shorter stages[].release_time lets them come to rest";
-        outcome = {Code::limit_reached, text.str()};
+        outcome = {Code::limit_reached, s.why_unsettled()};
       }
     }
   } catch (const Error& error) {

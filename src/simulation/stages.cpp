@@ -31,13 +31,13 @@ void StageRunner::begin(double t) {
   known_.assign(motions_.size(), {});
   for (std::size_t k = 0; k < motions_.size(); ++k) {
     if (!leaves(stages_[index_], static_cast<int>(k))) continue;
-    const bool at_once = stages_[index_].displacement.isZero();
+    const Vec3& displacement = stages_[index_].displacement;
     const ForceDrive* by = drive(static_cast<int>(k));
     Pose from = motions_[k].at(t);
     if (by) from.translation = by->way();
     stop_force_[k] = 0;
-    if (at_once) present_[k] = 0;
-    if (!at_once || by) motions_[k] = withdraw(from, stages_[index_].displacement, t, stages_[index_].duration);
+    present_[k] = !displacement.isZero();
+    motions_[k] = present_[k] ? withdraw(from, displacement, t, stages_[index_].duration) : stay(from);
   }
 }
 

@@ -1,9 +1,11 @@
 // One step: forces, the kick, contact, and the ledger's sums.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <numeric>
 #include <sstream>
 
 #include "forming_sim/loads/gravity.h"
+#include "forming_sim/simulation/release.h"
 #include "simulation/impl.h"
 
 namespace forming_sim {
@@ -42,6 +44,7 @@ void Simulation::Impl::take_step() {
   elements.find_forces(x, v, previous_dt, previous_kick);
   find_loads();
   if (stages.settling()) watch_settling();
+  slow_tools();
   const NodeField* then = by_cells() ? nullptr : &departure.then();
   double departed = 0;  // squared
   if (contact) {
@@ -203,7 +206,37 @@ void Simulation::Impl::watch_settling() {
     v_df += v[i].dot(f[i] - f_before[i]);
     v_Mv += mass[i] * v[i].squaredNorm();
   }
+  for (int k = 0; k < static_cast<int>(tools.size()); ++k)
+    if (settles(k)) v_Mv += stages.drive(k)->mass() * stages.drive(k)->velocity().squaredNorm();
   settle.estimate(v_df, v_Mv, previous_dt);
+}
+
+void Simulation::Impl::slow_tools() {
+  for (int k = 0; k < static_cast<int>(tools.size()); ++k)
+    if (ForceDrive* drive = stages.drive(k)) drive->slow_down(stages.settling() && settles(k) ? settle.damping() : 0);
+}
+
+bool Simulation::Impl::still_driven() const {
+  const bool last = stages.index() + 1 == static_cast<int>(plan.stages.size());
+  const double end = time + stages.remaining(time);
+  const auto changes = [&](const std::vector<double>& times, const auto& values) {
+    const bool level = std::all_of(values.begin(), values.end(), [&](const auto& value) { return value == values.front(); });
+    return !level && time < times.back() && times.front() < (last ? end : time);
+  };
+  for (const BodyLoads& body : plan.bodies) {
+    for (const PressureConfig& p : body.pressures)
+      if (changes(p.times, p.values)) return true;
+    for (const LoadConfig& l : body.loads)
+      if (changes(l.times, l.tractions) || changes(l.times, l.forces)) return true;
+    for (const BoundaryConfig& b : body.boundaries)
+      if (release_stage(b.until, plan.stages) > stages.index() && (changes(b.times, b.velocities) || changes(b.times, b.spins_deg_s))) return true;
+  }
+  for (std::size_t k = 0; k < tools.size(); ++k) {
+    const auto& m = model.tools[k].motion;
+    if (!m || !tools[k].present || stages.stopped(model.tools[k].name)) continue;
+    if (changes(m->times, m->positions) || changes(m->times, m->rotations_deg) || changes(m->times, m->velocities) || changes(m->times, m->spins_deg_s) || changes(m->times, m->forces)) return true;
+  }
+  return false;
 }
 
 void Simulation::Impl::see_rest() {
@@ -213,8 +246,16 @@ void Simulation::Impl::see_rest() {
   double f_Mf = 0;
   for (std::size_t i = 0; i < v.size(); ++i)
     f_Mf += mass[i] * ((v[i] - v_before[i]) / kick + 0.5 * alpha * (v[i] + v_before[i])).squaredNorm();
-  if (!fading.empty()) settle.not_yet(time);
-  rests = settle.at_rest(time, f_Mf, kinetic(), elements.stored_energy(x), most);
+  double moving = kinetic();
+  for (int k = 0; k < static_cast<int>(tools.size()); ++k) {
+    const ForceDrive* drive = stages.drive(k);
+    if (!drive || !tools[k].present || (!settles(k) && drive->force(time) == 0)) continue;  // what flies on by itself may
+    const double unbalanced = drive->force(time) + tools[k].force.dot(drive->guide());
+    f_Mf += unbalanced * unbalanced / (drive->mass() + std::accumulate(mass.begin(), mass.end(), 0.0));
+    moving += 0.5 * drive->mass() * drive->velocity().squaredNorm();
+  }
+  if (!fading.empty() || (stages.stage().ends != "limit" && still_driven())) settle.not_yet(time);
+  rests = settle.at_rest(time, f_Mf, moving, elements.stored_energy(x), most);
 }
 
 }  // namespace forming_sim

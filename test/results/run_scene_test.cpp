@@ -81,6 +81,52 @@ TEST(RunScene, TellsMetalThatIsPressedAsItNeverIs) {
 }
 
 // Two sweeps are too few for the forces to come to their end, a hundred are not; nothing is said where nothing is near.
+/// Warnings of what a settle stage that ends early cuts off; its limit is 4 ms.
+std::vector<std::string> told_unfinished(const std::string& ends) {
+  const std::string text = R"(
+name: cut_off
+dimension: 2
+bodies:
+  - name: strip
+    blank: {shape: strip, length: 0.004, thickness: 0.001, cells_along: 4, cells_through: 1}
+    material: {density: 2700, youngs_modulus: 70e9, poissons_ratio: 0.3}
+    boundaries:
+      - {set: left, kind: fixed}
+      - {set: right, kind: velocity, axes: [y], times: [4.1e-3, 4.3e-3], velocities: [[0, 0], [0, 0.1]], until: open}
+    pressures: [{set: top, times: [4.1e-3, 4.3e-3], values: [0, 1e5]}]
+    loads: [{set: top, kind: force, times: [4.1e-3, 4.3e-3], forces: [[0, 0], [100, 0]]}]
+tools:
+  - {name: early, point: [0, 0.01], normal: [0, -1], motion: {kind: trajectory, times: [0, 1e-4], positions: [[0, 0], [0, -0.001]]}}
+  - {name: late, point: [0, 0.01], normal: [0, -1], motion: {kind: trajectory, times: [4.1e-3, 4.3e-3], positions: [[0, 0], [0, -0.001]]}}
+  - {name: on, point: [0, 0.01], normal: [0, -1], motion: {kind: trajectory, times: [4.1e-3, 9e-3], positions: [[0, 0], [0, -0.001]]}}
+stages:
+  - {kind: form, duration: 1e-4}
+  - {kind: settle, limit: 4e-3, ends: )" + ends + R"(}
+  - {name: second, kind: form, duration: 3e-4}
+  - {name: open, kind: withdraw, duration: 1e-5}
+)";
+  const TemporaryDirectory directory;
+  std::vector<Fault> faults;
+  const Scene scene = read_scene(text, ".", faults);
+  EXPECT_TRUE(faults.empty());
+  const Outcome outcome = run_scene(scene, directory.path(), 1, "", kNever);
+  EXPECT_EQ(outcome.code, Code::success) << outcome.message;
+  std::vector<std::string> told;
+  const json summary = read_json(directory.file("summary.json"));
+  for (const json& warning : summary["warnings"])
+    if (warning.get<std::string>().find("count from the start of the run") != std::string::npos) told.push_back(warning);
+  return told;
+}
+
+TEST(RunScene, TellsWhatAnEarlyRestCutOff) {
+  const std::vector<std::string> told = told_unfinished("rest"), starts{"the motion of tool late ", "the motion of set right of body strip ", "the pressure on set top of body strip ", "the load on set top of body strip "};
+  ASSERT_EQ(told.size(), starts.size());
+  for (std::size_t i = 0; i < told.size(); ++i) EXPECT_EQ(told[i].find(starts[i]), 0u) << told[i];
+  EXPECT_NE(told[0].find("stage open, which ends it, began at "), std::string::npos) << told[0];
+  EXPECT_NE(told[2].find("the run ended at "), std::string::npos) << told[2];
+  EXPECT_TRUE(told_unfinished("limit").empty());
+}
+
 TEST(RunScene, TellsHowFarTheSweepsCame) {
   const auto contact_of = [](int max_sweeps, bool punch) {
     const TemporaryDirectory directory;

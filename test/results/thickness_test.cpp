@@ -70,6 +70,22 @@ TEST(Thickness, OfABentSheetIsItsRadialDistance) {
   for (int i = 0; i < offset; ++i) EXPECT_TRUE(std::isnan(thinning[i]));
 }
 
+// A spiral of one and a half turns, whose turns lie a hundredth of the thickness from each other: the outer one's bottom on the inner one's top.
+TEST(Thickness, OfACurledSheetIsThatThroughItsMetal) {
+  const int cells = 400;
+  const double t = 0.1, pitch = 1.01 * t, turns = 1.5;
+  const Mesh mesh = strip(cells, t);  // bottom y = 0, along x
+  double length = 0;
+  for (const Vec3& x : mesh.nodes) length = std::max(length, x.x());
+  NodeField curled;
+  for (const Vec3& x : mesh.nodes) {
+    const double angle = 2 * M_PI * turns * x.x() / length, r = 1 + pitch * angle / (2 * M_PI) + x.y();
+    curled.push_back(Node(r * std::sin(angle), r * std::cos(angle), 0, 0));
+  }
+  const Thickness thickness(model_of(mesh));
+  for (double value : thickness.at(curled)) EXPECT_NEAR(value, t, 2e-3 * t);
+}
+
 /// Against the distance of all nodes of the top, in a sheet of several layers of uneven columns.
 TEST(Thickness, BelowTheTopIsThatOfTheNearestNodeThere) {
   const int cells = 9, layers = 3;

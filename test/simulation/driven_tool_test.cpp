@@ -114,6 +114,23 @@ TEST(DrivenTool, WhatDidNotStopIsTold) {
   EXPECT_NE(told_unstopped(*sim).find("of the 1e+09 N/m"), std::string::npos) << told_unstopped(*sim);
 }
 
+// A tool that is taken away at once stays where it was taken away, though its motion would go on.
+TEST(DrivenTool, ThatIsGoneMovesNoMore) {
+  OneBody run = held_strip(4, 1, 1e-3, 1e-4);
+  lead(holder_of(run), 4e-4, Vec3(0, -5e-4, 0));
+  StageConfig away;
+  away.name = away.kind = "withdraw";
+  away.duration = 1e-4;
+  run.plan.stages.push_back(away);
+  run.plan.stages.push_back(form_for(1e-4));
+  auto sim = run.start();
+  while (sim->stage() == 0) sim->step();
+  const Vec3 place = sim->tools()[1].position;
+  while (sim->step()) {}
+  EXPECT_FALSE(sim->tools()[1].present);
+  EXPECT_EQ(sim->tools()[1].position, place);
+}
+
 // Where it lies its force does not let it fall, however light it is: contact looks no farther than for a heavy one.
 TEST(DrivenTool, ALightOneIsNotSoughtFarAway) {
   long listed[2] = {0, 0};

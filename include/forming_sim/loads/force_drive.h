@@ -33,6 +33,11 @@ class ForceDrive {
   /// The step has been done, dt long, with V = V* + push; J: `answer`, N s along the guide.
   void take(double t, double kick, double dt, double push, double answer);
 
+  double force(double t) const { return force_.at(t); }  ///< F, N
+  double mass() const { return mass_; }                  ///< M, kg
+  /// Adds `rate` to alpha, 1/s, until it is told another: in settle stages.
+  void slow_down(double rate) { settling_ = rate; }
+
   Vec3 way() const { return way_ * guide_; }         ///< from the start, m
   Vec3 velocity() const { return speed_ * guide_; }  ///< V of the last step, m/s
 
@@ -41,11 +46,11 @@ class ForceDrive {
   }
 
  private:
-  double braking(double kick) const { return 0.5 * damping_ * kick; }  ///< a
+  double braking(double kick) const { return 0.5 * (damping_ + settling_) * kick; }  ///< a
 
   Vec3 guide_;
   ScalarProfile force_;  ///< along guide_, N
-  double mass_, damping_;
+  double mass_, damping_, settling_ = 0;
   double way_ = 0, speed_ = 0;
   double momentum_ = 0;  ///< over M: V as J says, m/s; speed_ is as near to it as contact searches, and no impulse is lost
 };

@@ -1,6 +1,7 @@
 #pragma once
 // Thickness of the sheets of a model, of the bodies with the sets `top` and `bottom`: distance of the nodes of
-// `top` from the surface whose facets have all their nodes in `bottom`.
+// `top` from the surface whose facets have all their nodes in `bottom`, through the metal: where a sheet curls up its top meets its own
+// bottom, of which only what lay near it at the start counts.
 #include <array>
 #include <optional>
 #include <vector>
@@ -32,6 +33,8 @@ class Thickness {
     std::vector<std::array<int, 3>> bottom;  ///< a segment repeats its second node
     std::vector<int> above;                  ///< per node of the body: place in top
     std::vector<int> below;                  ///< per node of top: a facet of bottom that lay near it at the start
+    std::vector<Vec3> top_start, bottom_start;  ///< where they were, of facets their first nodes, m
+    std::vector<double> reach;               ///< per node of top: of a facet that counts, from start to start, m
   };
   std::vector<Sheet> sheets_;
   std::vector<double> start_;  ///< at() of the start

@@ -98,6 +98,7 @@ struct ToolStatus {
   double peak_radial_force = 0;
   bool touched = false;                    ///< contact has acted on it, in whatever direction
   bool present = true;                     ///< false once withdrawn
+  bool stopped = false;                    ///< by the force that its motion was to stop under
 };
 
 class Observer {

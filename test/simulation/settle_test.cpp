@@ -1,0 +1,93 @@
+// When a settle stage ends: not before tools that forces drive, and loads that are on their way, have come to rest too.
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "support/runs.h"
+
+namespace forming_sim {
+namespace {
+
+StageConfig settle_within(double limit) {
+  StageConfig stage;
+  stage.name = stage.kind = "settle";
+  stage.limit = limit;
+  return stage;
+}
+
+/// A cantilever of 10 x 1 mm whose end a force pulls down between two times, in one settle stage.
+OneBody loaded(double from, double to, double limit) {
+  OneBody run(body_of(generate_blank(strip_of(10e-3, 1e-3, 10, 2)), aluminium()), 1);
+  run.plan.stages = {settle_within(limit)};
+  clamp_left(run);
+  LoadConfig load;
+  load.set = "right";
+  load.kind = "force";
+  load.times = {from, to};
+  load.forces = {Vec3::Zero(), Vec3(0, -1000, 0)};
+  run.plan.bodies[0].loads = {load};
+  return run;
+}
+/// How far the end has come, m.
+double sag(const Simulation& sim) {
+  double lowest = 0;
+  for (const Node& x : sim.positions()) lowest = std::max(lowest, -x[1]);
+  return lowest;
+}
+
+}  // namespace
+
+TEST(Settle, WaitsForALoadThatRises) {
+  auto quick = loaded(0, 5e-4, .1).start(), slow = loaded(0, 1e-2, .1).start();
+  for (auto* sim : {&quick, &slow})
+    while ((*sim)->step()) {}
+  std::printf("  sags by %.5g m under a load of .5 ms, %.5g m of 10 ms, at rest after %.3g s\n", sag(*quick), sag(*slow), slow->time());
+  EXPECT_GT(slow->time(), 1e-2);
+  EXPECT_LT(slow->time(), 2e-2);
+  EXPECT_NEAR(sag(*slow), sag(*quick), .005 * sag(*quick));
+}
+
+TEST(Settle, WaitsInTheLastStageForALoadThatIsToCome) {
+  auto last = loaded(4e-3, 6e-3, .1).start();
+  while (last->step()) {}
+  EXPECT_GT(last->time(), 6e-3);
+  OneBody run = loaded(4e-3, 6e-3, .1);
+  run.plan.stages.push_back(form_for(1e-3));
+  auto before = run.start();
+  while (before->stage() == 0) before->step();
+  EXPECT_LT(before->time(), 4e-3);  // the load belongs to what follows
+}
+
+TEST(Settle, ThatTheLimitCutsOffWhileALoadRisesSaysSo) {
+  const std::atomic<bool> never{false};
+  OneBody run = loaded(0, .1, 2e-2);
+  const Outcome cut = run.start()->run(never);
+  EXPECT_EQ(cut.code, Code::limit_reached);
+  EXPECT_NE(cut.message.find("still changed"), std::string::npos) << cut.message;
+  run.plan.stages[0].ends = "limit";
+  EXPECT_EQ(run.start()->run(never).code, Code::success);
+}
+
+// The heavier the tool, the slower it swings on what it presses: the strip stands still at every turning point.
+TEST(Settle, AHeavyToolComesToRestWithWhatItPresses) {
+  const double force = 1e6;
+  for (const double mass : {.027, 1., 100.}) {  // of the strip: .027 kg/m
+    OneBody run(body_of(generate_blank(strip_of(10e-3, 1e-3, 20, 2)), aluminium()), 2e-4);
+    run.model.tools = {plane_at("table", 2, Vec3::Zero(), Vec3::UnitY()), plane_at("holder", 2, 1e-3 * Vec3::UnitY(), -Vec3::UnitY())};
+    MotionConfig motion;
+    motion.kind = "force";
+    motion.times = {0, 1e-4};
+    motion.forces = {Vec3::Zero(), Vec3(0, -force, 0)};
+    motion.mass = mass;
+    run.model.tools[1].motion = motion;
+    run.plan.stages.push_back(settle_within(.05));
+    auto sim = run.start();
+    while (sim->step()) {}
+    std::printf("  mass %g kg/m: force %.7g N/m at %.3g s\n", mass, sim->tools()[1].force.y(), sim->time());
+    EXPECT_LT(sim->time(), .04);
+    EXPECT_NEAR(sim->tools()[1].force.y(), force, .003 * force);
+    EXPECT_NEAR(sim->tools()[0].force.y(), -force, .003 * force);
+  }
+}
+
+}  // namespace forming_sim
