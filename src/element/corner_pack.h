@@ -36,7 +36,7 @@ template <class Cell> [[gnu::noinline]] void guard_corners(const CellGroup& g, c
   const auto guard = corners.guard();
   const Pack least = guard.least();
   if (!any(least < Pack(kFreeCorner))) return;
-  if (!all(least > Pack(0.0))) g.upright[block_of(pack)] = false;
+  if (!Cell::ring && !all(least > Pack(0.0))) g.upright[block_of(pack)] = false;
   if (any(least < Pack(kPressedCorner))) g.pressed[block_of(pack)] = true;
   Vector<Pack, kD<Cell>> slope[Cell::nodes];
   guard.gradient(slope);

@@ -46,7 +46,7 @@ std::vector<int> Elements::pressed_cells(const NodeField& x) const {
 
 void Elements::report_corner_inversion(const NodeField& x) const {
   for (const Group& g : groups_) {
-    if (!is_one_point(static_cast<CellKind>(g.kind))) continue;
+    if (!is_one_point(static_cast<CellKind>(g.kind)) || g.ring) continue;
     for (int cell = 0; cell < g.cells; ++cell) {
       const auto report = [&](const auto& least) {
         if (least.q > 0) return;

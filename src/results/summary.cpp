@@ -141,7 +141,8 @@ void tell_pressed_cells(const Simulation& simulation, const Peak& cells, std::ve
   std::ostringstream text;
   text.precision(3);
   text << "at " << cells.time << " s " << cells.value << " one-point cells had a corner with less than a fifth of its share in the cell, one of them with element " << cells.element << " of body "
-       << body_of(simulation, cells.element)->name << " at (" << cells.position.transpose() << ") m: what keeps such cells from turning inside out bears load, and forces can be many times too large. "
+       << body_of(simulation, cells.element)->name << " at (" << cells.position.transpose() << ") m: "
+       << (simulation.model().axisymmetric ? "such cells fold, and forces can be some tens of percent too large. " : "what keeps such cells from turning inside out bears load, and forces can be many times too large. ")
        << "Take pattern fine for this body, cells of another shape, finer ones, or give concave corners of tools a radius";
   warnings.push_back(text.str());
 }

@@ -15,6 +15,11 @@
 // The resistance of a corner is theta K r, r = u^3 (4 - 3u)/(4 (1 - u)^2): at half of q_0 it is .03 K, what some eight
 // times the yield stress of a metal is. q_0 leaves free what cells do in the tables of docs/speed_and_error.md.
 //
+// Rings are held up to u_1 only: beyond, r stays r(u_1), and U = ... q_0 [1/4 u_1^4/(1 - u_1) + r(u_1) (u - u_1)]. Billets that
+// flow around an edge of a die (45 degrees, 10 or 20 cells a radius) have to fold their cells, those of crossed triangles too, whose
+// corners come to q = -2 to -5; where none may pass 0 the billet cannot leave the die, and is compressed elastically in it. What
+// varies across such cells fades (element/hourglass.h), and a corner inside out does not end the run.
+//
 // Of the stiffness, in the metric of the cell's own masses rho V0 share_b,
 //   omega^2 <= theta K/(N rho) sum_a [ r'/q_0 |dq|^2 + r B ],  B >= the largest eigenvalue of -d2q,
 //   r' = dr/du = u^2 (6 - 8u + 3u^2)/(2 (1 - u)^3),  |dq|^2 = sum_b |dq/dx_b|^2/share_b.
@@ -31,6 +36,7 @@
 namespace forming_sim {
 
 constexpr double kCornerGuard = 0.1, kFreeCorner = 0.4;  ///< theta, q_0
+template <bool Ring> constexpr double kHeldCorner = Ring ? 0.25 : 1;  ///< u_1
 constexpr double kPressedCorner = 0.2;  ///< below this q the stiffness grows so fast that every step asks for its limit
 constexpr double kLeastCorner = 0.1;  ///< a corner with less than this part of its even share at the start has no guard
 
@@ -76,8 +82,9 @@ template <class T, int D, bool Ring> class CornerGuard {
   T energy() const {
     T sum(0);
     for (int a = 0; a < N; ++a) {
-      const T square = u(a) * u(a);
-      sum += square * square / (T(1) - u(a));
+      const T held = held_part(u(a)), square = held * held;
+      sum += square * square / (T(1) - held);
+      if constexpr (Ring) sum += T(4) * resistance(held) * (u(a) - held);
     }
     return T(0.25 * kFreeCorner / N) * sum;
   }
@@ -123,11 +130,19 @@ template <class T, int D, bool Ring> class CornerGuard {
  private:
   static T u_of(const T& q) { return larger(T(1) - T(1 / kFreeCorner) * q, T(0)); }
   T u(int a) const { return u_of(q[a]); }
+  static T held_part(const T& u) {
+    if constexpr (Ring) return smaller(u, T(kHeldCorner<Ring>));
+    return u;
+  }
   /// r and r'
-  static T resistance(const T& u) { return T(0.25) * u * u * u * (T(4) - T(3) * u) / ((T(1) - u) * (T(1) - u)); }
-  static T resistance_slope(const T& u) {
-    const T left = T(1) - u;
-    return T(0.5) * u * u * (T(6) - T(8) * u + T(3) * u * u) / (left * left * left);
+  static T resistance(const T& any_u) {
+    const T u = held_part(any_u);
+    return T(0.25) * u * u * u * (T(4) - T(3) * u) / ((T(1) - u) * (T(1) - u));
+  }
+  static T resistance_slope(const T& any_u) {
+    const T u = held_part(any_u), left = T(1) - u, slope = T(0.5) * u * u * (T(6) - T(8) * u + T(3) * u * u) / (left * left * left);
+    if constexpr (Ring) return select(any_u > u, T(0), slope);
+    return slope;
   }
   /// 1/(c_a J)
   T scale(int a) const {

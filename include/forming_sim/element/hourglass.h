@@ -28,6 +28,12 @@
 // curve along the flow and relaxes across it, as the points of a fine mesh would; where S = 0, s is bounded such that the moment
 // of the cell is that of the rectangle of yield stress. The last mode relaxes as the mean does.
 // What the variation dissipates beside the mean is s : d ep V0/3.
+//
+// Fading, in rings. A cell that flows around an edge of a die folds: |e|, which is of order 1 where a corner turns inside out,
+// comes to several times that, and its s would dissipate what no fine mesh does. Where |e|^2 = sum_d e_d^2 (of the fibres) is beyond
+// e_0^2 = `near` of one_point.h, below which every corner has more than q_0 of its share (element/corner_guard.h), s is bounded by
+//   |s_d| <= sigma_s e_0^2/|e|^2   (|.| von Mises' of the face),
+// and what is more than that goes into ep_d, as flow along s_d does.
 #include "forming_sim/element/flow_together.h"
 #include "forming_sim/element/one_point_ring.h"
 #include "forming_sim/material/law.h"
@@ -98,11 +104,11 @@ template <class T, int D, bool Ring = false> class Hourglass {
   }
   /// The last mode of the layer, and with it all its stresses; they are those of the cell, or have a share w in them.
   void finish_only_layer(T& dissipation, double* hourglass_memory) {
-    if constexpr (D == 3) relax(limit_, left_, layer_.warp, dissipation, hourglass_memory);
+    finish(dissipation, hourglass_memory);
     stress_.set(layer_);
   }
   void finish_layer(const T& w, T& dissipation, double* hourglass_memory) {
-    if constexpr (D == 3) relax(limit_, left_, layer_.warp, dissipation, hourglass_memory);
+    finish(dissipation, hourglass_memory);
     stress_.add(w, layer_);
   }
   /// Before the first of several layers.
@@ -188,6 +194,27 @@ template <class T, int D, bool Ring = false> class Hourglass {
     if (!any(may_be_outside(n2, q2, back, point.yield.value * point.yield.value))) return false;
     const T one = T(1) / point.yield.value, n = sqrt(n2) * one, m = T(kFaceStress) * (sqrt(q2) + absolute(back) * n) * one;
     return any(n * n + n * m + m * m > T(1 + 1e-12));
+  }
+
+  void finish(T& dissipation, double* memory) {
+    if constexpr (D == 3) relax(limit_, left_, layer_.warp, dissipation, memory);
+    if constexpr (Ring)
+      if (far_) fade(dissipation, memory);
+  }
+
+  /// The bound of a folded cell's stresses.
+  [[gnu::noinline]] void fade(T& dissipation, double* memory) {
+    const T square = strain_.square(), near = loaded(Cell::near), bound = near / larger(square, near) * limit_;
+    repeat<D>([&](auto d) {
+      Plane<T>& s = layer_.plane[d];
+      const T norm = sqrt(face_square(s)), kept = select(square > near, bound / larger(norm, bound), T(1)), gone = T(1) - kept;
+      const Plane<T> ep = load_plane<T, D>(memory, d), elastic = strain_.plane[d] - ep;
+      const Plane<T> rate{gone * elastic.a, gone * elastic.b, T(0)};
+      s.a *= kept, s.b *= kept;
+      dissipation += T(1.0 / 3) * work(s, rate);
+      store(memory, d * kPlaneItems<D>, ep.a + rate.a);
+      store(memory, d * kPlaneItems<D> + 1, ep.b + rate.b);
+    });
   }
 
   /// The last mode, of hexahedra: it relaxes as a stress does that is not along the flow, and does not pass the yield stress.
