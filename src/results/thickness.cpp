@@ -116,8 +116,8 @@ std::vector<double> Thickness::at(const NodeField& positions) const {
     for (std::size_t i = 0; i < sheet.top.size(); ++i) {
       const Node& p = positions[sheet.top[i]];
       const auto through_metal = [&](int facet) {
-        const double from_start = (sheet.top_start[i] - sheet.bottom_start[facet]).norm();
-        return from_start <= sheet.reach[i] ? distance(p, facet) : std::numeric_limits<double>::infinity();
+        const double squared = (sheet.top_start[i] - sheet.bottom_start[facet]).squaredNorm();
+        return squared <= sheet.reach[i] * sheet.reach[i] ? distance(p, facet) : std::numeric_limits<double>::infinity();
       };
       of_top.push_back(grid.nearest(p, distance(p, sheet.below[i]), through_metal));
     }

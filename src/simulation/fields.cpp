@@ -88,9 +88,13 @@ const Energies& Simulation::energies() const {
   const Impl& s = *impl_;
   if (s.energies_step == s.steps) return s.energies;
   const bool moved = s.steps > 0;
-  NodeField at = s.x;
+  NodeField at(s.x.size());
+  using Numbers = Eigen::Matrix4Xd;
+  const auto nodes = static_cast<Eigen::Index>(s.x.size());
+  const Eigen::Map<const Numbers> x(s.x.data()->data(), 4, nodes), v(s.v.data()->data(), 4, nodes);
+  Eigen::Map<Numbers> before_end(at.data()->data(), 4, nodes);
   const auto stored_after = [&](double part) {  // of the last step, at whose start memories were kept
-    for (std::size_t i = 0; i < at.size(); ++i) at[i] = s.x[i] - (1 - part) * s.dt * s.v[i];
+    before_end = x - (1 - part) * s.dt * v;
     return s.elements.stored_energy(at, &s.v, part * s.dt);
   };
   Energies& e = s.energies;
