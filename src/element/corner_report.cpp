@@ -25,7 +25,7 @@ template <int D, bool Ring> struct LeastCorner {
 
 bool Elements::corners_pressed() const {
   return std::any_of(groups_.begin(), groups_.end(), [](const Group& g) {
-    return is_one_point(static_cast<CellKind>(g.kind)) && std::any_of(g.pressed, g.pressed + g.blocks, [](bool pressed) { return pressed; });
+    return is_one_point(static_cast<CellKind>(g.kind)) && !g.ring && std::any_of(g.pressed, g.pressed + g.blocks, [](bool pressed) { return pressed; });
   });
 }
 
@@ -58,9 +58,9 @@ void Elements::report_corner_inversion(const NodeField& x) const {
              << " of the cell; a finer mesh there, larger tool radii, slower tools or pattern fine avoid it";
         throw Error(Code::mesh_error, what.str());
       };
-      with_dimension(dimension_, g.ring, [&](auto d, auto ring) {
+      with_dimension(dimension_, false, [&](auto d, auto) {
         const StandingCell<d> at(g, x, cell);
-        report(LeastCorner<d, ring>(at.constants.data(), at.x));
+        report(LeastCorner<d, false>(at.constants.data(), at.x));
       });
     }
   }

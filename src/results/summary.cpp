@@ -109,7 +109,8 @@ Json tools(const Simulation& simulation) {
                     {"peak_radial_force", simulation.model().axisymmetric ? number(tool.peak_radial_force) : Json(nullptr)},
                     {"unit", simulation.model().per_width() ? "N/m" : "N"},
                     {"position", vector(tool.position)},
-                    {"present", tool.present}});
+                    {"present", tool.present},
+                    {"stopped_s", tool.stopped ? number(*tool.stopped) : Json(nullptr)}});
   }
   return list;
 }
@@ -142,7 +143,7 @@ void tell_pressed_cells(const Simulation& simulation, const Peak& cells, std::ve
   text.precision(3);
   text << "at " << cells.time << " s " << cells.value << " one-point cells had a corner with less than a fifth of its share in the cell, one of them with element " << cells.element << " of body "
        << body_of(simulation, cells.element)->name << " at (" << cells.position.transpose() << ") m: "
-       << (simulation.model().axisymmetric ? "such cells fold, and forces can be some tens of percent too large. " : "what keeps such cells from turning inside out bears load, and forces can be many times too large. ")
+       << (simulation.model().axisymmetric ? "such cells fold, and forces can be up to twice too large. " : "what keeps such cells from turning inside out bears load, and forces can be many times too large. ")
        << "Take pattern fine for this body, cells of another shape, finer ones, or give concave corners of tools a radius";
   warnings.push_back(text.str());
 }

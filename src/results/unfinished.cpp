@@ -3,15 +3,12 @@
 #include <algorithm>
 
 #include "forming_sim/config/words.h"
+#include "forming_sim/loads/course.h"
 #include "forming_sim/scene/stage_times.h"
 #include "forming_sim/simulation/release.h"
 
 namespace forming_sim {
 namespace {
-
-template <class Values> bool level(const Values& values) {
-  return std::all_of(values.begin(), values.end(), [&](const auto& value) { return value == values.front(); });
-}
 
 class Unfinished {
  public:
@@ -23,10 +20,9 @@ class Unfinished {
     return static_cast<int>(std::find_if(stages_.begin(), stages_.end(), [&](const StageConfig& stage) { return takes_away(stage, tool); }) - stages_.begin());
   }
   /// until: the stage at whose beginning it ends, or their number.
-  void tell(const std::string& what, const std::vector<double>& times, bool level, int until) const {
-    if (times.empty() || level) return;
+  template <class Config> void tell(const std::string& what, const Config& config, int until) const {
     const bool at_end = until == count();
-    const double last = times.back(), ended = at_end ? end_ : begun(until), planned = longest_time({stages_.begin(), stages_.begin() + until});
+    const double last = last_change(config), ended = at_end ? end_ : begun(until), planned = longest_time({stages_.begin(), stages_.begin() + until});
     constexpr double kRounding = 1 + 1e-9;
     if (last <= ended * kRounding || last > planned * kRounding) return;
     warnings_.push_back(what + " goes to " + number_text(last) + " s, and " + (at_end ? "the run ended at " : "stage " + stages_[until].title() + ", which ends it, began at ") + three_digits(ended) +
@@ -53,17 +49,15 @@ void tell_unfinished(const Simulation& simulation, const RunRecord& record, std:
   for (std::size_t k = 0; k < model.tools.size(); ++k) {
     const ToolModel& tool = model.tools[k];
     if (!tool.motion || simulation.tools()[k].stopped) continue;
-    const MotionConfig& m = *tool.motion;
-    const bool rests = level(m.positions) && level(m.rotations_deg) && level(m.velocities) && level(m.spins_deg_s) && level(m.forces);
-    unfinished.tell("the motion of tool " + tool.name, m.times, rests, unfinished.leaving_stage(tool.name));
+    unfinished.tell("the motion of tool " + tool.name, *tool.motion, unfinished.leaving_stage(tool.name));
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyLoads& loads = simulation.plan().bodies[b];
     const std::string of = " of body " + model.bodies[b].name;
     for (const BoundaryConfig& c : loads.boundaries)
-      unfinished.tell("the motion of set " + c.set + of, c.times, level(c.velocities) && level(c.spins_deg_s), release_stage(c.until, simulation.plan().stages));
-    for (const PressureConfig& p : loads.pressures) unfinished.tell("the pressure on set " + p.set + of, p.times, level(p.values), unfinished.count());
-    for (const LoadConfig& l : loads.loads) unfinished.tell("the load on set " + l.set + of, l.times, level(l.tractions) && level(l.forces), unfinished.count());
+      unfinished.tell("the motion of set " + c.set + of, c, release_stage(c.until, simulation.plan().stages));
+    for (const PressureConfig& p : loads.pressures) unfinished.tell("the pressure on set " + p.set + of, p, unfinished.count());
+    for (const LoadConfig& l : loads.loads) unfinished.tell("the load on set " + l.set + of, l, unfinished.count());
   }
 }
 

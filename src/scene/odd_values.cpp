@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "forming_sim/config/words.h"
+#include "forming_sim/loads/course.h"
 #include "forming_sim/scene/stage_times.h"
 #include "geometry.h"
 
@@ -77,22 +78,18 @@ void tell_odd_speeds(const Scene& scene, std::vector<std::string>& notes) {
 
 /// Loads and motions that go on when the stages are over.
 void tell_late(const Scene& scene, double end, std::vector<std::string>& notes) {
-  const auto tell = [&](const std::string& what, const std::vector<double>& times) {
-    if (times.empty() || times.back() <= end * (1 + 1e-9)) return;
-    notes.push_back(what + " goes on to " + three_digits(times.back()) + " s and the stages end at " + three_digits(end) + " s: what comes later does not happen");
+  const auto tell = [&](const std::string& what, const auto& config) {
+    const double last = last_change(config);
+    if (last <= end * (1 + 1e-9)) return;
+    notes.push_back(what + " goes on to " + three_digits(last) + " s and the stages end at " + three_digits(end) + " s: what comes later does not happen");
   };
-  const auto rests = [&](const auto& values) { return std::all_of(values.begin(), values.end(), [&](const auto& value) { return value == values.front(); }); };
   for (const BodyConfig& body : scene.bodies) {
-    for (const BoundaryConfig& b : body.boundaries)
-      if (!rests(b.velocities) || !rests(b.spins_deg_s)) tell("the motion of set " + b.set + " of body " + body.name, b.times);
-    for (const PressureConfig& p : body.pressures)
-      if (!rests(p.values)) tell("the pressure on set " + p.set + " of body " + body.name, p.times);
-    for (const LoadConfig& l : body.loads)
-      if (!rests(l.tractions) || !rests(l.forces)) tell("the load on set " + l.set + " of body " + body.name, l.times);
+    for (const BoundaryConfig& b : body.boundaries) tell("the motion of set " + b.set + " of body " + body.name, b);
+    for (const PressureConfig& p : body.pressures) tell("the pressure on set " + p.set + " of body " + body.name, p);
+    for (const LoadConfig& l : body.loads) tell("the load on set " + l.set + " of body " + body.name, l);
   }
   for (const ToolConfig& tool : scene.tools)
-    if (const auto& m = tool.motion; m && (!rests(m->positions) || !rests(m->rotations_deg) || !rests(m->velocities) || !rests(m->spins_deg_s) || !rests(m->forces)))
-      tell("the motion of tool " + tool.name, m->times);
+    if (tool.motion) tell("the motion of tool " + tool.name, *tool.motion);
 }
 
 }  // namespace

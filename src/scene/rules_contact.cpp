@@ -7,7 +7,7 @@
 namespace forming_sim {
 namespace {
 
-/// A limit needs something to limit, and what each node has borne before all of its pairs.
+/// A limit needs friction that it limits; method geometric, which puts nodes back one by one, knows none.
 void check_limit(const ContactConfig& contact, double limit, bool rubs, const std::string& path, FaultList& faults) {
   if (!(limit > 0)) return;
   if (!rubs) faults.add(path, given_text(limit), "give friction beside it, which it limits, or leave it out");

@@ -11,7 +11,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f660000000fu;
+constexpr std::uint64_t kLayout = 0x6d726f6600000010u;
 
 template <class T> std::size_t mark_of(const T* values, std::size_t count) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(values), count * sizeof(T)});
@@ -52,12 +52,11 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.number(smallest.node);
   a.text(smallest.reason);
   a.raw(settle);
-  a.raw(unsettled);
+  a.text(unsettled);
   f_before.resize(x.size(), Node::Zero());
   a.numbers(f_before.data()->data(), f_before.size() * 4);
   a.number(f_before_step);
   a.number(rests);
-  a.number(settled);
   a.number(pressed);
   std::size_t told = warnings.size() - told_at_start;
   a.number(told);

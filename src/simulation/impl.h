@@ -64,11 +64,11 @@ struct Simulation::Impl {
   long longer_steps = 0;            ///< than time_step.limit node allows
   double first_dt = 0;
   double first_element_dt = 0;  ///< stable step of the limiting element at the start, s
-  Settle settle, unsettled;         ///< of the running stage; of the last that ran into its limit
+  Settle settle;                    ///< of the running stage
+  std::string unsettled;            ///< why the last settle stage that ran into its limit did; empty: none has
   NodeField f_before;               ///< forces of the step before an estimate of the settling frequency
   long f_before_step = -2;
   bool rests = false;               ///< a settling body has come to rest
-  bool settled = true;              ///< false once a settle stage has run into its limit
   double wall = 0, observed = 0;  ///< s
 
   // the ledger's running sums, J
@@ -136,14 +136,19 @@ struct Simulation::Impl {
   double kinetic() const;
   /// Mass-proportional damping now, 1/s.
   double damping_rate() const;
-  /// Settling: estimates the frequency; forces() are complete.
+
+  // settling.cpp
+  /// Estimates the frequency; forces() are complete.
   void watch_settling();
   /// Of the tools that forces drive those that press on the bodies settle with them.
-  bool settles(int tool) const { return stages.drive(tool) && tools[tool].present && tools[tool].force.norm() > 1e-3 * tools[tool].peak_force.norm(); }
+  bool settles(int tool) const;
+  /// In a settle stage tools that settle have its damping too.
   void slow_tools();
   /// A motion, a pressure or a load is on its way from one knot to another; in the last stage also where that is still to come in it.
   bool still_driven() const;
-  /// Settling: whether the bodies rest, from the force m dv/dt + m alpha v that is left on
+  /// Of the running stage, which has come to its limit.
+  std::string why_unsettled() const;
+  /// Whether the bodies rest, from the force m dv/dt + m alpha v that is left on
   /// each node when contact and supports have answered; v_before, v and dt are those of the step.
   void see_rest();
 
@@ -162,8 +167,8 @@ struct Simulation::Impl {
   void check_crossings();
   /// Warns, once, of energies that do not add up at the end of a stage; residual, J, and error: of Simulation.
   void check_ledger(double residual, double error);
+  /// Warns where the running stage, which ends, was to end when a tool stops, and that has not.
   void tell_unstopped();
-  std::string why_unsettled() const;
   double least_energy() const;  ///< J
 
   // checkpoint.cpp

@@ -48,6 +48,8 @@ class Settle {
   /// Kinetic and releasable energy when it was last looked at, and what it should be below, J.
   double restless() const { return restless_; }
   double quiet() const { return quiet_; }
+  /// For so long it has to be quiet, s.
+  double shortest() const { return shortest_; }
 
  private:
   double shortest_ = 0, fraction_ = 0, least_ = 0, quiet_since_ = 0, looked_ = 0, omega_ = 0, restless_ = 0, quiet_ = 0;

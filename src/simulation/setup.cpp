@@ -283,7 +283,7 @@ void Simulation::Impl::place_tools() {
     tools[k].rotation = pose.rotation;
     tools[k].velocity = pose.velocity;
     tools[k].present = stages.present(static_cast<int>(k));
-    tools[k].stopped = stages.stopped(model.tools[k].name);
+    if (const double stop = stages.stops()[k]; !std::isnan(stop)) tools[k].stopped = stop;
   }
 }
 

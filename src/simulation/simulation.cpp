@@ -46,6 +46,7 @@ void Simulation::Impl::tell_unstopped() {
   const StageConfig& stage = stages.stage();
   if (stage.until_stopped.empty() || stages.stopped(stage.until_stopped)) return;
   const auto tool = std::find_if(model.tools.begin(), model.tools.end(), [&](const ToolModel& t) { return t.name == stage.until_stopped; });
+  if (tool == model.tools.end() || !tool->motion) return;
   std::ostringstream text;
   text << "stage " << stage.title() << " ended after its duration: tool " << tool->name << " felt " << tools[tool - model.tools.begin()].peak_force.norm() << " of the "
        << tool->motion->stop_force << (model.per_width() ? " N/m" : " N") << " that stop it";
@@ -59,8 +60,7 @@ bool Simulation::Impl::stage_over() {
   if (rests && !to_limit) return true;
   if (stages.remaining(time) > (to_limit ? 1e-12 * time : 0)) return false;
   if (rests) return true;
-  settled = false;
-  unsettled = settle;
+  unsettled = why_unsettled();
   return true;
 }
 
@@ -68,28 +68,6 @@ void Simulation::Impl::check_crossings() {
   if (!contact) return;
   crossings += contact->count_crossings(x, tool_motions(0));
   next_crossing_check = stages.progress(time) + 1.0 / kCrossingChecks;
-}
-
-std::string Simulation::Impl::why_unsettled() const {
-  std::ostringstream text;
-  text << "a settle stage reached its limit ";
-  const bool quiet = unsettled.restless() <= unsettled.quiet();
-  if (quiet && fading.empty()) {
-    text << "while a motion, a pressure or a load still changed: a longer limit lets the bodies come to rest after it, and with `ends: limit` the stage does not wait for it";
-    return text.str();
-  }
-  text << "before the bodies rested";
-  if (!quiet)
-    text << ": at its end their kinetic energy, and what the forces out of balance could still set free, were " << unsettled.restless() << " J, and should stay below stages[].kinetic_fraction of the elastic energy, "
-         << unsettled.quiet() << " J";
-  NodeField loads(x.size(), Node::Zero());
-  pressures.add(time, x, loads);
-  dead_loads.add(time, loads);
-  if (std::any_of(loads.begin(), loads.end(), [](const Node& f) { return !f.isZero(0); }))
-    text << "; pressures or loads still act on them: let these end before (last entry 0) if nothing holds the bodies against them";
-  else if (fading.empty()) text << "; a longer limit lets them come to rest";
-  else text << "; what held them was still fading, until " << fading.end() << " s: a longer limit or a shorter stages[].release_time lets them come to rest";
-  return text.str();
 }
 
 Simulation::Simulation(const RunPlan& plan, Model model, int threads)
@@ -142,9 +120,7 @@ Outcome Simulation::run(const std::atomic<bool>& cancel) {
     }
     if (outcome.code == Code::none) {
       outcome = {Code::success, "completed"};
-      if (!s.settled) {
-        outcome = {Code::limit_reached, s.why_unsettled()};
-      }
+      if (!s.unsettled.empty()) outcome = {Code::limit_reached, s.unsettled};
     }
   } catch (const Error& error) {
     std::ostringstream text;

@@ -30,7 +30,7 @@ bool StageRunner::leaves(const StageConfig& stage, int tool) const { return take
 void StageRunner::begin(double t) {
   known_.assign(motions_.size(), {});
   for (std::size_t k = 0; k < motions_.size(); ++k) {
-    if (!leaves(stages_[index_], static_cast<int>(k))) continue;
+    if (!present_[k] || !leaves(stages_[index_], static_cast<int>(k))) continue;
     const Vec3& displacement = stages_[index_].displacement;
     const ForceDrive* by = drive(static_cast<int>(k));
     Pose from = motions_[k].at(t);
@@ -88,10 +88,12 @@ void StageRunner::stop(int tool, double t) {
   known_[tool] = {};
 }
 
+bool StageRunner::stopped(int tool) const { return !std::isnan(stops_[tool]); }
+
 bool StageRunner::stopped(const std::string& tool) const {
   if (tool.empty()) return false;
   for (std::size_t k = 0; k < stops_.size(); ++k)
-    if (model_->tools[k].name == tool) return !std::isnan(stops_[k]);
+    if (model_->tools[k].name == tool) return stopped(static_cast<int>(k));
   return false;
 }
 

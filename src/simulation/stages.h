@@ -39,8 +39,9 @@ class StageRunner {
   double stop_force(int tool) const { return stop_force_[tool]; }
   /// The tool stays for good where it is at time t.
   void stop(int tool, double t);
-  /// The tool of this name has been stopped.
-  bool stopped(const std::string& tool) const;
+  /// It has been stopped.
+  bool stopped(int tool) const;
+  bool stopped(const std::string& tool) const;  ///< by its name; false: none has it
   /// 1: tools that were there until the running stage began.
   const std::vector<char>& left() const { return left_; }
 

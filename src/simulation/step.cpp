@@ -1,11 +1,9 @@
 // One step: forces, the kick, contact, and the ledger's sums.
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <numeric>
 #include <sstream>
 
 #include "forming_sim/loads/gravity.h"
-#include "forming_sim/simulation/release.h"
 #include "simulation/impl.h"
 
 namespace forming_sim {
@@ -186,76 +184,6 @@ double Simulation::Impl::kinetic() const {
 
 double Simulation::Impl::damping_rate() const {
   return plan.time_step.damping + (stages.settling() ? settle.damping() : 0);
-}
-
-void Simulation::Impl::watch_settling() {
-  const long phase = steps % Settle::kInterval;
-  const bool estimates = phase == 0 && f_before_step == steps - 1;
-  if (phase != Settle::kInterval - 1 && !estimates) return;
-  // With the loads: what fades of them the body answers as it springs back slowly, and both together tell of its swings about that way
-  // alone. Damping for its own slow motion drags on it, and bends it anew: of a bent strip 4 % of the curvature.
-  NodeField f(x.size());
-  sum_nodes(elements.team(), forces(), f);
-  if (!estimates) {
-    f_before = f, f_before_step = steps;
-    return;
-  }
-  const std::vector<double>& mass = elements.nodal_mass();
-  double v_df = 0, v_Mv = 0;
-  for (std::size_t i = 0; i < f.size(); ++i) {
-    v_df += v[i].dot(f[i] - f_before[i]);
-    v_Mv += mass[i] * v[i].squaredNorm();
-  }
-  for (int k = 0; k < static_cast<int>(tools.size()); ++k)
-    if (settles(k)) v_Mv += stages.drive(k)->mass() * stages.drive(k)->velocity().squaredNorm();
-  settle.estimate(v_df, v_Mv, previous_dt);
-}
-
-void Simulation::Impl::slow_tools() {
-  for (int k = 0; k < static_cast<int>(tools.size()); ++k)
-    if (ForceDrive* drive = stages.drive(k)) drive->slow_down(stages.settling() && settles(k) ? settle.damping() : 0);
-}
-
-bool Simulation::Impl::still_driven() const {
-  const bool last = stages.index() + 1 == static_cast<int>(plan.stages.size());
-  const double end = time + stages.remaining(time);
-  const auto changes = [&](const std::vector<double>& times, const auto& values) {
-    const bool level = std::all_of(values.begin(), values.end(), [&](const auto& value) { return value == values.front(); });
-    return !level && time < times.back() && times.front() < (last ? end : time);
-  };
-  for (const BodyLoads& body : plan.bodies) {
-    for (const PressureConfig& p : body.pressures)
-      if (changes(p.times, p.values)) return true;
-    for (const LoadConfig& l : body.loads)
-      if (changes(l.times, l.tractions) || changes(l.times, l.forces)) return true;
-    for (const BoundaryConfig& b : body.boundaries)
-      if (release_stage(b.until, plan.stages) > stages.index() && (changes(b.times, b.velocities) || changes(b.times, b.spins_deg_s))) return true;
-  }
-  for (std::size_t k = 0; k < tools.size(); ++k) {
-    const auto& m = model.tools[k].motion;
-    if (!m || !tools[k].present || stages.stopped(model.tools[k].name)) continue;
-    if (changes(m->times, m->positions) || changes(m->times, m->rotations_deg) || changes(m->times, m->velocities) || changes(m->times, m->spins_deg_s) || changes(m->times, m->forces)) return true;
-  }
-  return false;
-}
-
-void Simulation::Impl::see_rest() {
-  if (steps % (10 * Settle::kInterval) != 0) return;
-  const double kick = 0.5 * (previous_dt + dt), alpha = damping_rate();
-  const std::vector<double>& mass = elements.nodal_mass();
-  double f_Mf = 0;
-  for (std::size_t i = 0; i < v.size(); ++i)
-    f_Mf += mass[i] * ((v[i] - v_before[i]) / kick + 0.5 * alpha * (v[i] + v_before[i])).squaredNorm();
-  double moving = kinetic();
-  for (int k = 0; k < static_cast<int>(tools.size()); ++k) {
-    const ForceDrive* drive = stages.drive(k);
-    if (!drive || !tools[k].present || (!settles(k) && drive->force(time) == 0)) continue;  // what flies on by itself may
-    const double unbalanced = drive->force(time) + tools[k].force.dot(drive->guide());
-    f_Mf += unbalanced * unbalanced / (drive->mass() + std::accumulate(mass.begin(), mass.end(), 0.0));
-    moving += 0.5 * drive->mass() * drive->velocity().squaredNorm();
-  }
-  if (!fading.empty() || (stages.stage().ends != "limit" && still_driven())) settle.not_yet(time);
-  rests = settle.at_rest(time, f_Mf, moving, elements.stored_energy(x), most);
 }
 
 }  // namespace forming_sim

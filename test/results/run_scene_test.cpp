@@ -80,7 +80,6 @@ TEST(RunScene, TellsMetalThatIsPressedAsItNeverIs) {
   EXPECT_EQ(told_of_a_press(.05, "% of its bulk modulus, in element"), 0);
 }
 
-// Two sweeps are too few for the forces to come to their end, a hundred are not; nothing is said where nothing is near.
 /// Warnings of what a settle stage that ends early cuts off; its limit is 4 ms.
 std::vector<std::string> told_unfinished(const std::string& ends) {
   const std::string text = R"(
@@ -127,6 +126,7 @@ TEST(RunScene, TellsWhatAnEarlyRestCutOff) {
   EXPECT_TRUE(told_unfinished("limit").empty());
 }
 
+// Two sweeps are too few for the forces to come to their end, a hundred are not; nothing is said where nothing is near.
 TEST(RunScene, TellsHowFarTheSweepsCame) {
   const auto contact_of = [](int max_sweeps, bool punch) {
     const TemporaryDirectory directory;

@@ -58,6 +58,29 @@ TEST(Settle, WaitsInTheLastStageForALoadThatIsToCome) {
   EXPECT_LT(before->time(), 4e-3);  // the load belongs to what follows
 }
 
+// Between level knots nothing is on its way.
+TEST(Settle, DoesNotWaitWhileALoadIsHeld) {
+  for (const bool last : {true, false}) {
+    OneBody run = loaded(0, 5e-4, .1);
+    LoadConfig& load = run.plan.bodies[0].loads[0];
+    load.times = {0, 5e-4, 8e-2, 9e-2};
+    load.forces = {Vec3::Zero(), Vec3(0, -1000, 0), Vec3(0, -1000, 0), last ? Vec3(0, -1000, 0) : Vec3(Vec3::Zero())};
+    if (!last) run.plan.stages.push_back(form_for(1e-6));
+    auto sim = run.start();
+    while (sim->stage() == 0 && sim->step()) {}
+    EXPECT_GT(sim->time(), 5e-4) << last;
+    EXPECT_LT(sim->time(), 2e-2) << last;
+  }
+}
+
+TEST(Settle, ThatIsTooShortToTellSaysSo) {
+  OneBody run = loaded(0, 1e-6, 2e-6);
+  const std::atomic<bool> never{false};
+  const Outcome outcome = run.start()->run(never);
+  EXPECT_EQ(outcome.code, Code::limit_reached);
+  EXPECT_EQ(outcome.message.find("still changed"), std::string::npos) << outcome.message;
+}
+
 TEST(Settle, ThatTheLimitCutsOffWhileALoadRisesSaysSo) {
   const std::atomic<bool> never{false};
   OneBody run = loaded(0, .1, 2e-2);

@@ -6,7 +6,7 @@
 //
 // q, j: impulses of a pair along and across the surfaces; tau_max: friction_limit, Pa; kick: the time that they act over; A: the area
 // that the pair stands for now. A node of a body has the part of its faces that looks along the pair's normal, so that beside
-// an edge the faces around the corner do not count, and its pairs share that as they shared its normal impulse in the step before.
+// an edge the faces around the corner do not count, and its pairs share that as they shared its normal impulse in the step before: of a node that was pressed already a pair that comes anew has none for a step.
 // Where two bodies meet it is the mean of both. A node at the border of what touches counts whole: up to a cell too much.
 #include <vector>
 

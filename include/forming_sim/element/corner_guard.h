@@ -36,8 +36,8 @@
 namespace forming_sim {
 
 constexpr double kCornerGuard = 0.1, kFreeCorner = 0.4;  ///< theta, q_0
-template <bool Ring> constexpr double kHeldCorner = Ring ? 0.25 : 1;  ///< u_1
-constexpr double kPressedCorner = 0.2;  ///< below this q the stiffness grows so fast that every step asks for its limit
+constexpr double kHeldInRings = 0.25;  ///< u_1
+constexpr double kPressedCorner = 0.2;  ///< below this q the stiffness grows so fast that every step asks for its limit (but in rings); the run tells how many cells there were
 constexpr double kLeastCorner = 0.1;  ///< a corner with less than this part of its even share at the start has no guard
 
 /// The corner next to a along each coordinate.
@@ -131,7 +131,7 @@ template <class T, int D, bool Ring> class CornerGuard {
   static T u_of(const T& q) { return larger(T(1) - T(1 / kFreeCorner) * q, T(0)); }
   T u(int a) const { return u_of(q[a]); }
   static T held_part(const T& u) {
-    if constexpr (Ring) return smaller(u, T(kHeldCorner<Ring>));
+    if constexpr (Ring) return smaller(u, T(kHeldInRings));
     return u;
   }
   /// r and r'
@@ -139,10 +139,10 @@ template <class T, int D, bool Ring> class CornerGuard {
     const T u = held_part(any_u);
     return T(0.25) * u * u * u * (T(4) - T(3) * u) / ((T(1) - u) * (T(1) - u));
   }
+  /// In rings beyond u_1, where it is 0, that of u_1: a corner may come back in the step.
   static T resistance_slope(const T& any_u) {
-    const T u = held_part(any_u), left = T(1) - u, slope = T(0.5) * u * u * (T(6) - T(8) * u + T(3) * u * u) / (left * left * left);
-    if constexpr (Ring) return select(any_u > u, T(0), slope);
-    return slope;
+    const T u = held_part(any_u), left = T(1) - u;
+    return T(0.5) * u * u * (T(6) - T(8) * u + T(3) * u * u) / (left * left * left);
   }
   /// 1/(c_a J)
   T scale(int a) const {

@@ -124,7 +124,7 @@ struct ToolConfig {
     visit(FORMING_SIM_FIELD(rotation_deg), Field().unit("deg").doc("rotation vector of the tool's mesh or profile about its origin at the start"));
     visit(FORMING_SIM_FIELD(motion), Field().doc("how the tool moves; absent: it rests"));
     visit(FORMING_SIM_FIELD(friction), Field().at_least(0).at_most(10).doc("Coulomb friction of every body against this tool; 0: frictionless"));
-    visit(FORMING_SIM_FIELD(friction_limit), Field().unit("Pa").at_least(0).computed("no limit").doc("largest shear stress of that friction: min(friction p, friction_limit) where the pressure is p; in bulk forming m Y/sqrt(3), with a friction factor m from 0 to 1 and the yield stress Y"));
+    visit(FORMING_SIM_FIELD(friction_limit), Field().unit("Pa").at_least(0).computed("no limit").doc("largest shear stress of that friction: min(friction p, friction_limit) where the pressure is p; in bulk forming m Y/sqrt(3), with a friction factor m above 0, at most 1, and the yield stress Y; 0 is no limit"));
   }
 };
 

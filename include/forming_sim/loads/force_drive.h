@@ -1,7 +1,7 @@
 #pragma once
 // A tool that a force drives, or that flies with a mass of its own: a blank holder, a hammer. It is guided along the line of its force and does not turn.
 //
-//   M dV/dt = F(t) + R - alpha M V,   R: what the bodies press on it,
+//   M dV/dt = F(t) + R - alpha M V,   R: what the bodies press on it; alpha: its damping, and in settle stages theirs,
 //
 // V at the half step, as the velocities of nodes; k = (dt_previous + dt)/2 the kick, a = alpha k/2:
 //

@@ -22,8 +22,9 @@
 //   thickness_m {initial, min}                       smallest at the start, smallest over the history
 //   thinning {max, where, at_end {max, where}}       1 - thickness over that of the start; max: over the history
 //   bodies [{name, mass, centre, momentum, angular_momentum, bounding_box {min, max}}]
-//   tools [{name, peak_force, peak_radial_force, unit, position, present}]
-//                   peak_radial_force: of an axisymmetric run, else null: outward, summed around the circle
+//   tools [{name, peak_force, peak_radial_force, unit, position, present, stopped_s}]
+//                   peak_radial_force: of an axisymmetric run, else null: outward, summed around the circle;
+//                   stopped_s: when it stopped under its stop_force, else null
 //   springback {angle_deg_formed, angle_deg_released, change_deg, probe {from, to}, kinetic_over_internal}
 //   stages [{name, kind, end_time_s, kinetic_J, internal_J, kinetic_over_internal,
 //            kinetic_over_internal_peak}]

@@ -1,5 +1,6 @@
 #pragma once
 // Observers watch a run; none changes a number of it.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -98,7 +99,7 @@ struct ToolStatus {
   double peak_radial_force = 0;
   bool touched = false;                    ///< contact has acted on it, in whatever direction
   bool present = true;                     ///< false once withdrawn
-  bool stopped = false;                    ///< by the force that its motion was to stop under
+  std::optional<double> stopped;           ///< when it stopped under the force that its motion was to stop under, s
 };
 
 class Observer {

@@ -1,0 +1,51 @@
+#pragma once
+// When what is given over times changes: motions of tools and boundaries, pressures, loads.
+#include <algorithm>
+#include <vector>
+
+#include "forming_sim/loads/config.h"
+
+namespace forming_sim {
+
+/// Calls visit(times, values, moves) for each list of values over times; moves: what is level and not 0 goes on moving.
+template <class Visit> void each_course(const MotionConfig& m, Visit&& visit) {
+  visit(m.times, m.positions, false);
+  visit(m.times, m.rotations_deg, false);
+  visit(m.times, m.velocities, true);
+  visit(m.times, m.spins_deg_s, true);
+  visit(m.times, m.forces, false);
+}
+template <class Visit> void each_course(const BoundaryConfig& b, Visit&& visit) {
+  visit(b.times, b.velocities, true);
+  visit(b.times, b.spins_deg_s, true);
+}
+template <class Visit> void each_course(const PressureConfig& p, Visit&& visit) { visit(p.times, p.values, false); }
+template <class Visit> void each_course(const LoadConfig& l, Visit&& visit) {
+  visit(l.times, l.tractions, false);
+  visit(l.times, l.forces, false);
+}
+
+/// Time of the last knot that differs from the one before, s; 0: nothing changes.
+template <class Config> double last_change(const Config& config) {
+  double last = 0;
+  each_course(config, [&](const std::vector<double>& times, const auto& values, bool) {
+    for (std::size_t k = 1; k < values.size(); ++k)
+      if (values[k] != values[k - 1]) last = std::max(last, times[k]);
+  });
+  return last;
+}
+
+/// Is it on its way from one knot to another at some time after `from` and before `to`? (A spline swings beyond level knots: not told apart.)
+template <class Config> bool changes(const Config& config, double from, double to) {
+  const double last = last_change(config);
+  bool found = false;
+  each_course(config, [&](const std::vector<double>& times, const auto& values, bool moves) {
+    for (std::size_t k = 1; k < values.size(); ++k) {
+      const bool on_its_way = values[k] != values[k - 1] || (moves && values[k] != 0 * values[k]);
+      found = found || (on_its_way && times[k] <= last && from < times[k] && times[k - 1] < to);
+    }
+  });
+  return found;
+}
+
+}  // namespace forming_sim

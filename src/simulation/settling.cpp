@@ -1,0 +1,102 @@
+// How settle stages take motion out of the bodies, and when these rest (simulation/settle.h).
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+#include "forming_sim/loads/course.h"
+#include "forming_sim/simulation/release.h"
+#include "simulation/impl.h"
+
+namespace forming_sim {
+
+namespace {
+constexpr double kPresses = 1e-3;  ///< of the largest force that a tool has felt: what feels less has left
+}
+
+bool Simulation::Impl::settles(int tool) const { return stages.drive(tool) && tools[tool].present && tools[tool].force.norm() > kPresses * tools[tool].peak_force.norm(); }
+
+void Simulation::Impl::watch_settling() {
+  const long phase = steps % Settle::kInterval;
+  const bool estimates = phase == 0 && f_before_step == steps - 1;
+  if (phase != Settle::kInterval - 1 && !estimates) return;
+  // With the loads: what fades of them the body answers as it springs back slowly, and both together tell of its swings about that way
+  // alone. Damping for its own slow motion drags on it, and bends it anew: of a bent strip 4 % of the curvature.
+  NodeField f(x.size());
+  sum_nodes(elements.team(), forces(), f);
+  if (!estimates) {
+    f_before = f, f_before_step = steps;
+    return;
+  }
+  const std::vector<double>& mass = elements.nodal_mass();
+  double v_df = 0, v_Mv = 0;
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    v_df += v[i].dot(f[i] - f_before[i]);
+    v_Mv += mass[i] * v[i].squaredNorm();
+  }
+  for (int k = 0; k < static_cast<int>(tools.size()); ++k)
+    if (settles(k)) v_Mv += stages.drive(k)->mass() * stages.drive(k)->velocity().squaredNorm();
+  settle.estimate(v_df, v_Mv, previous_dt);
+}
+
+void Simulation::Impl::slow_tools() {
+  for (int k = 0; k < static_cast<int>(tools.size()); ++k)
+    if (ForceDrive* drive = stages.drive(k)) drive->slow_down(stages.settling() && settles(k) ? settle.damping() : 0);
+}
+
+bool Simulation::Impl::still_driven() const {
+  const bool last = stages.index() + 1 == static_cast<int>(plan.stages.size());
+  const double until = last ? time + stages.remaining(time) : time;
+  const auto any = [&](const auto& configs) { return std::any_of(configs.begin(), configs.end(), [&](const auto& config) { return changes(config, time, until); }); };
+  for (const BodyLoads& body : plan.bodies) {
+    if (any(body.pressures) || any(body.loads)) return true;
+    for (const BoundaryConfig& b : body.boundaries)
+      if (release_stage(b.until, plan.stages) > stages.index() && changes(b, time, until)) return true;
+  }
+  for (std::size_t k = 0; k < tools.size(); ++k)
+    if (model.tools[k].motion && tools[k].present && !stages.stopped(static_cast<int>(k)) && changes(*model.tools[k].motion, time, until)) return true;
+  return false;
+}
+
+// A tool that a force drives has the energy 1/2 M V^2, and could still set free U^2/(2 omega^2 (M + m)) as the bodies' forces out of
+// balance can f.M^-1 f/(2 omega^2): U = F + R, its force and the mean of what presses on it; m, the mass of the bodies, moves with it.
+void Simulation::Impl::see_rest() {
+  if (steps % (10 * Settle::kInterval) != 0) return;
+  const double kick = 0.5 * (previous_dt + dt), alpha = damping_rate();
+  const std::vector<double>& mass = elements.nodal_mass();
+  double f_Mf = 0;
+  for (std::size_t i = 0; i < v.size(); ++i)
+    f_Mf += mass[i] * ((v[i] - v_before[i]) / kick + 0.5 * alpha * (v[i] + v_before[i])).squaredNorm();
+  double moving = kinetic();
+  for (int k = 0; k < static_cast<int>(tools.size()); ++k) {
+    const ForceDrive* drive = stages.drive(k);
+    if (!drive || !tools[k].present || (!settles(k) && drive->force(time) == 0)) continue;  // what flies on by itself may
+    const double unbalanced = drive->force(time) + tools[k].force.dot(drive->guide());
+    f_Mf += unbalanced * unbalanced / (drive->mass() + std::accumulate(mass.begin(), mass.end(), 0.0));
+    moving += 0.5 * drive->mass() * drive->velocity().squaredNorm();
+  }
+  if (!fading.empty() || (stages.stage().ends != "limit" && still_driven())) settle.not_yet(time);
+  rests = settle.at_rest(time, f_Mf, moving, elements.stored_energy(x), most);
+}
+
+std::string Simulation::Impl::why_unsettled() const {
+  std::ostringstream text;
+  text << "a settle stage reached its limit ";
+  if (settle.restless() > settle.quiet()) {
+    text << "before the bodies rested: at its end their kinetic energy, and what the forces out of balance could still set free, were " << settle.restless()
+         << " J, and should stay below stages[].kinetic_fraction of the elastic energy, " << settle.quiet() << " J; ";
+    NodeField loads(x.size(), Node::Zero());
+    pressures.add(time, x, loads);
+    dead_loads.add(time, loads);
+    const bool loaded = std::any_of(loads.begin(), loads.end(), [](const Node& f) { return !f.isZero(0); });
+    text << (loaded ? "pressures or loads still act on them: let these end before (last entry 0) if nothing holds the bodies against them" : "a longer limit lets them come to rest");
+  } else if (!fading.empty()) {
+    text << "before the bodies rested; what held them was still fading, until " << fading.end() << " s: a longer limit or a shorter stages[].release_time lets them come to rest";
+  } else if (stages.stage().ends != "limit" && still_driven()) {
+    text << "while a motion, a pressure or a load still changed: a longer limit lets the bodies come to rest after it, and with `ends: limit` the stage does not wait for it";
+  } else {
+    text << "before it could be told that the bodies rest: they have to be quiet for " << settle.shortest() << " s, since they are so at every turning point of a swing; give a longer limit";
+  }
+  return text.str();
+}
+
+}  // namespace forming_sim
