@@ -119,7 +119,7 @@ ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x
       pair.impulse = kick * law.force(pair.gap, pair.stiffness);
       if (pair.impulse > 0) push(pair, pair.impulse * pair.normal, work, work.v);
     }
-    if (shear_limit.any()) shear_limit.set(features, x, work, near.pairs, near.rubs);
+    if (shear_limit.any()) shear_limit.set(features, x, kick, work, near.pairs, near.rubs);
     for (const ContactPair& pair : near.pairs)
       if (pair.rub >= 0) end_slip(pair, near.rubs[pair.rub], work);
     double most = 0;

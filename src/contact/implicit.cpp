@@ -242,7 +242,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
         layers.hand_over(near.born, near.pairs);
         if (waves.any()) delay.recall(work, near.pairs, near.rubs);
         if (!all) join_alike(work, near.pairs, near.rubs);
-        if (shear_limit.any()) shear_limit.set(features, x, work, near.pairs, near.rubs);
+        if (shear_limit.any()) shear_limit.set(features, x, work.kick, work, near.pairs, near.rubs);
         laps.done(&ContactTimes::narrow);
         swept = SweepResult();
         for (DrivenTool& tool : driven) gather_driven(tool);

@@ -18,7 +18,7 @@ ShearLimit::ShearLimit(const Features& f, bool axisymmetric) : axisymmetric_(axi
     }
 }
 
-void ShearLimit::set(const Features& f, const NodeField& x, const Workspace& work, const LargeArray<ContactPair>& pairs, std::vector<Rub>& rubs) {
+void ShearLimit::set(const Features& f, const NodeField& x, double kick, const Workspace& work, const LargeArray<ContactPair>& pairs, std::vector<Rub>& rubs) {
   face_.resize(x.size());
   for (int i : facets_)
     for (int k = 0; k < f.corners(); ++k) face_[f.facets[i][k]] = Node::Zero();
@@ -31,17 +31,27 @@ void ShearLimit::set(const Features& f, const NodeField& x, const Workspace& wor
   sum_.assign(work.body_entries, 0.0);
   for (const ContactPair& pair : pairs)
     if (pair.rub >= 0 && pair.impulse > 0) work.each_of_bodies(pair, [&](int i, double b) { sum_[i] += std::abs(b) * pair.impulse; });
-  for (const ContactPair& pair : pairs) {
-    if (pair.rub < 0) continue;
-    const Features::Relation& relation = f.relation(pair.own, pair.surface);
-    if (!relation.limited()) continue;
-    double area = 0, weights = 0;
-    work.each_of_bodies(pair, [&](int i, double signed_b) {
-      const double b = std::abs(signed_b), share = sum_[i] > 0 ? pair.impulse / sum_[i] : 1;
-      weights += b;
-      area += b * share * std::abs(dot3(face_[work.vertex[i]], pair.normal));
+  // Of every pair what the surface with the lower number has, and the other; of every two surfaces the sums.
+  const std::size_t surfaces = f.surfaces.size();
+  areas_.assign(pairs.size(), {0, 0});
+  totals_.assign(surfaces * surfaces, {0, 0});
+  const auto total_of = [&](const ContactPair& pair) -> std::array<double, 2>& { return totals_[std::min(pair.own, pair.surface) * surfaces + std::max(pair.own, pair.surface)]; };
+  const auto limited = [&](const ContactPair& pair) { return pair.rub >= 0 && f.relation(pair.own, pair.surface).limited(); };
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const ContactPair& pair = pairs[k];
+    if (!limited(pair)) continue;
+    work.each_of_bodies(pair, [&](int i, double b) {
+      const double share = sum_[i] > 0 ? pair.impulse / sum_[i] : 1;
+      areas_[k][(b < 0) != (pair.own > pair.surface)] += std::abs(b) * share * std::abs(dot3(face_[work.vertex[i]], pair.normal));
     });
-    rubs[pair.rub].most = weights > 0 ? relation.friction_limit * work.kick * area / weights : 0;
+    for (int side : {0, 1}) total_of(pair)[side] += areas_[k][side];
+  }
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const ContactPair& pair = pairs[k];
+    if (!limited(pair)) continue;
+    const bool tool = std::max(pair.own, pair.surface) >= f.bodies;
+    const int side = !tool && total_of(pair)[1] < total_of(pair)[0];
+    rubs[pair.rub].most = f.relation(pair.own, pair.surface).friction_limit * kick * areas_[k][side];
   }
 }
 

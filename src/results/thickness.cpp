@@ -8,6 +8,7 @@
 
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/grid.h"
+#include "forming_sim/contact/tools.h"
 
 namespace forming_sim {
 namespace {
@@ -33,7 +34,8 @@ struct NearestNode {
   }
 };
 
-constexpr double kMostShear = 5;  ///< of the top against the bottom
+constexpr double kNear = 5;          ///< thicknesses: so far from below a node at the start every facet counts
+constexpr double kStraight = 0.999;  ///< cosine to the normal of a facet farther off, from inside: a sheet that is sheared by more
 
 using NodeTree = Eigen::KdBVH<double, 3, PlacedNode>;
 int nearest_node(const NodeTree& tree, const Vec3& point) {
@@ -80,10 +82,12 @@ Thickness::Thickness(const Model& model) {
   if (!any()) return;
   start_ = at(start);
   for (Sheet& sheet : sheets_) {
-    double largest = 0;
-    for (const auto& c : sheet.bottom)
-      for (int k = 0; k < 3; ++k) largest = std::max(largest, (start[c[k]] - start[c[(k + 1) % 3]]).norm());
-    for (std::size_t i = 0; i < sheet.top.size(); ++i) sheet.reach[i] = kMostShear * start_[sheet.top[i]] + 2 * largest;
+    for (std::size_t i = 0; i < sheet.top.size(); ++i) {
+      const auto& c = sheet.bottom[sheet.below[i]];
+      double longest = 0;
+      for (int k = 0; k < 3; ++k) longest = std::max(longest, (start[c[k]] - start[c[(k + 1) % 3]]).norm());
+      sheet.reach[i] = kNear * start_[sheet.top[i]] + 2 * longest;
+    }
   }
 }
 
@@ -108,18 +112,23 @@ std::vector<double> Thickness::at(const NodeField& positions) const {
       size += (boxes.back().high - boxes.back().low).norm() / sheet.bottom.size();
     }
     const Grid grid(std::move(boxes), all, std::max(size, std::numeric_limits<double>::min()));
-    const auto distance = [&](const Node& p, int facet) {
+    const auto closest = [&](const Node& p, int facet) {
       const auto& c = sheet.bottom[facet];
-      return std::sqrt(closest_on_facet(sheet.corners, p, positions[c[0]], positions[c[1]], positions[c[2]]).squared);
+      return closest_on_facet(sheet.corners, p, positions[c[0]], positions[c[1]], positions[c[2]]);
     };
     std::vector<double> of_top;
     for (std::size_t i = 0; i < sheet.top.size(); ++i) {
       const Node& p = positions[sheet.top[i]];
       const auto through_metal = [&](int facet) {
         const double squared = (sheet.top_start[i] - sheet.bottom_start[facet]).squaredNorm();
-        return squared <= sheet.reach[i] * sheet.reach[i] ? distance(p, facet) : std::numeric_limits<double>::infinity();
+        const Closest q = closest(p, facet);
+        const double distance = std::sqrt(q.squared);
+        if (squared <= sheet.reach[i] * sheet.reach[i]) return distance;
+        const auto& c = sheet.bottom[facet];
+        const Node outward = facet_normal(sheet.corners, positions[c[0]], positions[c[1]], positions[c[2]]);
+        return -dot3(q.apart, outward) > kStraight * distance ? distance : std::numeric_limits<double>::infinity();
       };
-      of_top.push_back(grid.nearest(p, distance(p, sheet.below[i]), through_metal));
+      of_top.push_back(grid.nearest(p, std::sqrt(closest(p, sheet.below[i]).squared), through_metal));
     }
     for (std::size_t i = 0; i < sheet.above.size(); ++i) thickness[sheet.first_node + i] = of_top[sheet.above[i]];
   }

@@ -9,11 +9,7 @@
 
 namespace forming_sim {
 
-namespace {
-constexpr double kPresses = 1e-3;  ///< of the largest force that a tool has felt: what feels less has left
-}
-
-bool Simulation::Impl::settles(int tool) const { return stages.drive(tool) && tools[tool].present && tools[tool].force.norm() > kPresses * tools[tool].peak_force.norm(); }
+bool Simulation::Impl::settles(int tool) const { return stages.drive(tool) && tools[tool].present && tools[tool].pressed; }
 
 void Simulation::Impl::watch_settling() {
   const long phase = steps % Settle::kInterval;
@@ -69,7 +65,7 @@ void Simulation::Impl::see_rest() {
   double moving = kinetic();
   for (int k = 0; k < static_cast<int>(tools.size()); ++k) {
     const ForceDrive* drive = stages.drive(k);
-    if (!drive || !tools[k].present || (!settles(k) && drive->force(time) == 0)) continue;  // what flies on by itself may
+    if (!settles(k)) continue;  // what has left the bodies may fly on
     const double unbalanced = drive->force(time) + tools[k].force.dot(drive->guide());
     f_Mf += unbalanced * unbalanced / (drive->mass() + std::accumulate(mass.begin(), mass.end(), 0.0));
     moving += 0.5 * drive->mass() * drive->velocity().squaredNorm();

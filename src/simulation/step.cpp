@@ -95,10 +95,12 @@ void Simulation::Impl::book(const ContactStep& done) {
     if (!tool.present) {
       tool.force = tool.moment = Vec3::Zero();
       tool.radial_force = 0;
+      tool.pressed = false;
       continue;
     }
     Reaction felt{done.tool_impulse[k], done.tool_angular_impulse[k]};
-    tool.touched = tool.touched || !felt.impulse.isZero(0);
+    tool.pressed = !felt.impulse.isZero(0);
+    tool.touched = tool.touched || tool.pressed;
     if (model.axisymmetric) felt = around_circle(felt);
     tool.felt += felt;
     if (ForceDrive* drive = stages.drive(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k], felt.impulse.dot(drive->guide()));

@@ -86,6 +86,16 @@ TEST(Thickness, OfACurledSheetIsThatThroughItsMetal) {
   for (double value : thickness.at(curled)) EXPECT_NEAR(value, t, 2e-3 * t);
 }
 
+TEST(Thickness, OfASheetThatIsShearedFarIsAcrossIt) {
+  const double t = 0.1;
+  const Mesh mesh = strip(100, t);
+  NodeField sheared;
+  for (const Vec3& x : mesh.nodes) sheared.push_back(Node(x.x() + 9 * x.y(), x.y(), 0, 0));
+  const std::vector<double> values = Thickness(model_of(mesh)).at(sheared);
+  for (std::size_t n = 0; n < values.size(); ++n)
+    if (mesh.nodes[n].x() < 0.4) EXPECT_NEAR(values[n], t, 1e-12) << n;  // beyond, the top hangs over
+}
+
 /// Against the distance of all nodes of the top, in a sheet of several layers of uneven columns.
 TEST(Thickness, BelowTheTopIsThatOfTheNearestNodeThere) {
   const int cells = 9, layers = 3;

@@ -91,6 +91,29 @@ TEST(Settle, ThatTheLimitCutsOffWhileALoadRisesSaysSo) {
   EXPECT_EQ(run.start()->run(never).code, Code::success);
 }
 
+// What has left the bodies neither is stopped nor has to come to rest, whatever acts on it.
+TEST(Settle, AHammerThatHasLeftFliesOn) {
+  for (const double weight : {0., -10.}) {
+    OneBody run(body_of(generate_blank(strip_of(10e-3, 1e-3, 20, 2)), aluminium()), 1e-4);
+    run.model.tools = {plane_at("table", 2, Vec3::Zero(), Vec3::UnitY()), plane_at("hammer", 2, 1.001e-3 * Vec3::UnitY(), -Vec3::UnitY())};
+    MotionConfig motion;
+    motion.kind = "force";
+    motion.times = {0};
+    motion.forces = {Vec3(0, weight, 0)};
+    motion.initial_velocity = Vec3(0, -1, 0);
+    motion.mass = 1;
+    run.model.tools[1].motion = motion;
+    run.plan.stages.push_back(settle_within(5e-3));
+    auto sim = run.start();
+    while (sim->stage() == 0) sim->step();
+    const double speed = sim->tools()[1].velocity.y(), began = sim->time();
+    EXPECT_GT(speed, .5);
+    const std::atomic<bool> never{false};
+    EXPECT_EQ(sim->run(never).code, Code::success) << weight;
+    EXPECT_NEAR(sim->tools()[1].velocity.y(), speed + weight * (sim->time() - began), 1e-6);
+  }
+}
+
 // The heavier the tool, the slower it swings on what it presses: the strip stands still at every turning point.
 TEST(Settle, AHeavyToolComesToRestWithWhatItPresses) {
   const double force = 1e6;

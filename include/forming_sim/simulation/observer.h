@@ -98,6 +98,7 @@ struct ToolStatus {
   Vec3 peak_force = Vec3::Zero();          ///< `force` of greatest magnitude so far
   double peak_radial_force = 0;
   bool touched = false;                    ///< contact has acted on it, in whatever direction
+  bool pressed = false;                    ///< in the last step too
   bool present = true;                     ///< false once withdrawn
   std::optional<double> stopped;           ///< when it stopped under the force that its motion was to stop under, s
 };
