@@ -49,6 +49,21 @@ TEST(RunScene, TellsToolsThatTouchedNothing) {
   EXPECT_EQ(told, 1);
 }
 
+/// The warnings of a scene's run that hold the words.
+std::vector<std::string> warnings_with(const std::string& words, const std::string& scene_text) {
+  const TemporaryDirectory directory;
+  std::vector<Fault> faults;
+  const Scene scene = read_scene(scene_text, ".", faults);
+  EXPECT_TRUE(faults.empty());
+  const Outcome outcome = run_scene(scene, directory.path(), 1, "", kNever);
+  EXPECT_EQ(outcome.code, Code::success) << outcome.message;
+  std::vector<std::string> found;
+  const json summary = read_json(directory.file("summary.json"));
+  for (const json& warning : summary["warnings"])
+    if (warning.get<std::string>().find(words) != std::string::npos) found.push_back(warning);
+  return found;
+}
+
 /// Warnings that hold the words, of a strip shut in between symmetries whose top goes down by this part of its height.
 long told_of_a_press(double part, const std::string& words) {
   const std::string text = R"(
@@ -66,13 +81,7 @@ bodies:
 stages:
   - {name: press, kind: form, duration: 2e-5}
 )";
-  const TemporaryDirectory directory;
-  std::vector<Fault> faults;
-  const Scene scene = read_scene(text, ".", faults);
-  EXPECT_TRUE(faults.empty());
-  run_scene(scene, directory.path(), 1, "", kNever);
-  const json summary = read_json(directory.file("summary.json"));
-  return std::count_if(summary["warnings"].begin(), summary["warnings"].end(), [&](const json& warning) { return warning.get<std::string>().find(words) != std::string::npos; });
+  return static_cast<long>(warnings_with(words, text).size());
 }
 
 TEST(RunScene, TellsMetalThatIsPressedAsItNeverIs) {
@@ -104,17 +113,7 @@ stages:
   - {name: second, kind: form, duration: 3e-4}
   - {name: open, kind: withdraw, duration: 1e-5}
 )";
-  const TemporaryDirectory directory;
-  std::vector<Fault> faults;
-  const Scene scene = read_scene(text, ".", faults);
-  EXPECT_TRUE(faults.empty());
-  const Outcome outcome = run_scene(scene, directory.path(), 1, "", kNever);
-  EXPECT_EQ(outcome.code, Code::success) << outcome.message;
-  std::vector<std::string> told;
-  const json summary = read_json(directory.file("summary.json"));
-  for (const json& warning : summary["warnings"])
-    if (warning.get<std::string>().find("count from the start of the run") != std::string::npos) told.push_back(warning);
-  return told;
+  return warnings_with("count from the start of the run", text);
 }
 
 TEST(RunScene, TellsWhatAnEarlyRestCutOff) {
