@@ -1,6 +1,7 @@
 #include "forming_sim/results/unfinished.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "forming_sim/config/words.h"
 #include "forming_sim/loads/course.h"
@@ -51,14 +52,12 @@ void tell_unfinished(const Simulation& simulation, const RunRecord& record, std:
     if (!tool.motion || simulation.tools()[k].stopped) continue;
     unfinished.tell("the motion of tool " + tool.name, *tool.motion, unfinished.leaving_stage(tool.name));
   }
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BodyLoads& loads = simulation.plan().bodies[b];
-    const std::string of = " of body " + model.bodies[b].name;
-    for (const BoundaryConfig& c : loads.boundaries)
-      unfinished.tell("the motion of set " + c.set + of, c, release_stage(c.until, simulation.plan().stages));
-    for (const PressureConfig& p : loads.pressures) unfinished.tell("the pressure on set " + p.set + of, p, unfinished.count());
-    for (const LoadConfig& l : loads.loads) unfinished.tell("the load on set " + l.set + of, l, unfinished.count());
-  }
+  const auto tell = [&](const std::string& what, const auto& config) {
+    int until = unfinished.count();
+    if constexpr (std::is_same_v<std::decay_t<decltype(config)>, BoundaryConfig>) until = release_stage(config.until, simulation.plan().stages);
+    unfinished.tell(what, config, until);
+  };
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) each_named_course(simulation.plan().bodies[b], model.bodies[b].name, tell);
 }
 
 }  // namespace forming_sim

@@ -83,11 +83,7 @@ void tell_late(const Scene& scene, double end, std::vector<std::string>& notes) 
     if (last <= end * (1 + 1e-9)) return;
     notes.push_back(what + " goes on to " + three_digits(last) + " s and the stages end at " + three_digits(end) + " s: what comes later does not happen");
   };
-  for (const BodyConfig& body : scene.bodies) {
-    for (const BoundaryConfig& b : body.boundaries) tell("the motion of set " + b.set + " of body " + body.name, b);
-    for (const PressureConfig& p : body.pressures) tell("the pressure on set " + p.set + " of body " + body.name, p);
-    for (const LoadConfig& l : body.loads) tell("the load on set " + l.set + " of body " + body.name, l);
-  }
+  for (const BodyConfig& body : scene.bodies) each_named_course(body, body.name, tell);
   for (const ToolConfig& tool : scene.tools)
     if (tool.motion) tell("the motion of tool " + tool.name, *tool.motion);
 }

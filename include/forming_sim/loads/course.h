@@ -1,6 +1,7 @@
 #pragma once
 // When what is given over times changes: motions of tools and boundaries, pressures, loads.
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include "forming_sim/loads/config.h"
@@ -46,6 +47,14 @@ template <class Config> bool changes(const Config& config, double from, double t
     }
   });
   return found;
+}
+
+/// Calls visit(what, config) for each boundary, pressure and load of a body; what: as sentences call it. Body: whoever has these lists.
+template <class Body, class Visit> void each_named_course(const Body& body, const std::string& name, Visit&& visit) {
+  const std::string of = " of body " + name;
+  for (const BoundaryConfig& b : body.boundaries) visit("the motion of set " + b.set + of, b);
+  for (const PressureConfig& p : body.pressures) visit("the pressure on set " + p.set + of, p);
+  for (const LoadConfig& l : body.loads) visit("the load on set " + l.set + of, l);
 }
 
 }  // namespace forming_sim
