@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forming_sim/contact/impulse.h"
+
 namespace forming_sim {
 
 void FrictionDelay::recall(const Workspace& work, const LargeArray<ContactPair>& pairs, std::vector<Rub>& rubs) {
   if (delayed_.empty()) return;
-  sum_.assign(work.body_entries, 0.0);
-  for (const ContactPair& pair : pairs)
-    if (pair.rub >= 0 && pair.impulse > 0) work.each_of_bodies(pair, [&](int i, double b) { sum_[i] += std::abs(b) * pair.impulse; });
+  sum_impulses(work, pairs, sum_);
   for (const ContactPair& pair : pairs) {
     if (pair.rub < 0 || rubs[pair.rub].lasting == 0) continue;
     double share = 0, weights = 0;  // of the pair's impulse, 1/s

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "forming_sim/contact/closest.h"
+#include "forming_sim/contact/impulse.h"
 #include "forming_sim/mesh/faces.h"
 
 namespace forming_sim {
@@ -28,9 +29,7 @@ void ShearLimit::set(const Features& f, const NodeField& x, double kick, const W
     std::copy_n(f.facets[i].begin(), face.corners, face.nodes.begin());
     for (int k = 0; k < face.corners; ++k) face_[face.nodes[k]] += node(f.facet_outward[i] * area_share(face, k, x, axisymmetric_));
   }
-  sum_.assign(work.body_entries, 0.0);
-  for (const ContactPair& pair : pairs)
-    if (pair.rub >= 0 && pair.impulse > 0) work.each_of_bodies(pair, [&](int i, double b) { sum_[i] += std::abs(b) * pair.impulse; });
+  sum_impulses(work, pairs, sum_);
   // Of every pair what the surface with the lower number has, and the other; of every two surfaces the sums.
   const std::size_t surfaces = f.surfaces.size();
   areas_.assign(pairs.size(), {0, 0});

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "forming_sim/scene/stage_times.h"
+#include "forming_sim/simulation/stage_times.h"
 
 namespace forming_sim {
 namespace {

@@ -2,9 +2,9 @@
 
 #include "forming_sim/config/words.h"
 #include "forming_sim/results/probe.h"
-#include "forming_sim/scene/stage_times.h"
 #include "forming_sim/scene/build.h"
 #include "forming_sim/scene/validate.h"
+#include "forming_sim/simulation/stage_times.h"
 
 namespace forming_sim {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "forming_sim/config/words.h"
 #include "forming_sim/loads/course.h"
-#include "forming_sim/scene/stage_times.h"
 #include "forming_sim/simulation/release.h"
+#include "forming_sim/simulation/stage_times.h"
 
 namespace forming_sim {
 namespace {

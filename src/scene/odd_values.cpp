@@ -5,7 +5,7 @@
 
 #include "forming_sim/config/words.h"
 #include "forming_sim/loads/course.h"
-#include "forming_sim/scene/stage_times.h"
+#include "forming_sim/simulation/stage_times.h"
 #include "geometry.h"
 
 namespace forming_sim {

@@ -1,6 +1,6 @@
 #include <set>
 
-#include "forming_sim/scene/stage_times.h"
+#include "forming_sim/simulation/stage_times.h"
 #include "rules.h"
 
 namespace forming_sim {

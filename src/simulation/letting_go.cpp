@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "forming_sim/mesh/measure.h"
-#include "forming_sim/scene/stage_times.h"
+#include "forming_sim/simulation/stage_times.h"
 #include "simulation/impl.h"
 
 namespace forming_sim {

@@ -40,6 +40,7 @@ void Simulation::Impl::slow_tools() {
 }
 
 bool Simulation::Impl::still_driven() const {
+  if (stages.stage().ends == "limit") return false;
   const bool last = stages.index() + 1 == static_cast<int>(plan.stages.size());
   const double until = last ? time + stages.remaining(time) : time;
   const auto any = [&](const auto& configs) { return std::any_of(configs.begin(), configs.end(), [&](const auto& config) { return changes(config, time, until); }); };
@@ -62,15 +63,16 @@ void Simulation::Impl::see_rest() {
   double f_Mf = 0;
   for (std::size_t i = 0; i < v.size(); ++i)
     f_Mf += mass[i] * ((v[i] - v_before[i]) / kick + 0.5 * alpha * (v[i] + v_before[i])).squaredNorm();
+  const double all = std::accumulate(mass.begin(), mass.end(), 0.0);
   double moving = kinetic();
   for (int k = 0; k < static_cast<int>(tools.size()); ++k) {
     const ForceDrive* drive = stages.drive(k);
     if (!settles(k)) continue;  // what has left the bodies may fly on
     const double unbalanced = drive->force(time) + tools[k].force.dot(drive->guide());
-    f_Mf += unbalanced * unbalanced / (drive->mass() + std::accumulate(mass.begin(), mass.end(), 0.0));
+    f_Mf += unbalanced * unbalanced / (drive->mass() + all);
     moving += 0.5 * drive->mass() * drive->velocity().squaredNorm();
   }
-  if (!fading.empty() || (stages.stage().ends != "limit" && still_driven())) settle.not_yet(time);
+  if (!fading.empty() || still_driven()) settle.not_yet(time);
   rests = settle.at_rest(time, f_Mf, moving, elements.stored_energy(x), most);
 }
 
@@ -87,7 +89,7 @@ std::string Simulation::Impl::why_unsettled() const {
     text << (loaded ? "pressures or loads still act on them: let these end before (last entry 0) if nothing holds the bodies against them" : "a longer limit lets them come to rest");
   } else if (!fading.empty()) {
     text << "before the bodies rested; what held them was still fading, until " << fading.end() << " s: a longer limit or a shorter stages[].release_time lets them come to rest";
-  } else if (stages.stage().ends != "limit" && still_driven()) {
+  } else if (still_driven()) {
     text << "while a motion, a pressure or a load still changed: a longer limit lets the bodies come to rest after it, and with `ends: limit` the stage does not wait for it";
   } else {
     text << "before it could be told that the bodies rest: they have to be quiet for " << settle.shortest() << " s, since they are so at every turning point of a swing; give a longer limit";

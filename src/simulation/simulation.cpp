@@ -54,8 +54,7 @@ void Simulation::Impl::tell_unstopped() {
 }
 
 bool Simulation::Impl::stage_over() {
-  if (!stages.settling() && stages.stopped(stages.stage().until_stopped)) return true;
-  if (!stages.settling()) return stages.remaining(time) <= 1e-12 * (time + stages.stage().duration);
+  if (!stages.settling()) return stages.stopped(stages.stage().until_stopped) || stages.remaining(time) <= 1e-12 * (time + stages.stage().duration);
   const bool to_limit = stages.stage().ends == "limit";
   if (rests && !to_limit) return true;
   if (stages.remaining(time) > (to_limit ? 1e-12 * time : 0)) return false;

@@ -4,12 +4,9 @@
 #include <cmath>
 
 #include "forming_sim/simulation/release.h"
+#include "forming_sim/simulation/stage_times.h"
 
 namespace forming_sim {
-
-namespace {
-double longest(const StageConfig& stage) { return stage.kind == "settle" ? stage.limit : stage.duration; }
-}  // namespace
 
 StageRunner::StageRunner(const std::vector<StageConfig>& stages, const Model& model) : stages_(stages), model_(&model) {
   for (const ToolModel& tool : model.tools) {
@@ -52,13 +49,13 @@ void StageRunner::advance(double t) {
 }
 
 double StageRunner::remaining(double t) const {
-  return finished() ? 0 : std::max(0.0, starts_.back() + longest(stages_[index_]) - t);
+  return finished() ? 0 : std::max(0.0, starts_.back() + longest_time(stages_[index_]) - t);
 }
 
 double StageRunner::progress(double t) const {
   double done = 0, total = 0;
   for (std::size_t k = 0; k < stages_.size(); ++k) {
-    const double length = longest(stages_[k]);
+    const double length = longest_time(stages_[k]);
     total += length;
     if (static_cast<int>(k) < index_) done += length;
     else if (static_cast<int>(k) == index_) done += std::min(length, t - starts_.back());

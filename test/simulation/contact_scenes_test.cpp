@@ -125,11 +125,7 @@ TEST(ContactScenes, ATipIntoACoarseBlock) {
     wedge.name = "wedge";
     wedge.mesh.dimension = 2;
     wedge.mesh.nodes = {Vec3(-.02, -1, 0), Vec3(0, 0, 0), Vec3(.02, -1, 0)};
-    for (int k = 0; k < 2; ++k) {
-      Facet f;
-      f.nodes = {k, k + 1, -1};
-      wedge.mesh.surface.push_back(f);
-    }
+    join_nodes(wedge.mesh);
     wedge.position = Vec3(.11, -1e-3, 0);
     MotionConfig motion;
     motion.kind = "velocity";
@@ -159,11 +155,7 @@ TEST(ContactScenes, AWedgeThatGoesThroughABlockEndsTheRun) {
   wedge.name = "wedge";
   wedge.mesh.dimension = ground.mesh.dimension = 2;
   wedge.mesh.nodes = {Vec3(-.2, 1, 0), Vec3(0, .5, 0), Vec3(.2, 1, 0)};
-  for (int k = 0; k < 2; ++k) {
-    Facet f;
-    f.nodes = {k, k + 1, -1};
-    wedge.mesh.surface.push_back(f);
-  }
+  join_nodes(wedge.mesh);
   MotionConfig motion;
   motion.kind = "velocity";
   motion.times = {0};
@@ -225,11 +217,7 @@ TEST(ContactScenes, ASharpGrooveGivesNothing) {
       groove.name = "groove";
       groove.mesh.dimension = 2;
       groove.mesh.nodes = {Vec3(-2 * half, depth, 0), Vec3(0, -depth, 0), Vec3(2 * half, depth, 0)};
-      for (int k = 0; k < 2; ++k) {
-        Facet f;
-        f.nodes = {k, k + 1, -1};
-        groove.mesh.surface.push_back(f);
-      }
+      join_nodes(groove.mesh);
       run.model.tools.push_back(groove);
       auto sim = run.start();
       double least = 0, most = 0;

@@ -8,15 +8,6 @@
 namespace forming_sim {
 namespace {
 
-void drive(ToolModel& tool, std::vector<double> times, std::vector<Vec3> forces, double mass = 0) {
-  MotionConfig motion;
-  motion.kind = "force";
-  motion.times = std::move(times);
-  motion.forces = std::move(forces);
-  motion.mass = mass;
-  tool.motion = motion;
-}
-
 constexpr double kLength = 10e-3, kThickness = 1e-3;
 /// A strip between a table at y = 0 and a holder `gap` above it, which a force presses down.
 OneBody held_strip(int along, int through, double gap, double duration) {
@@ -61,12 +52,8 @@ OneBody stopping_ram(double force, double way) {
   holder_of(run).motion->stop_force = force;
   run.plan.time_step.damping = 2e4;
   run.plan.stages[0].until_stopped = "holder";
-  StageConfig away;
-  away.name = away.kind = "withdraw";
-  away.duration = 1e-4;
-  away.tools = {"holder"};
-  away.displacement = Vec3(0, 1e-3, 0);
-  run.plan.stages.push_back(away);
+  run.plan.stages.push_back(withdraw(1e-3, 1e-4));
+  run.plan.stages.back().tools = {"holder"};
   return run;
 }
 
@@ -118,10 +105,7 @@ TEST(DrivenTool, WhatDidNotStopIsTold) {
 TEST(DrivenTool, ThatIsGoneMovesNoMore) {
   OneBody run = held_strip(4, 1, 1e-3, 1e-4);
   lead(holder_of(run), 4e-4, Vec3(0, -5e-4, 0));
-  StageConfig away;
-  away.name = away.kind = "withdraw";
-  away.duration = 1e-4;
-  run.plan.stages.push_back(away);
+  run.plan.stages.push_back(withdraw(0, 1e-4));
   run.plan.stages.push_back(form_for(1e-4));
   auto sim = run.start();
   while (sim->stage() == 0) sim->step();
@@ -139,11 +123,7 @@ TEST(DrivenTool, ALightOneIsNotSoughtFarAway) {
     ToolModel& holder = holder_of(run);
     holder.normal = holder.point = Vec3::Zero();
     for (int k = 0; k <= 60; ++k) holder.mesh.nodes.push_back(Vec3((1.2 * k / 60 - 0.1) * kLength, kThickness, 0));
-    for (int k = 0; k < 60; ++k) {
-      Facet f;
-      f.nodes = {k, k + 1, -1};
-      holder.mesh.surface.push_back(f);
-    }
+    join_nodes(holder.mesh);
     drive(holder, {0, 1e-5}, {Vec3::Zero(), Vec3(0, -1e6, 0)}, light ? 3e-5 : 1.);
     auto sim = run.start();
     while (sim->step()) listed[light] = std::max(listed[light], sim->contact_status().listed_pairs);
@@ -306,16 +286,9 @@ TEST(DrivenTool, ThreadsAndResumesGiveTheSameBits) {
   holder.normal = holder.point = Vec3::Zero();
   holder.friction = 0.1;
   for (const double x : {-0.1, 0.45, 1.1}) holder.mesh.nodes.push_back(Vec3(x * kLength, kThickness + 2e-5 + 1e-6 * x, 0));
-  for (int k = 0; k < 2; ++k) {
-    Facet f;
-    f.nodes = {k, k + 1, -1};
-    holder.mesh.surface.push_back(f);
-  }
+  join_nodes(holder.mesh);
   drive(holder_of(run), {0, 5e-5}, {Vec3::Zero(), Vec3(0, -2e5, 0)});
-  StageConfig withdraw = form_for(5e-5);
-  withdraw.name = withdraw.kind = "withdraw";
-  withdraw.displacement = Vec3(0, 1e-3, 0);
-  run.plan.stages.push_back(withdraw);
+  run.plan.stages.push_back(withdraw(1e-3, 5e-5));
   run.plan.stages.push_back(form_for(2e-5));
   auto one = run.start(1), two = run.start(2);
   std::vector<std::vector<char>> saved;

@@ -140,10 +140,7 @@ OneBody let_go() {
   OneBody run(body_of(generate_blank(strip_of(0.02, 0.004, 10, 2)), aluminium(true)), 2e-4);
   pull_right(run, {0, 1e-4, 2e-4}, {Vec3(0, 0, 0), Vec3(0.2, 0, 0), Vec3(0, 0, 0)});
   run.plan.bodies[0].boundaries.back().until = "settle";
-  StageConfig settle;
-  settle.kind = "settle";
-  settle.limit = 5e-3;
-  run.plan.stages.push_back(settle);
+  run.plan.stages.push_back(settle(5e-3));
   return run;
 }
 

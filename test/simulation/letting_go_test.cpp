@@ -39,14 +39,6 @@ OneBody pressed_strip() {
   return run;
 }
 
-StageConfig withdraw(double height, double duration) {
-  StageConfig stage;
-  stage.name = stage.kind = "withdraw";
-  stage.displacement = Vec3(0, height, 0);
-  stage.duration = duration;
-  return stage;
-}
-
 struct Released {
   double tip, late_flow;  ///< m; plastic work since the plane began to leave, over the elastic energy then
 };

@@ -8,17 +8,10 @@
 namespace forming_sim {
 namespace {
 
-StageConfig settle_within(double limit) {
-  StageConfig stage;
-  stage.name = stage.kind = "settle";
-  stage.limit = limit;
-  return stage;
-}
-
 /// A cantilever of 10 x 1 mm whose end a force pulls down between two times, in one settle stage.
 OneBody loaded(double from, double to, double limit) {
   OneBody run(body_of(generate_blank(strip_of(10e-3, 1e-3, 10, 2)), aluminium()), 1);
-  run.plan.stages = {settle_within(limit)};
+  run.plan.stages = {settle(limit)};
   clamp_left(run);
   LoadConfig load;
   load.set = "right";
@@ -96,14 +89,9 @@ TEST(Settle, AHammerThatHasLeftFliesOn) {
   for (const double weight : {0., -10.}) {
     OneBody run(body_of(generate_blank(strip_of(10e-3, 1e-3, 20, 2)), aluminium()), 1e-4);
     run.model.tools = {plane_at("table", 2, Vec3::Zero(), Vec3::UnitY()), plane_at("hammer", 2, 1.001e-3 * Vec3::UnitY(), -Vec3::UnitY())};
-    MotionConfig motion;
-    motion.kind = "force";
-    motion.times = {0};
-    motion.forces = {Vec3(0, weight, 0)};
-    motion.initial_velocity = Vec3(0, -1, 0);
-    motion.mass = 1;
-    run.model.tools[1].motion = motion;
-    run.plan.stages.push_back(settle_within(5e-3));
+    drive(run.model.tools[1], {0}, {Vec3(0, weight, 0)}, 1);
+    run.model.tools[1].motion->initial_velocity = Vec3(0, -1, 0);
+    run.plan.stages.push_back(settle(5e-3));
     auto sim = run.start();
     while (sim->stage() == 0) sim->step();
     const double speed = sim->tools()[1].velocity.y(), began = sim->time();
@@ -120,13 +108,8 @@ TEST(Settle, AHeavyToolComesToRestWithWhatItPresses) {
   for (const double mass : {.027, 1., 100.}) {  // of the strip: .027 kg/m
     OneBody run(body_of(generate_blank(strip_of(10e-3, 1e-3, 20, 2)), aluminium()), 2e-4);
     run.model.tools = {plane_at("table", 2, Vec3::Zero(), Vec3::UnitY()), plane_at("holder", 2, 1e-3 * Vec3::UnitY(), -Vec3::UnitY())};
-    MotionConfig motion;
-    motion.kind = "force";
-    motion.times = {0, 1e-4};
-    motion.forces = {Vec3::Zero(), Vec3(0, -force, 0)};
-    motion.mass = mass;
-    run.model.tools[1].motion = motion;
-    run.plan.stages.push_back(settle_within(.05));
+    drive(run.model.tools[1], {0, 1e-4}, {Vec3::Zero(), Vec3(0, -force, 0)}, mass);
+    run.plan.stages.push_back(settle(.05));
     auto sim = run.start();
     while (sim->step()) {}
     std::printf("  mass %g kg/m: force %.7g N/m at %.3g s\n", mass, sim->tools()[1].force.y(), sim->time());

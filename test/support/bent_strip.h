@@ -11,13 +11,6 @@ constexpr double kBentThickness = 0.93e-3;  // m
 /// k_after/k of k t = .02 (VERIFICATION 7): perfectly plastic, and with the hardening of aluminium().
 constexpr double kKeptPerfect = 0.59401, kKeptVoce = 0.57531;
 
-inline StageConfig settle(double limit) {
-  StageConfig stage;
-  stage.name = stage.kind = "settle";
-  stage.limit = limit;
-  return stage;
-}
-
 /// Turned from the upright, rad: the section at the right end of a strip.
 inline double turned(const Simulation& sim) {
   const auto& X = sim.initial_positions();

@@ -14,6 +14,21 @@ inline StageConfig form_for(double duration) {
   return stage;
 }
 
+inline StageConfig settle(double limit) {
+  StageConfig stage;
+  stage.name = stage.kind = "settle";
+  stage.limit = limit;
+  return stage;
+}
+/// Upwards; by no height: at once.
+inline StageConfig withdraw(double height, double duration) {
+  StageConfig stage;
+  stage.name = stage.kind = "withdraw";
+  stage.displacement = Vec3(0, height, 0);
+  stage.duration = duration;
+  return stage;
+}
+
 /// One body, no loads, one form stage.
 struct OneBody {
   Model model;
@@ -74,11 +89,8 @@ inline void pull_right(OneBody& run, const std::vector<double>& times, const std
 inline void hang_from_left(OneBody& run) {
   clamp_left(run);
   run.plan.gravity = Vec3(0, -1e4, 0);
-  StageConfig settle;
-  settle.name = settle.kind = "settle";
-  settle.limit = 20e-3;
-  settle.kinetic_fraction = 1e-6;
-  run.plan.stages.push_back(settle);
+  run.plan.stages.push_back(settle(20e-3));
+  run.plan.stages.back().kinetic_fraction = 1e-6;
 }
 
 /// Puts a body that flies with `velocity` behind those of the model.
@@ -108,6 +120,23 @@ inline void lead(ToolModel& tool, double time, const Vec3& way) {
   motion.times = {0, time};
   motion.positions = {Vec3::Zero(), way};
   tool.motion = motion;
+}
+/// A force drives it. mass, kg (kg/m in plane strain); 0: that of the bodies.
+inline void drive(ToolModel& tool, std::vector<double> times, std::vector<Vec3> forces, double mass = 0) {
+  MotionConfig motion;
+  motion.kind = "force";
+  motion.times = std::move(times);
+  motion.forces = std::move(forces);
+  motion.mass = mass;
+  tool.motion = motion;
+}
+/// Its surface in a section: segments from each node to the next.
+inline void join_nodes(Mesh& mesh) {
+  for (int k = 0; k + 1 < static_cast<int>(mesh.nodes.size()); ++k) {
+    Facet f;
+    f.nodes = {k, k + 1, -1};
+    mesh.surface.push_back(f);
+  }
 }
 /// Puts a body of this height, which stands on 0 along its last axis, between a bed and a ram that comes down by `way`.
 inline void press(OneBody& run, double height, double time, double way) {

@@ -20,11 +20,7 @@ Mesh die() {
     mesh.nodes.push_back(Vec3(x + edge * std::cos(angle), y + edge * std::sin(angle), 0));
   }
   mesh.nodes.insert(mesh.nodes.end(), {Vec3(half, -3.5e-3, 0), Vec3(half + .2e-3, -4e-3, 0), Vec3(half + .2e-3, -30e-3, 0)});
-  for (int k = 0; k + 1 < static_cast<int>(mesh.nodes.size()); ++k) {
-    Facet f;
-    f.nodes = {k, k + 1, -1};
-    mesh.surface.push_back(f);
-  }
+  join_nodes(mesh);
   return mesh;
 }
 

@@ -51,11 +51,7 @@ Found draw() {
   die.mesh.dimension = 2;
   const double gap = 2e-6, back = 8e-3;
   die.mesh.nodes = {Vec3(-back, kBefore + gap + back * std::tan(kSlope), 0), Vec3(reach, kBehind + gap, 0), Vec3(reach + 3e-3, kBehind + gap, 0), Vec3(reach + 4e-3, kBehind + 2e-3, 0)};
-  for (int k = 0; k < 3; ++k) {
-    Facet f;
-    f.nodes = {k, k + 1, -1};
-    die.mesh.surface.push_back(f);
-  }
+  join_nodes(die.mesh);
   run.model.tools.push_back(die);
   const auto sim = run.start();
   std::vector<Vec3> impulse;

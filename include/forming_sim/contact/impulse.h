@@ -1,6 +1,8 @@
 #pragma once
 // Relative motion at a pair, and what an impulse on it does to its nodes.
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "forming_sim/contact/pair.h"
 
@@ -26,6 +28,13 @@ inline void push(const Link& pair, const Node& impulse, const Workspace& work, N
     else
       field[n] += factor * impulse;
   }
+}
+
+/// Of every node of bodies the normal impulses of its pairs that rub, by their weights, N s.
+inline void sum_impulses(const Workspace& work, const LargeArray<ContactPair>& pairs, std::vector<double>& sum) {
+  sum.assign(work.body_entries, 0.0);
+  for (const ContactPair& pair : pairs)
+    if (pair.rub >= 0 && pair.impulse > 0) work.each_of_bodies(pair, [&](int i, double b) { sum[i] += std::abs(b) * pair.impulse; });
 }
 
 /// The impulse by which friction comes nearest to ending the slip of the pair

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forming_sim/scene/stage_times.h"
+#include "forming_sim/scene/scene.h"
+#include "forming_sim/simulation/stage_times.h"
 
 namespace forming_sim {
 
@@ -37,7 +38,7 @@ class Schedule {
 /// no more than the other stages, so that these get their share of frames, but a run to all limits has at most 20 times `frames`.
 inline double time_of_frames(const std::vector<StageConfig>& stages) {
   double settling = 0, others = 0;
-  for (const StageConfig& stage : stages) (stage.kind == "settle" ? settling += stage.limit : others += stage.duration);
+  for (const StageConfig& stage : stages) (stage.kind == "settle" ? settling : others) += longest_time(stage);
   return others > 0 ? std::max(others + std::min(settling, others), (others + settling) / 20) : settling;
 }
 
