@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/parallel/denormals.h"
 
 namespace forming_sim {
 namespace {
@@ -79,6 +80,7 @@ struct Team::Impl {
       for (int part = kParts - 1; part >= 0; --part) try_part(number, (me + k) % size(), part);
   }
   void serve(int me) {
+    const DenormalsAreZero quick;
     long seen = 0;
     for (;;) {
       const auto called = [&] { return loop.load() != seen; };
@@ -133,6 +135,7 @@ int Team::size() const { return impl_->size(); }
 void Team::run(long count, long least, Call call, void* work) {
   if (count <= 0) return;
   const long pieces = std::clamp(count / std::max(1L, least), 1L, static_cast<long>(size()));
+  const DenormalsAreZero quick;
   if (pieces == 1) return call(work, 0, count);
   Impl& m = *impl_;
   m.call = call;

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "forming_sim/loads/gravity.h"
+#include "forming_sim/parallel/denormals.h"
 #include "simulation/impl.h"
 
 namespace forming_sim {
@@ -36,6 +37,7 @@ void Simulation::Impl::find_loads() {
 }
 
 void Simulation::Impl::take_step() {
+  const DenormalsAreZero quick;
   choose_dt();
   --control.until_next;
   if (control.longer) ++longer_steps;

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <limits>
 #include <thread>
 #include <vector>
 
@@ -47,6 +48,19 @@ TEST(Team, WhatOneDoesNotGetToTheOtherDoes) {
     });
     EXPECT_EQ(of_caller + of_other, 8);
     EXPECT_GE(of_caller, 7);
+  }
+}
+
+/// Of no thread's work, and of nobody's but that: what calls keeps its own way to reckon.
+TEST(Team, DenormalsAreZeroInItsLoops) {
+  volatile double least = std::numeric_limits<double>::min(), half = 0.5;
+  const auto denormal = [&] { return least * half != 0; };
+  Team team(3);
+  for (const long count : {1, 3000}) {
+    std::atomic<int> kept{0};
+    team.share(count, 1, [&](long, long) { kept += denormal(); });
+    EXPECT_EQ(kept, 0);
+    EXPECT_TRUE(denormal());
   }
 }
 

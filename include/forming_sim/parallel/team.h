@@ -30,6 +30,7 @@ class Team {
   /// Calls work(first, last) over [0, count), in as many parts as give each of
   /// them at least `least`, at most four a thread. The parts depend on nothing but
   /// count, least and size(); which thread takes which is open. Work must not throw.
+  /// In all of them denormal numbers are zero.
   /// One loop at a time.
   template <class Work> void share(long count, long least, Work&& work) {
     run(count, least, [](void* w, long first, long last) { (*static_cast<std::remove_reference_t<Work>*>(w))(first, last); }, &work);
