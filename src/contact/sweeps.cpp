@@ -308,8 +308,8 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
   double change = 0, before = 0;
   int begun = 0;  // after so many sweeps
   std::mutex one;
+  const Clock::time_point begin = Clock::now();
   for (;;) {
-    const Clock::time_point begin = Clock::now();
     if (result.sweeps >= kPlainSweeps && result.sweeps < most - most / 10) {
       if (result.sweeps == kPlainSweeps || change > kWorse * before) {
         begin_mixing(pairs, ties, driven);
@@ -332,7 +332,6 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
       const double way = push_driven(dt, false, work, ties, tool);
       if (!(way <= change)) change = way;
     }
-    result.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
     ++result.sweeps;
     result.settled = change < tolerance;
     if (!result.settled && result.sweeps < most) continue;
@@ -344,6 +343,7 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
     result.open = open;
     if (result.open || result.sweeps >= most) break;
   }
+  result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   for (Node& v : work.v) v[3] = 0;
   return result;
 }
