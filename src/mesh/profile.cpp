@@ -4,14 +4,13 @@
 #include <sstream>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/mesh/arc.h"
 #include "forming_sim/mesh/measure.h"
 
 namespace forming_sim {
 namespace {
 
-constexpr double kChordError = 1e-3;     // of the radius
-constexpr double kLargestChordError = .25;  // of the radius: an arc never loses its shape
-constexpr double kSamePoint = 1e-9;      // of the profile's size
+constexpr double kSamePoint = 1e-9;  // of the profile's size
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
   throw Error(Code::mesh_error, "profile" + where + ": " + what);
@@ -39,11 +38,7 @@ void append_arc(std::vector<Vec3>& nodes, const Vec3& to, double radius, double 
   const double turn = radius > 0 ? 1 : -1;
   const Vec3 centre = (from + to) / 2 + turn * height * left;
   const double angle = 2 * std::atan2(half, height);
-  // A segment over the angle a departs from the arc by r (1 - cos(a/2)).
-  const double relative = std::min(chord_error > 0 ? chord_error / r : kChordError, kLargestChordError);
-  double largest = 2 * std::acos(1 - relative);
-  if (chord_error == 0) largest = std::min(largest, longest / r);
-  const int segments = std::max(1, static_cast<int>(std::ceil(angle / largest - 1e-9)));
+  const int segments = segments_of_arc(angle, r, chord_error, longest);
   const Vec3 arm = from - centre;
   for (int k = 1; k < segments; ++k) {
     const double a = turn * angle * k / segments, c = std::cos(a), s = std::sin(a);

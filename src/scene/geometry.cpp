@@ -15,6 +15,7 @@
 #include "forming_sim/mesh/profile.h"
 #include "forming_sim/mesh/seams.h"
 #include "forming_sim/mesh/sets.h"
+#include "forming_sim/mesh/sweep.h"
 #include "rules.h"
 
 namespace forming_sim {
@@ -138,14 +139,15 @@ void check_beside_axis(const ToolConfig& tool, const Mesh& mesh) {
   }
 }
 
-/// Mean edge of the surface of the body that has the smallest, m; in dimension 2.
+/// Mean edge of the surface of the body that has the smallest, m; in dimension 3 of squares as large as two facets are in the mean.
 double finest_edge(const std::vector<Mesh>& bodies) {
   double finest = std::numeric_limits<double>::infinity();
   for (const Mesh& mesh : bodies) {
-    if (mesh.dimension != 2 || mesh.surface.empty()) continue;
+    if (mesh.surface.empty()) continue;
     double sum = 0;
     for (const Facet& side : mesh.surface) sum += area_vector(mesh, side).norm();
-    finest = std::min(finest, sum / static_cast<double>(mesh.surface.size()));
+    const double mean = sum / static_cast<double>(mesh.surface.size());
+    finest = std::min(finest, mesh.dimension == 2 ? mean : std::sqrt(2 * mean));
   }
   return finest;
 }
@@ -159,7 +161,7 @@ bool make_tool(const Scene& scene, std::size_t i, const std::vector<Fault>& know
   if (sources != 1 || has_faults(known, path + ".mesh") || has_faults(known, path + ".profile")) return false;
   if (tool.profile)
     return attempt(path + ".profile", "this profile", faults, [&] {
-      mesh = mesh_profile(*tool.profile, longest);
+      mesh = scene.dimension == 3 ? sweep_profile(*tool.profile, longest) : mesh_profile(*tool.profile, longest);
       if (scene.axisymmetric) check_beside_axis(tool, mesh);
     });
   if (!tool.mesh) return true;  // a plane

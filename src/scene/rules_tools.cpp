@@ -13,14 +13,17 @@ void check_source(const ToolConfig& tool, const std::string& path, int dimension
   if (plane) given.push_back("normal");
   if (given.size() != 1) {
     faults.add(path, given.empty() ? "none of mesh, profile and normal (a normal of length 0 is none)" : one_of(given, " and "),
-               "give exactly one: mesh (the surface of a tool in 3D), profile (its section in plane strain), or normal (a rigid plane)");
+               "give exactly one: mesh (the surface of a tool in 3D), profile (its section, in 3D swept), or normal (a rigid plane)");
   }
   if (!plane && !tool.point.isZero(0) && !given.empty()) faults.add(path + ".point", given_text(tool.point), "leave it out: it belongs to a rigid plane, which has a normal; position moves a mesh or profile");
   if (tool.mesh) {
     if (dimension == 2) faults.add(path + ".mesh", "a mesh in dimension 2", "give a profile or a normal, or set dimension to 3");
     check_mesh(*tool.mesh, path + ".mesh", dimension, true, faults);
   }
-  if (tool.profile && dimension == 3) faults.add(path + ".profile", "a profile in dimension 3", "give a mesh or a normal, or set dimension to 2");
+  if (tool.profile && dimension == 3 && tool.profile->sweep.empty())
+    faults.add(path + ".profile.sweep", "none, for a profile in dimension 3", "give turned (about the axis z) or straight (along y)");
+  if (tool.profile && dimension == 2 && !tool.profile->sweep.empty())
+    faults.add(path + ".profile.sweep", given_text(tool.profile->sweep), "leave it out: in dimension 2 a profile is all of the tool. Or set dimension to 3");
 }
 
 void check_motion(const MotionConfig& motion, const std::string& path, FaultList& faults) {

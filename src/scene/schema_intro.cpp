@@ -70,8 +70,31 @@ either, what no longer bears its load flies away: a body past its greatest load 
 
 ## Tools
 
-A tool is rigid. It is a surface mesh (dimension 3), a profile of lines and arcs (dimension 2; the material of the tool
+A tool is rigid. It is a surface mesh (dimension 3), a profile of lines and arcs (the material of the tool
 lies to the left of the way along the profile; arcs become segments, fine enough for the cells of the bodies unless `chord_error` says otherwise), or a plane given by `point` and `normal`, the normal towards the body.
+In dimension 3 a profile lies in the x-z plane, looked at along y with z upwards, and is turned about the axis z or goes straight along y:
+
+```yaml
+  - name: punch                                      # of radius 20 mm, its edge 4 mm
+    position: [0, 0, 0.001]                          # where the origin of the profile is put
+    profile:
+      sweep: turned
+      start: [0, 0, 0]
+      pieces:
+        - {to: [0.016, 0, 0]}
+        - {to: [0.020, 0, 0.004], radius: 0.004}
+        - {to: [0.020, 0, 0.030]}
+  - name: roll                                       # of radius 50 mm, along y, 200 mm wide
+    position: [0.1, 0, 0.051]
+    profile:
+      sweep: straight
+      width: 0.2
+      start: [0.05, 0, 0]
+      pieces:
+        - {to: [-0.05, 0, 0], radius: 0.05}
+        - {to: [0.05, 0, 0], radius: 0.05}
+```
+
 A tool that touches a body at the start is backed off by what the contact layer needs, and the run says by how much; a
 body that starts inside a tool is refused. The motion of a tool is a trajectory (where it is at given times, from
 where it stands at the start), a velocity, or a force. Without a motion it rests. A press

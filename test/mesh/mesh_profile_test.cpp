@@ -7,17 +7,6 @@
 namespace forming_sim {
 namespace {
 
-ProfileConfig way(const Vec3& start, std::vector<std::pair<Vec3, double>> pieces) {
-  ProfileConfig p;
-  p.start = start;
-  for (const auto& [to, radius] : pieces) {
-    p.pieces.emplace_back();
-    p.pieces.back().to = to;
-    p.pieces.back().radius = radius;
-  }
-  return p;
-}
-
 TEST(MeshProfile, LinesAreSegmentsInOrder) {
   const Mesh mesh = mesh_profile(way({0, 0, 0}, {{{2, 0, 0}, 0}, {{2, 1, 0}, 0}}));
   EXPECT_EQ(mesh.dimension, 2);

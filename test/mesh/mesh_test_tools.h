@@ -9,6 +9,8 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "forming_sim/config/fault.h"
 #include "forming_sim/mesh/import.h"
@@ -34,6 +36,18 @@ class TempDir {
  private:
   std::filesystem::path path_;
 };
+
+/// Lines and arcs: the end point and the radius of each.
+inline ProfileConfig way(const Vec3& start, const std::vector<std::pair<Vec3, double>>& pieces) {
+  ProfileConfig p;
+  p.start = start;
+  for (const auto& [to, radius] : pieces) {
+    p.pieces.emplace_back();
+    p.pieces.back().to = to;
+    p.pieces.back().radius = radius;
+  }
+  return p;
+}
 
 /// The sentence of the Error that the call must throw.
 inline std::string error_of(const std::function<void()>& call, Code code = Code::mesh_error) {

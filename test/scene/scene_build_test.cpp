@@ -2,10 +2,12 @@
 #include "forming_sim/scene/build.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <unistd.h>
 
+#include "forming_sim/mesh/measure.h"
 #include "forming_sim/scene/validate.h"
 #include "scene/scene_texts.h"
 #include "support/free_mesh.h"
@@ -91,6 +93,26 @@ TEST(SceneBuild, ARollIsAsFineAsTheCellsThatMeetIt) {
   EXPECT_LE(longest_side(build_model(scene).tools[0]), 2 * edge);
   scene.tools[0].profile->chord_error = 1e-4;  // as it is said
   EXPECT_GT(longest_side(build_model(scene).tools[0]), 0.01);
+}
+
+TEST(SceneBuild, ASweptSectionIsAsFineAsTheCellsThatMeetIt) {
+  Scene scene = plate_scene();
+  scene.tools[0].mesh.reset();
+  ProfileConfig ball;
+  ball.start = Vec3(0, 0, -1);
+  ball.pieces = {{Vec3(0, 0, 1), 1}};
+  ball.sweep = "turned";
+  scene.tools[0].profile = ball;
+  scene.tools[0].position = Vec3(0, 0, 2);
+  EXPECT_TRUE(validate(scene).empty()) << sentences(validate(scene));
+  const Model model = build_model(scene);
+  double cells = 0;
+  for (const Facet& facet : model.bodies[0].mesh.surface) cells += area_vector(model.bodies[0].mesh, facet).norm();
+  const double edge = std::sqrt(2 * cells / static_cast<double>(model.bodies[0].mesh.surface.size()));
+  const Mesh& mesh = model.tools[0].mesh;
+  for (const Facet& facet : mesh.surface)
+    EXPECT_LE(std::sqrt(2 * area_vector(mesh, facet).norm()), 2 * edge);
+  EXPECT_GT(static_cast<double>(mesh.surface.size()), 4 * M_PI / (2 * edge * edge));
 }
 
 TEST(SceneBuild, BodiesAreNumberedOneAfterTheOther) {

@@ -55,8 +55,11 @@ TEST(SceneRules, DimensionDecidesTheKinds) {
   expect_flange_fault("tools:\n", "tools:\n  - {name: t, mesh: {url: t.stl, unit_scale: 0.001}}\n", "tools[0].mesh", "dimension");
   const auto faults = faults_of(replaced(flange_example(), "dimension: 2", "dimension: 3"));
   EXPECT_TRUE(fault_at(faults, "bodies[0].blank.shape")) << sentences(faults);
-  for (const char* field : {"tools[0].profile", "tools[1].profile", "tools[2].profile"}) EXPECT_TRUE(fault_at(faults, field)) << field;
+  for (const char* field : {"tools[0].profile.sweep", "tools[1].profile.sweep", "tools[2].profile.sweep"}) EXPECT_TRUE(fault_at(faults, field)) << field;
   EXPECT_EQ(faults.size(), 4u) << sentences(faults);
+  const std::string start = "      start: [0, -0.03]\n";
+  expect_flange_fault(start, "      sweep: turned\n" + start, "tools[0].profile.sweep", "in dimension 2 a profile is all of the tool");
+  expect_flange_fault(start, "      width: 0.1\n" + start, "tools[0].profile.width", "sweep");
   expect_fault(replaced(minimal_example(), "dimension: 2", "dimension: 4"), "dimension", "at least 2 and at most 3");
 }
 

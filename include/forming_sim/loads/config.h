@@ -116,8 +116,8 @@ struct ToolConfig {
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(name), Field().required().doc("name of the tool"));
-    visit(FORMING_SIM_FIELD(mesh), Field().doc("surface of a 3D tool. Give one of mesh, profile, normal"));
-    visit(FORMING_SIM_FIELD(profile), Field().doc("section of a tool in dimension 2; it is turned about the axis y in an axisymmetric scene"));
+    visit(FORMING_SIM_FIELD(mesh), Field().doc("surface of a tool of dimension 3. Give one of mesh, profile, normal"));
+    visit(FORMING_SIM_FIELD(profile), Field().doc("section of a tool: in dimension 2 in the x-y plane, turned about the axis y in an axisymmetric scene; in dimension 3 in the x-z plane, and swept"));
     visit(FORMING_SIM_FIELD(point), Field().unit("m").doc("rigid plane: a point of it"));
     visit(FORMING_SIM_FIELD(normal), Field().doc("rigid plane: its normal, towards the side of the blank; no mesh is needed. Axisymmetric: turned about the axis y a normal along y stays a plane, one along x makes a cylinder, others make cones"));
     visit(FORMING_SIM_FIELD(position), Field().unit("m").doc("where the origin of the tool's mesh or profile is put at the start"));

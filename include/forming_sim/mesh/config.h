@@ -96,18 +96,22 @@ struct ProfilePieceConfig {
   }
 };
 
-/// The section of a tool in dimension 2: lines and arcs.
+/// The section of a tool: lines and arcs, in z = 0; in dimension 3 in y = 0, and swept.
 struct ProfileConfig {
   Vec3 start = Vec3::Zero();
   std::vector<ProfilePieceConfig> pieces;
   bool closed = false;
+  std::string sweep;            ///< dimension 3: turned | straight
+  double width = 0;             ///< straight
   double chord_error = 0;
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(start), Field().unit("m").doc("first point"));
     visit(FORMING_SIM_FIELD(pieces), Field().required().doc("lines and arcs, one after the other"));
     visit(FORMING_SIM_FIELD(closed), Field().doc("join the last point to the first by a line"));
-    visit(FORMING_SIM_FIELD(chord_error), Field().unit("m").at_least(0).computed("1e-3 of the arc's radius, and no segment longer than two edges of the bodies' surfaces, in the mean of the finest body").doc("largest distance of an arc from the segments that stand for it"));
+    visit(FORMING_SIM_FIELD(sweep), Field().choices({"", "turned", "straight"}).doc("dimension 3: how the section, given in y = 0 as points [x, 0, z], becomes a surface: turned: about the axis z, a punch or a ring; straight: along y, a bar or a roll, with open ends"));
+    visit(FORMING_SIM_FIELD(width), Field().unit("m").above(0).required().when("sweep", {"straight"}).doc("extent along y, from -width/2 to width/2; wider than what meets it: its ends are open"));
+    visit(FORMING_SIM_FIELD(chord_error), Field().unit("m").at_least(0).computed("1e-3 of the arc's radius, and no segment longer than two edges of the bodies' surfaces, in the mean of the finest body").doc("largest distance of an arc, and of the largest circle of a turned section, from the segments that stand for it"));
   }
 };
 
