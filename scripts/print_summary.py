@@ -43,6 +43,8 @@ def main():
         rows.append((f"peak force on {tool['name']}", "(" + ", ".join(number(f) for f in force) + f") {newton}"))
         if tool["peak_radial_force"] is not None:
             rows.append((f"peak radial force on {tool['name']}", number(tool["peak_radial_force"]) + " N outward, summed around the circle"))
+        if tool["stopped_s"] is not None:
+            rows.append((f"{tool['name']} stopped", f"at {number(tool['stopped_s'], 1e3)} ms, under its stop_force"))
     spring = s.get("springback") or {}
     if spring.get("angle_deg_released") is not None:
         rows.append(("angle", f"{number(spring['angle_deg_formed'], 1, '{:.2f}')} deg formed, {number(spring['angle_deg_released'], 1, '{:.2f}')} deg released: springback {number(spring['change_deg'], 1, '{:.2f}')} deg"))

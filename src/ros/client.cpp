@@ -63,6 +63,7 @@ void print_summary(const SimulateFormingResult& result) {
   for (const ToolState& tool : s.tools) {
     row(("peak force on " + tool.name).c_str(), std::hypot(tool.peak_force.x, tool.peak_force.y, tool.peak_force.z), 1,
         s.dimension == 2 && !s.axisymmetric ? "N per m of width" : "N");
+    row((tool.name + " stopped at").c_str(), tool.stopped_s, 1e3, "ms");
     if (s.axisymmetric) row(("peak radial force on " + tool.name).c_str(), tool.peak_radial_force, 1, "N");
   }
   if (!result.files.empty()) std::printf("files in %s:\n", result.directory.c_str());

@@ -1,6 +1,7 @@
 #include "forming_sim/ros/status.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "forming_sim/simulation/simulation.h"
 #include "geometry.h"
@@ -32,6 +33,7 @@ ToolState tool_message(const std::string& name, const ToolStatus& status) {
   message.radial_force = status.radial_force;
   message.peak_radial_force = status.peak_radial_force;
   message.present = status.present;
+  message.stopped_s = status.stopped.value_or(std::numeric_limits<double>::quiet_NaN());
   return message;
 }
 

@@ -84,6 +84,8 @@ RunSummary read_summary(const std::string& directory) {
     if (force.is_array() && force.size() == 3) state.peak_force = vector_message(Vec3(number(tool, "/peak_force/0"), number(tool, "/peak_force/1"), number(tool, "/peak_force/2")));
     if (const auto radial = tool.find("peak_radial_force"); radial != tool.end() && radial->is_number()) state.peak_radial_force = *radial;
     state.pose.orientation.w = 1;
+    state.present = tool.value("present", false);
+    state.stopped_s = number(tool, "/stopped_s");
     summary.tools.push_back(state);
   }
   return summary;

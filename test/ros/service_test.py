@@ -104,6 +104,7 @@ class ServiceTest(unittest.TestCase):
         self.assertEqual(summary['elements'], 80)
         self.assertGreater(result.summary.steps, 100)
         self.assertGreater(result.summary.tools[0].peak_force.y, 0)  # the strip pushes the press up
+        self.assertTrue(result.summary.tools[0].present and math.isnan(result.summary.tools[0].stopped_s))
         self.assertTrue(math.isfinite(result.summary.energies.balance_error))
         # What a viewer that comes late still sees.
         markers = rospy.wait_for_message('/forming_server/deformed_mesh', MarkerArray, 10)
@@ -124,6 +125,18 @@ class ServiceTest(unittest.TestCase):
         self.assertGreater(len(pressed), 0)
         self.assertEqual(min(pressed), max(node.y for node in topology.nodes))
         self.assertEqual(status.code, ResultCode.SUCCESS)
+
+    def test_a_press_that_stops_under_its_force_says_when(self):
+        scene = scenes.pressed_strip()
+        scene['tools'][0]['motion']['stop_force'] = 2e5
+        scene['stages'][0]['until_stopped'] = 'press'
+        result = run(scene)[1]
+        self.assertEqual(result.code, ResultCode.SUCCESS, result.message)
+        press = result.summary.tools[0]
+        self.assertEqual(press.stopped_s, result.summary.sim_time_s)
+        self.assertGreaterEqual(press.peak_force.y, 2e5)
+        status = rospy.wait_for_message('/forming_server/status', RunStatus, 10)
+        self.assertEqual(status.tools[0].stopped_s, press.stopped_s)
 
     def test_server_chooses_a_directory_of_its_own_for_each_run(self):
         first = run(scenes.pulled_strip())[1]
