@@ -23,8 +23,8 @@ double tau_of(double r) {
   const double q = 1 / (r * r);
   return 10.0 / 7 / r / (1 + std::sqrt(1 + 20.0 / 7 * (1 - 9.0 / 7 * q)));
 }
-/// Up to which |J - 1| these are free of their guard: where bending takes the middle node r times as far as in a square cell.
-double free_of(double r) { return kFreeOfGuard * std::clamp(r, 1.0, 3.0); }
+/// Up to which |J - 1| these are free of their guard: bending takes the middle node r times as far as in a square cell, but bends where that is more are for shorter cells.
+double free_of(double r) { return kFreeOfGuard * std::clamp(r, 1.0, 1.5); }
 
 /// 0 far from the axis, 1 at it.
 double near_axis(const Vec3* corners, bool ring) {
@@ -51,7 +51,9 @@ double crossed_ratio(const Vec3* corners) {
 
 double renewed_ratio(double first, double of_weights, double now) {
   const auto shortness = [&](double r) { return of_weights > 1 ? 1 / r : r; };  // below 1: long, as the weights have it
-  if (is_mild(of_weights) || !(shortness(now) > kStale * shortness(of_weights))) return of_weights;
+  if (is_mild(of_weights)) return of_weights;
+  if (const double r = 1 / shortness(of_weights); shortness(first) > stretch_borne(r) * shortness(now)) return r <= kLongest ? 1 : of_weights > 1 ? kLongest : 1 / kLongest;
+  if (!(shortness(now) > kStale * shortness(of_weights))) return of_weights;
   return shortness(now) < 1 && shortness(now) < kFlowed * shortness(first) ? now : 1;
 }
 

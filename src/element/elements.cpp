@@ -96,12 +96,6 @@ struct ElementStart {
   }
 };
 
-/// By the law of material/von_mises.h.
-bool may_flow(const SolidConstants& solid) {
-  const auto flows = [](const auto& layer) { return layer.hardening.kind != HardeningCurve::elastic; };
-  return solid.law != Law::classical && solid.law != Law::hyperelastic && std::any_of(solid.layer, solid.layer + solid.layers, flows);
-}
-
 }  // namespace
 
 const Kernels& kernels_of(Isa isa) {
@@ -179,7 +173,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
             const double ratio = crossed_ratio(corners);
             const auto items = crossed_weights(corners, g.ring, by_cell ? crossed_lambda(g.solid, corners, g.ring) : 1, by_cell, ratio);
             for (int i = 0; i < kCrossedItems; ++i) constants[i][l] = items[i];
-            if (by_cell && may_flow(g.solid)) {
+            if (by_cell && g.solid.law != Law::classical) {  // whose memory is a stress
               if (first) g.first_corners.push_back({corners[0], corners[1], corners[2], corners[3], corners[4]});
               g.weight_ratio.resize(g.blocks);
               g.weight_ratio[b][l] = ratio;

@@ -198,11 +198,14 @@ TEST(Crossed, AGuardKeepsTrianglesFromCollapse) {
   }
 }
 
-TEST(Crossed, WeightsFollowWhatHasBecomeShorter) {
+TEST(Crossed, WeightsFollowWhatHasBecomeShorterOrLonger) {
   for (double flip : {1., -1.}) {
     const auto renewed = [&](double of_weights, double now) { return std::pow(renewed_ratio(std::pow(6, flip), std::pow(of_weights, flip), std::pow(now, flip)), flip); };
     EXPECT_DOUBLE_EQ(renewed(6, 5), 6);
-    EXPECT_DOUBLE_EQ(renewed(6, 12), 6);  // longer than the weights ask for
+    EXPECT_DOUBLE_EQ(renewed(6, 6.4), 6);
+    EXPECT_DOUBLE_EQ(renewed(6, 6.5), 2);  // stretched by 2.5/6^2
+    EXPECT_DOUBLE_EQ(renewed(2, 8), 2);
+    EXPECT_DOUBLE_EQ(renewed(2, 8.2), 1);  // by .7/2
     EXPECT_DOUBLE_EQ(renewed(6, 4), 4);
     EXPECT_DOUBLE_EQ(renewed(4, 3.1), 3.1);
     EXPECT_DOUBLE_EQ(renewed(4, 2.9), 1);  // half of the start

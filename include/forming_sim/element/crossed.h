@@ -41,6 +41,7 @@
 // X_s^b reciprocal to the edge X_b in s, nothing where s has not got it; z = -sum_b w_b x_b, the least w with sum_b w_b = 1, sum_b w_b X_b = 0.
 // The forces on these edges come back through the same weights.
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 
 #include "forming_sim/material/constants.h"
@@ -62,8 +63,15 @@ double crossed_ratio(const Vec3* corners);
 /// The r that a cell is to have in its weights, which now have `of_weights`, when it has flowed from the shape `first` to `now`. What is r times as long as high sees the
 /// middle node by r at its short edges. When it has become shorter that is too much: cells that are upset from their ends wind their way down in zigzag (`squeeze`), the
 /// faster the more their weights ask for. So these follow where they ask for more than kStale times what the shape does, and are those of a square cell from kFlowed times on:
-/// that is no sheet that bends any more. What has become longer keeps its weights, which are those of less.
-constexpr double kStale = 1.25, kFlowed = 2, kMildRatio = 1.2;
+/// that is no sheet that bends any more.
+///
+/// What is stretched gives way likewise: corners and middle nodes move in zigzag, the triangles at the short edges turn by r times what their middle node does, and under stress that sets
+/// more free than the others cost. A patch of rubber of such cells (6 x 3, the smallest eigenvalue of its stiffness) is stable up to an elongation of its cells, now/first, of
+/// 1.7 to 2.2 at r = 2, 1.3 to 1.5 at 3, 1.2 to 1.3 at 5 where it is stretched both ways, 3.6, 2 and 1.6 one way; metals, which are softer along their flow alone, bear more. With the
+/// weights of r = 2 longer cells bear as much as those of 2, with those of 1.5 all that was tried. So from stretch_borne() on the weights are those of kLongest, and of what is not longer than that of a square cell:
+/// what has been stretched is a membrane first, and its own bending, 1/n^2 of that of n cells through, counts less.
+constexpr double kStale = 1.25, kFlowed = 2, kMildRatio = 1.2, kLongest = 2;
+inline double stretch_borne(double r) { return 1 + std::min(0.7 / r, 2.5 / (r * r)); }
 double renewed_ratio(double first, double of_weights, double now);
 inline bool is_mild(double of_weights) { return of_weights < kMildRatio && of_weights * kMildRatio > 1; }  ///< these stay as they are
 
