@@ -159,6 +159,11 @@ long Contact::count_crossings(const NodeField& x, const std::vector<ToolMotion>&
   return static_cast<long>(find_crossings(m.features, x, place, ToolSet::present(tools), m.tools.is_plane, m.tools.planes(tools)).size());
 }
 
+int Contact::passed_through_itself(int body, const NodeField& x) const {
+  const Features& features = impl_->features;
+  return features.relation(body, body).meet ? -1 : crossing_with_itself(features, body, x);
+}
+
 void Contact::add_normal_impulses(std::vector<double>& sum) const {
   for (const ContactPair& pair : impl_->near.pairs)
     for (int k = 0; k < pair.nodes; ++k)

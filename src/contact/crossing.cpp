@@ -154,6 +154,13 @@ std::vector<bool> facets_through_others(const Features& f, int surface) {
   return through;
 }
 
+int crossing_with_itself(const Features& f, int body, const NodeField& x) {
+  const NodeField none;
+  Finder finder(f, x, none);
+  finder.pierce(body, body);
+  return finder.found.empty() ? -1 : finder.found.front().edge[0];
+}
+
 Parts find_parts(const Features& f, int surface) {
   const auto& s = f.surfaces[surface];
   const int facets = s.last_facet - s.first_facet;

@@ -53,6 +53,12 @@ void ForceDrive::take(double t, double kick, double dt, double push, double answ
   speed_ = free + push;
   way_ += dt * speed_;
   momentum_ = free + inverse_mass(kick) * answer;
+  if (answer != 0) pressed_at_ = way_;
+}
+
+double ForceDrive::fallen(double t) const {
+  const double along = force_.at(t) < 0 ? pressed_at_ - way_ : way_ - pressed_at_;
+  return force_.at(t) != 0 && along > 0 ? along : 0;
 }
 
 }  // namespace forming_sim

@@ -1,10 +1,12 @@
 #include "forming_sim/mesh/sets.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/mesh/cell_tables.h"
 #include "forming_sim/mesh/measure.h"
 
 namespace forming_sim {
@@ -47,15 +49,31 @@ std::function<bool(const Vec3&)> place_of(const SetConfig& set, bool flat, doubl
   return [=](const Vec3& x) { return ((least - x).array() <= tolerance).all() && ((x - greatest).array() <= tolerance).all(); };
 }
 
+/// On what is round the centre of a face lies beside its corners: it belongs to the set as they do.
+void add_face_centres(const Mesh& mesh, std::vector<char>& chosen) {
+  for (const Cells& cells : mesh.cells) {
+    if (cells.kind != CellKind::hex24) continue;
+    const int size = shape_of(cells.kind).nodes;
+    for (std::size_t first = 0; first < cells.nodes.size(); first += size)
+      for (int face = 0; face < 6; ++face) {
+        const auto& corners = kHexFaces[face];
+        if (std::all_of(corners, corners + 4, [&](int corner) { return chosen[cells.nodes[first + corner]] != 0; })) chosen[cells.nodes[first + 8 + face]] = 1;
+      }
+  }
+}
+
 }  // namespace
 
 std::vector<int> choose_nodes(const Mesh& mesh, const SetConfig& set) {
   const double tolerance = set.tolerance > 0 ? set.tolerance : kTolerance * size_of(mesh);
   const auto is_there = place_of(set, mesh.dimension == 2, tolerance);
   const std::vector<char> surface = set.surface_only ? on_surface(mesh) : std::vector<char>(mesh.nodes.size(), 1);
+  std::vector<char> there(mesh.nodes.size());
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) there[n] = is_there(mesh.nodes[n]);
+  if (set.choose == "cylinder" || set.choose == "sphere") add_face_centres(mesh, there);
   std::vector<int> chosen;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    if (surface[n] && is_there(mesh.nodes[n])) chosen.push_back(static_cast<int>(n));
+    if (surface[n] && there[n]) chosen.push_back(static_cast<int>(n));
   return chosen;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forming_sim/config/words.h"
+
 namespace forming_sim {
 
 void Recorder::on_start(const Simulation& simulation) {
@@ -21,6 +23,7 @@ void Recorder::on_stage_end(const Simulation& simulation, int index) {
   StageRecord ended{stage.title(), stage.kind, simulation.time(),
                     energies.kinetic, energies.elastic, energies.plastic};
   ended.kinetic_over_internal_peak = record_.kinetic_peak.at_end(energies.elastic + energies.plastic);
+  tell_inertia(simulation, stage);
   record_.kinetic_peak.levels.clear();
   record_.stages.push_back(ended);
   if (stage.kind != "form") return;
@@ -35,6 +38,17 @@ void Recorder::on_stage_end(const Simulation& simulation, int index) {
   const double angle =
       springback_angle_deg(*output_.springback, simulation.model().dimension, gauge_.probes(), measures.probes);
   if (std::isfinite(angle)) record_.angle_formed_deg = angle;
+}
+
+// Of what tools or boundaries form: that a body flies is the matter of an impact.
+void Recorder::tell_inertia(const Simulation& simulation, const StageConfig& stage) {
+  constexpr double kWellOnItsWay = 0.2;  // of the internal energy at the end
+  constexpr double kMuch = 0.1;
+  const Energies& e = simulation.energies();
+  const double internal = e.elastic + e.plastic, most = record_.kinetic_peak.at_end(internal, kWellOnItsWay);
+  if (stage.kind != "form" || !(most > kMuch) || e.initial > e.work || e.plastic < e.elastic) return;
+  record_.notes.push_back("in stage " + stage.title() + " the kinetic energy was up to " + three_digits(100 * most) +
+                          " % of the internal one when a fifth of this was there or more: unless bodies travel as a whole, inertia takes part in forces and shapes. Slower tools or less time_step.mass_scaling show by how much");
 }
 
 void Recorder::on_end(const Simulation& simulation, Code code, const std::string&) {

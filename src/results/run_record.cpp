@@ -54,10 +54,10 @@ void KineticPeak::look(double kinetic, double internal) {
   most = std::max(most, kinetic / internal);
 }
 
-double KineticPeak::at_end(double internal) const {
+double KineticPeak::at_end(double internal, double least) const {
   double most = std::numeric_limits<double>::quiet_NaN();
   if (!(internal > 0)) return most;
-  for (auto level = levels.lower_bound(level_of(kMeaningful * internal)); level != levels.end(); ++level) most = std::fmax(most, level->second);
+  for (auto level = levels.lower_bound(level_of(least * internal)); level != levels.end(); ++level) most = std::fmax(most, level->second);
   return most;
 }
 

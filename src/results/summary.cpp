@@ -177,8 +177,8 @@ void tell_late_flow(const Simulation& simulation, const RunRecord& record, std::
   if (!(flow > kMuch * formed->elastic)) return;
   warnings.push_back("after the stage " + formed->name + " the plastic work grew by " + three_digits(flow) + (simulation.model().per_width() ? " J/m, " : " J, ") + three_digits(100 * flow / formed->elastic) +
                      " % of the elastic energy that the bodies then had: " +
-                     (anything_leaves(simulation.plan()) ? "tools that leave dragged on them, or they flowed as they sprang back. Let a longer stages[].duration or stages[].release_time show whether springback depends on how they are let go"
-                                                                          : "they still flowed under what loads them when the stage ended. A longer stages[].duration of forming lets them come to rest"));
+                     (anything_leaves(simulation.plan()) ? "tools that leave dragged on them, or they flowed as they sprang back or as what had pressed on them faded. Move the tools away (stages[].displacement), and let another stages[].duration or stages[].release_time show whether springback depends on how they are let go"
+                                                                          : "they still flowed under what loads them when the stage ended. A longer stages[].duration of forming lets them come to rest, unless a velocity drives them on"));
 }
 
 /// The released angle is that of a run that came to its end.

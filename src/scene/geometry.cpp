@@ -199,6 +199,14 @@ void note_soft_strip(const BodyConfig& config, Model& model) {
                         " % of its stiffness in bending (docs/elements.md); set its pattern to one_point, or give more cells through" + (at_axis ? "" : " or fewer along"));
 }
 
+/// A sheet of two triangles a cell: `forming_bench speed-error bending`.
+void note_stiff_strip(const BodyConfig& config, Model& model) {
+  constexpr double kSheet = 4;  // times as long as thick
+  if (!config.blank || config.blank->shape != "strip" || config.blank->pattern != "coarse" || !(config.blank->length > kSheet * config.blank->thickness)) return;
+  model.notes.push_back("body " + config.name + " is a sheet of two triangles a cell, which lock in bending: moments are a fifth too large with two cells through the thickness, 6 % with four, and several "
+                        "times as wrong where cells are longer than high (docs/elements.md); set its pattern to fine or one_point");
+}
+
 /// A bar whose section, a polygon with its corners on the circle, has less area by what counts.
 void note_polygonal_bar(const BodyConfig& config, const Mesh& mesh, Model& model) {
   constexpr double kToBeTold = 0.01;
@@ -230,6 +238,7 @@ void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
     model.notes.push_back("body " + config.name + " consists of " + std::to_string(parts) +
                           " parts that share no node, and they pass through each other: set its self_contact to true, or give them as bodies of their own");
   note_soft_strip(config, model);
+  note_stiff_strip(config, model);
   note_polygonal_bar(config, mesh, model);
   note_coarse_sheet(config, mesh, model);
   constexpr double kFlat = 1.5;

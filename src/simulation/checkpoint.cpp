@@ -11,7 +11,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f6600000011u;
+constexpr std::uint64_t kLayout = 0x6d726f6600000012u;
 
 template <class T> std::size_t mark_of(const T* values, std::size_t count) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(values), count * sizeof(T)});
@@ -51,7 +51,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.number(smallest.element);
   a.number(smallest.node);
   a.text(smallest.reason);
-  a.raw(settle);
+  settle.exchange(a);
   a.text(unsettled);
   f_before.resize(x.size(), Node::Zero());
   a.numbers(f_before.data()->data(), f_before.size() * 4);
@@ -64,6 +64,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   for (std::size_t k = told_at_start; k < warnings.size(); ++k) a.text(warnings[k]);
   a.number(ledger_told);
   a.number(overstepped);
+  a.number(fall_told);
   fading.exchange(a);
   a.numbers(contact_force.data(), contact_force.size());
   const auto exchange_reaction = [&](Reaction& reaction) {

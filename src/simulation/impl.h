@@ -78,6 +78,8 @@ struct Simulation::Impl {
   double explicit_stable_dt = 0;
   std::size_t told_at_start = 0;    ///< of the warnings
   bool overstepped = false;         ///< a step was longer than the explicit contact is stable, and it has been told
+  bool fall_told = false;           ///< a tool that a force drives had lost what it pressed on
+  double thinnest = 0;              ///< m, of the bodies at the start; 0: nobody has asked
   long active_pairs = 0;
   long crossings = 0;
   double next_crossing_check = 0;
@@ -132,6 +134,7 @@ struct Simulation::Impl {
   double least_press() const { return 1e-12 * contact->stiffness(); }  ///< Pa: no pressure is less
   /// Work of prescribed motion, pressure, dead loads, gravity and damping over the kick.
   void book_loads();
+  void tell_fall(int tool);
   void book_reactions(double kick);
   double kinetic() const;
   /// Mass-proportional damping now, 1/s.
@@ -149,12 +152,13 @@ struct Simulation::Impl {
   bool still_driven() const;
   /// Of the running stage, which has come to its limit.
   std::string why_unsettled() const;
+  std::string what_moves() const;  ///< a tool or a set that is driven on, in words; empty: none
   /// Whether the bodies rest, from the force m dv/dt + m alpha v that is left on
   /// each node when contact and supports have answered; v_before, v and dt are those of the step.
   void see_rest();
 
   // letting_go.cpp
-  /// L^2/(t c) of the largest body, the thinnest and the slowest wave along a bar, s: about the period of the slowest swing of a free strip.
+  /// L^2/(t c) of the body where it is most, c the speed of a wave along a bar, s: about the period of the slowest swing of a free strip.
   double slowness() const;
   /// Time in which fades what lets go at the beginning of the running stage, s; 0: it is gone at once.
   double release_time() const;
@@ -166,6 +170,7 @@ struct Simulation::Impl {
   /// True when the running stage has come to its end.
   bool stage_over();
   void check_crossings();
+  void check_passages();  ///< of bodies through themselves
   /// Warns, once, of energies that do not add up at the end of a stage; residual, J, and error: of Simulation.
   void check_ledger(double residual, double error);
   /// Warns where the running stage, which ends, was to end when a tool stops, and that has not.

@@ -44,15 +44,12 @@ Mat3 free_ways(const BoundarySet& held, const BodyModel& body, bool axisymmetric
 }  // namespace
 
 double Simulation::Impl::slowness() const {
-  double size = 0, thin = 1e300, speed = 1e300;
+  double slowest = 0;
   for (const BodyModel& body : model.bodies) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& X_i : body.mesh.nodes) box.extend(X_i);
-    size = std::max(size, box.diagonal().norm());
-    thin = std::min(thin, thickness_of(body.mesh, model.axisymmetric));
-    speed = std::min(speed, std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling));
+    const double size = bounds(body.mesh).diagonal().norm(), speed = std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling);
+    slowest = std::max(slowest, size * size / (thickness_of(body.mesh, model.axisymmetric) * speed));
   }
-  return size * size / (thin * speed);
+  return slowest;
 }
 
 double Simulation::Impl::release_time() const {

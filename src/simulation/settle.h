@@ -1,5 +1,5 @@
 #pragma once
-// How a body that its tools have left comes to rest: adaptive dynamic relaxation.
+// How bodies that their tools have left come to rest: adaptive dynamic relaxation.
 //
 // Mass-proportional damping alpha = 2 omega is critical for the mode of frequency
 // omega, and every mode then dies out at least as exp(-omega t). omega is taken
@@ -7,12 +7,16 @@
 //   omega^2 = - v . (f_n - f_(n-1)) / (dt v . M v),
 // so that fast modes are damped first and the slowest swing decides in the end.
 //
-// The body rests when its kinetic energy and the energy that the forces out of
+// A body rests when its kinetic energy and the energy that the forces out of
 // balance could still set free, f . M^-1 f / (2 omega^2), have together stayed below a
-// fraction of the elastic energy for a while. A body that returns to its shape keeps
+// fraction of its elastic energy for a while. A body that returns to its shape keeps
 // none: then a millionth of all the energy that was put in stands for it; and what positions cannot tell is no unrest.
+// Each is judged by itself, with the omega of its own motion: beside a block under pressure a soft lip has no energy, and its forces, over
+// the block's omega^2, next to none to set free.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace forming_sim {
 
@@ -20,39 +24,78 @@ class Settle {
  public:
   static constexpr int kInterval = 10;  ///< steps between two estimates of omega
 
-  Settle() = default;
-  /// shortest: s, time for which the body must be quiet (size^2 / (thickness wave
-  /// speed), about the slowest swing of a strip). least: J, of which positions tell nothing: what has less rests.
-  Settle(double start, double shortest, double fraction, double least) : shortest_(shortest), fraction_(fraction), least_(least), quiet_since_(start), looked_(start) {}
+  /// Of a body over a step: v . (f_n - f_(n-1)) and v . M v of the free motion.
+  struct Swing {
+    double v_df = 0, v_Mv = 0;
+  };
+  /// Of a body that is looked at: f . M^-1 f, and its energies, J.
+  struct Unrest {
+    double f_Mf = 0, kinetic = 0, elastic = 0;
+  };
 
-  /// v . (f_n - f_(n-1)) and v . M v of the free motion over a step dt.
-  void estimate(double v_df, double v_Mv, double dt) {
-    if (v_Mv > 0 && v_df < 0) omega_ = std::min(std::sqrt(-v_df / (dt * v_Mv)), 0.5 / dt);
+  Settle() = default;
+  /// shortest: s, time for which the bodies must be quiet (size^2 / (thickness wave
+  /// speed), about the slowest swing of a strip). least: J, of which positions tell nothing: what has less rests.
+  Settle(double start, std::size_t bodies, double shortest, double fraction, double least)
+      : shortest_(shortest), fraction_(fraction), least_(least), quiet_since_(start), looked_(start), omega_of_(bodies, 0.0) {}
+
+  /// One swing a body, over a step dt; driven: v . M v of the tools that settle with them.
+  void estimate(const std::vector<Swing>& swings, double driven, double dt) {
+    Swing all{0, driven};
+    for (std::size_t b = 0; b < swings.size(); ++b) {
+      take(swings[b], dt, omega_of_[b]);
+      all.v_df += swings[b].v_df;
+      all.v_Mv += swings[b].v_Mv;
+    }
+    take(all, dt, omega_);
   }
   /// alpha, 1/s.
   double damping() const { return 2 * omega_; }
 
-  /// f_Mf = f . M^-1 f, energies in J; put_in: the largest work and initial energy so far.
-  /// True when the body rests.
-  bool at_rest(double t, double f_Mf, double kinetic, double elastic, double put_in) {
-    restless_ = kinetic + (omega_ > 0 ? 0.5 * f_Mf / (omega_ * omega_) : 0);
-    quiet_ = std::max(fraction_ * std::max(elastic, 1e-6 * put_in), least_);
+  /// One unrest a body, and that of the tools that settle with them, which counts beside all elastic energy; put_in: J, the largest work and initial
+  /// energy so far. True when all rest.
+  bool at_rest(double t, const std::vector<Unrest>& bodies, const Unrest& tools, double put_in) {
+    restless_ = quiet_ = 0;
+    bool quiet = true;
+    double elastic = 0;
+    const auto judge = [&](const Unrest& u, double omega, double beside) {
+      const double restless = u.kinetic + (omega > 0 ? 0.5 * u.f_Mf / (omega * omega) : 0), below = std::max(fraction_ * std::max(beside, 1e-6 * put_in), least_);
+      if ((omega == 0 && restless > least_) || restless > below) quiet = false;
+      if (quiet_ == 0 || restless * quiet_ > restless_ * below) restless_ = restless, quiet_ = below;
+    };
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      judge(bodies[b], omega_of_[b], bodies[b].elastic);
+      elastic += bodies[b].elastic;
+    }
+    judge(tools, omega_, elastic);
+    const bool was_quiet = is_quiet();
     looked_ = t;
-    if ((omega_ == 0 && restless_ > least_) || restless_ > quiet_) quiet_since_ = t;
-    return t - quiet_since_ > shortest_;
+    if (!quiet) quiet_since_ = t;
+    return was_quiet && t - quiet_since_ > shortest_;
   }
-  /// The body is not on its own yet: what it was held by fades.
+  /// The bodies are not on their own yet: what they were held by fades.
   void not_yet(double t) { quiet_since_ = t; }
-  /// It was quiet when it was last looked at: it rests when it stays so.
+  /// They were quiet when they were last looked at: they rest when they stay so.
   bool is_quiet() const { return looked_ > quiet_since_; }
-  /// Kinetic and releasable energy when it was last looked at, and what it should be below, J.
+  /// Kinetic and releasable energy of the body farthest from rest when they were last looked at, and what it should be below, J.
   double restless() const { return restless_; }
   double quiet() const { return quiet_; }
-  /// For so long it has to be quiet, s.
+  /// For so long they have to be quiet, s.
   double shortest() const { return shortest_; }
 
+  template <class Archive> void exchange(Archive& a) {
+    for (double* value : {&shortest_, &fraction_, &least_, &quiet_since_, &looked_, &omega_, &restless_, &quiet_}) a.number(*value);
+    a.list(omega_of_);
+  }
+
  private:
-  double shortest_ = 0, fraction_ = 0, least_ = 0, quiet_since_ = 0, looked_ = 0, omega_ = 0, restless_ = 0, quiet_ = 0;
+  static void take(const Swing& swing, double dt, double& omega) {
+    if (swing.v_Mv > 0 && swing.v_df < 0) omega = std::min(std::sqrt(-swing.v_df / (dt * swing.v_Mv)), 0.5 / dt);
+  }
+
+  double shortest_ = 0, fraction_ = 0, least_ = 0, quiet_since_ = 0, looked_ = 0, restless_ = 0, quiet_ = 0;
+  double omega_ = 0;               ///< of all together: what damps
+  std::vector<double> omega_of_;   ///< of each body
 };
 
 }  // namespace forming_sim

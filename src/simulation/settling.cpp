@@ -24,14 +24,19 @@ void Simulation::Impl::watch_settling() {
     return;
   }
   const std::vector<double>& mass = elements.nodal_mass();
-  double v_df = 0, v_Mv = 0;
-  for (std::size_t i = 0; i < f.size(); ++i) {
-    v_df += v[i].dot(f[i] - f_before[i]);
-    v_Mv += mass[i] * v[i].squaredNorm();
+  std::vector<Settle::Swing> swings;
+  for (const BodyModel& body : model.bodies) {
+    Settle::Swing swing;
+    for (int i = body.first_node; i < body.first_node + body.node_count; ++i) {
+      swing.v_df += v[i].dot(f[i] - f_before[i]);
+      swing.v_Mv += mass[i] * v[i].squaredNorm();
+    }
+    swings.push_back(swing);
   }
+  double driven = 0;
   for (int k = 0; k < static_cast<int>(tools.size()); ++k)
-    if (settles(k)) v_Mv += stages.drive(k)->mass() * stages.drive(k)->velocity().squaredNorm();
-  settle.estimate(v_df, v_Mv, previous_dt);
+    if (settles(k)) driven += stages.drive(k)->mass() * stages.drive(k)->velocity().squaredNorm();
+  settle.estimate(swings, driven, previous_dt);
 }
 
 void Simulation::Impl::slow_tools() {
@@ -60,33 +65,52 @@ void Simulation::Impl::see_rest() {
   if (steps % (10 * Settle::kInterval) != 0) return;
   const double kick = 0.5 * (previous_dt + dt), alpha = damping_rate();
   const std::vector<double>& mass = elements.nodal_mass();
-  double f_Mf = 0;
-  for (std::size_t i = 0; i < v.size(); ++i)
-    f_Mf += mass[i] * ((v[i] - v_before[i]) / kick + 0.5 * alpha * (v[i] + v_before[i])).squaredNorm();
+  std::vector<Settle::Unrest> bodies;
+  for (const BodyModel& body : model.bodies) {
+    Settle::Unrest unrest;
+    for (int i = body.first_node; i < body.first_node + body.node_count; ++i) {
+      unrest.f_Mf += mass[i] * ((v[i] - v_before[i]) / kick + 0.5 * alpha * (v[i] + v_before[i])).squaredNorm();
+      unrest.kinetic += 0.5 * mass[i] * v[i].squaredNorm();
+    }
+    unrest.elastic = elements.stored_energy_of(body, x);
+    bodies.push_back(unrest);
+  }
   const double all = std::accumulate(mass.begin(), mass.end(), 0.0);
-  double moving = kinetic();
+  Settle::Unrest of_tools;
   for (int k = 0; k < static_cast<int>(tools.size()); ++k) {
     const ForceDrive* drive = stages.drive(k);
     if (!settles(k)) continue;  // what has left the bodies may fly on
     const double unbalanced = drive->force(time) + tools[k].force.dot(drive->guide());
-    f_Mf += unbalanced * unbalanced / (drive->mass() + all);
-    moving += 0.5 * drive->mass() * drive->velocity().squaredNorm();
+    of_tools.f_Mf += unbalanced * unbalanced / (drive->mass() + all);
+    of_tools.kinetic += 0.5 * drive->mass() * drive->velocity().squaredNorm();
   }
   if (!fading.empty() || still_driven()) settle.not_yet(time);
-  rests = settle.at_rest(time, f_Mf, moving, elements.stored_energy(x), most);
+  rests = settle.at_rest(time, bodies, of_tools, most);
+}
+
+std::string Simulation::Impl::what_moves() const {
+  const auto goes_on = [&](const auto& velocities) { return !velocities.empty() && velocities.back().norm() > 0; };
+  for (std::size_t k = 0; k < tools.size(); ++k)
+    if (tools[k].present && !stages.drive(static_cast<int>(k)) && tools[k].velocity.norm() > 0) return "tool " + model.tools[k].name + " still moves";
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b)
+    for (const BoundaryConfig& boundary : plan.bodies[b].boundaries)
+      if (release_stage(boundary.until, plan.stages) > stages.index() && (goes_on(boundary.velocities) || goes_on(boundary.spins_deg_s))) return "set " + boundary.set + " of body " + model.bodies[b].name + " is still driven";
+  return "";
 }
 
 std::string Simulation::Impl::why_unsettled() const {
   std::ostringstream text;
   text << "a settle stage reached its limit ";
   if (settle.restless() > settle.quiet()) {
-    text << "before the bodies rested: at its end their kinetic energy, and what the forces out of balance could still set free, were " << settle.restless()
-         << " J, and should stay below stages[].kinetic_fraction of the elastic energy, " << settle.quiet() << " J; ";
+    text << "before the bodies rested: at its end the kinetic energy of the one farthest from rest, and what the forces out of balance could still set free in it, were " << settle.restless()
+         << " J, and should stay below stages[].kinetic_fraction of its elastic energy, " << settle.quiet() << " J; ";
     NodeField loads(x.size(), Node::Zero());
     pressures.add(time, x, loads);
     dead_loads.add(time, loads);
     const bool loaded = std::any_of(loads.begin(), loads.end(), [](const Node& f) { return !f.isZero(0); });
-    text << (loaded ? "pressures or loads still act on them: let these end before (last entry 0) if nothing holds the bodies against them" : "a longer limit lets them come to rest");
+    const std::string moving = what_moves();
+    if (!moving.empty()) text << moving << ": end it with a velocity of 0";
+    else text << (loaded ? "pressures or loads still act on them: let these end before (last entry 0) if nothing holds the bodies against them" : "a longer limit lets them come to rest");
   } else if (!fading.empty()) {
     text << "before the bodies rested; what held them was still fading, until " << fading.end() << " s: a longer limit or a shorter stages[].release_time lets them come to rest";
   } else if (still_driven()) {

@@ -28,7 +28,7 @@ void Simulation::Impl::begin_stage() {
     }
   }
   if (!stages.settling()) return;
-  settle = Settle(time, slowness(), stages.stage().kinetic_fraction, least_energy());
+  settle = Settle(time, model.bodies.size(), slowness(), stages.stage().kinetic_fraction, least_energy());
 }
 
 void Simulation::Impl::check_ledger(double residual, double error) {
@@ -69,6 +69,21 @@ void Simulation::Impl::check_crossings() {
   next_crossing_check = stages.progress(time) + 1.0 / kCrossingChecks;
 }
 
+void Simulation::Impl::check_passages() {
+  if (!contact) return;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const std::string told = "body " + body.name + " lies in itself";
+    if (std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) { return warning.compare(0, told.size(), told) == 0; })) continue;
+    const int node = contact->passed_through_itself(static_cast<int>(b), x);
+    if (node < 0) continue;
+    std::ostringstream text;
+    text << told << ": at the end of stage " << stages.stage().title() << ", " << time << " s, its surface passes through itself at (" << vec3(x[node]).transpose()
+         << ") m, and bears nothing there. Set its self_contact to true";
+    warnings.push_back(text.str());
+  }
+}
+
 Simulation::Simulation(const RunPlan& plan, Model model, int threads)
     : impl_(std::make_unique<Impl>(plan, std::move(model), threads)) {}
 Simulation::~Simulation() = default;
@@ -87,6 +102,7 @@ bool Simulation::step() {
   if (over) {
     s.elements.check_upright(s.x);
     s.check_ledger(energies().residual(), balance_error());
+    s.check_passages();
     s.tell_unstopped();
   }
   const Clock::time_point stepped = Clock::now();

@@ -1,9 +1,11 @@
 // One step: forces, the kick, contact, and the ledger's sums.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <sstream>
 
 #include "forming_sim/loads/gravity.h"
+#include "forming_sim/mesh/measure.h"
 #include "forming_sim/parallel/denormals.h"
 #include "simulation/impl.h"
 
@@ -106,6 +108,7 @@ void Simulation::Impl::book(const ContactStep& done) {
     if (model.axisymmetric) felt = around_circle(felt);
     tool.felt += felt;
     if (ForceDrive* drive = stages.drive(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k], felt.impulse.dot(drive->guide()));
+    tell_fall(static_cast<int>(k));
     const auto run_on = [&](auto& mean, const auto& impulse) { mean += (impulse / kick - mean) / kForceMeanSteps; };
     run_on(tool.force, felt.impulse);
     run_on(tool.moment, model.axisymmetric ? felt.angular : Vec3(felt.angular - tool.position.cross(felt.impulse)));
@@ -130,6 +133,23 @@ void Simulation::Impl::mean_contact_force(double kick) {
     for (int n : touchable) contact_force[n] = 0;
 }
 
+void Simulation::Impl::tell_fall(int tool) {
+  const ForceDrive* drive = stages.drive(tool);
+  if (!drive || fall_told) return;
+  const double fallen = drive->fallen(time);
+  if (!(fallen > 0)) return;
+  if (thinnest == 0) {
+    thinnest = std::numeric_limits<double>::max();
+    for (const BodyModel& body : model.bodies) thinnest = std::min(thinnest, thickness_of(body.mesh, model.axisymmetric));
+  }
+  if (fallen < thinnest) return;
+  fall_told = true;
+  std::ostringstream text;
+  text << "tool " << model.tools[tool].name << ", which a force drives, pressed on the bodies no more: at " << time << " s it had gone on by " << fallen
+       << " m from there, and tools do not hold each other. Withdraw it or end its force before the bodies have left it, or guide it by a trajectory";
+  warnings.push_back(text.str());
+}
+
 void Simulation::Impl::book_loads() {
   const double kick = 0.5 * (previous_dt + dt), alpha = damping_rate();
   const std::vector<double>& mass = elements.nodal_mass();
@@ -137,7 +157,7 @@ void Simulation::Impl::book_loads() {
   if (!fading.empty() && fading.work(kick, mass, v_before, v)) {
     std::ostringstream text;
     text << "what had let go of the bodies was to fade, but drove them on by more than the elastic energy that they could spring back by: they gave way. At " << time
-         << " s it was taken away at once; look at what they were held in, or give stages[].release_time less than they take to give way";
+         << " s it was taken away at once; move the tools away instead (stages[].displacement), or give stages[].release_time less than they take to give way";
     warnings.push_back(text.str());
   }
   if (alpha > 0) {

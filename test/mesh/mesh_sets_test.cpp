@@ -90,6 +90,17 @@ TEST(MeshSets, ACylinderOnTheSideOfABarIsItsSide) {
   EXPECT_TRUE(choose_nodes(mesh, s).empty());
 }
 
+// Centres of faces lie inside the circle on which the corners are.
+TEST(MeshSets, FacesOnACylinderAreThereWithTheirCentres) {
+  BlankConfig b;
+  b.shape = "bar";
+  b.length = 3, b.radius = 2;
+  b.cells_along = 2, b.cells_radius = 4;
+  b.pattern = "fine";
+  const Mesh mesh = generate_blank(b);
+  EXPECT_EQ(choose_nodes(mesh, round("cylinder", {0, 0, 7}, 2)), mesh.sets.at("side"));
+}
+
 TEST(MeshSets, ASphereTakesWhatIsAtItsRadius) {
   for (const char* shape : {"plate", "strip"}) {
     const Mesh mesh = body(shape);

@@ -152,6 +152,8 @@ class Contact {
   /// (2D: crossing segments), nodes behind a plane, and parts wholly inside.
   /// Tools stand at position0, rotation0, where contact sees them (set back).
   long count_crossings(const NodeField& x, const std::vector<ToolMotion>& tools) const;
+  /// Of a body that does not meet itself (self_contact false): a node of its surface that lies where it has passed through itself; -1: it has not.
+  int passed_through_itself(int body, const NodeField& x) const;
 
   /// Is anything tied?
   bool ties() const;

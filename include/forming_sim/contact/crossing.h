@@ -21,6 +21,9 @@ struct Crossing {
 std::vector<Crossing> find_crossings(const Features& features, const NodeField& x, const NodeField& place, const std::vector<bool>& present,
                                      const std::vector<bool>& is_plane, const std::vector<PlanePose>& planes);
 
+/// A vertex of an edge of a body's surface that goes through a facet of the same surface; -1: none does.
+int crossing_with_itself(const Features& features, int body, const NodeField& x);
+
 /// Does segment pq go through the triangle abc (2D: cross the segment ab)? Its
 /// border belongs to it where `border` is set; pq must pass, not only touch.
 bool pierces(const Node& p, const Node& q, const Node& a, const Node& b, const Node& c, bool border);

@@ -9,6 +9,8 @@
 //
 // V and J depend on each other: contact finds both (contact/driven.h). Taken one after the other, the tool would feed the swings of
 // what it touches, whatever its mass and however short the step.
+#include <limits>
+
 #include "forming_sim/loads/config.h"
 #include "forming_sim/loads/profile.h"
 
@@ -38,11 +40,14 @@ class ForceDrive {
   /// Adds `rate` to alpha, 1/s, until it is told another: in settle stages.
   void slow_down(double rate) { settling_ = rate; }
 
+  /// How far it has gone on along its force since it last pressed on anything, m; 0: it has not pressed yet.
+  double fallen(double t) const;
+
   Vec3 way() const { return way_ * guide_; }         ///< from the start, m
   Vec3 velocity() const { return speed_ * guide_; }  ///< V of the last step, m/s
 
   template <class Archive> void exchange(Archive& a) {
-    for (double* value : {&way_, &speed_, &momentum_}) a.number(*value);
+    for (double* value : {&way_, &speed_, &momentum_, &pressed_at_}) a.number(*value);
   }
 
  private:
@@ -52,6 +57,7 @@ class ForceDrive {
   ScalarProfile force_;  ///< along guide_, N
   double mass_, damping_, settling_ = 0;
   double way_ = 0, speed_ = 0;
+  double pressed_at_ = std::numeric_limits<double>::quiet_NaN();  ///< way_ when it last pressed
   double momentum_ = 0;  ///< over M: V as J says, m/s; speed_ is as near to it as contact searches, and no impulse is lost
 };
 

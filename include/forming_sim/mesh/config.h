@@ -73,7 +73,7 @@ struct SetConfig {
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(name), Field().required().doc("name by which boundaries, loads and probes refer to the set"));
-    visit(FORMING_SIM_FIELD(choose), Field().required().choices({"plane", "box", "cylinder", "sphere"}).doc("plane: nodes on a plane; box: nodes inside an axis-parallel box; cylinder, sphere: nodes on one, in dimension 2 on a circle (initial positions)"));
+    visit(FORMING_SIM_FIELD(choose), Field().required().choices({"plane", "box", "cylinder", "sphere"}).doc("plane: nodes on a plane; box: nodes inside an axis-parallel box; cylinder, sphere: nodes on one, in dimension 2 on a circle, and centres of hexahedra's faces whose corners are (initial positions)"));
     visit(FORMING_SIM_FIELD(point), Field().unit("m").when("choose", {"plane", "cylinder", "sphere"}).doc("a point of the plane or of the cylinder's axis, the sphere's centre"));
     visit(FORMING_SIM_FIELD(normal), Field().when("choose", {"plane"}).required().doc("normal of the plane, any length but zero"));
     visit(FORMING_SIM_FIELD(axis), Field().when("choose", {"cylinder"}).computed("[0, 0, 1]").doc("direction of the cylinder's axis, any length; in dimension 2 it is z"));

@@ -19,6 +19,7 @@ class Recorder : public Observer {
 
  private:
   void look(const Simulation& simulation);
+  void tell_inertia(const Simulation& simulation, const StageConfig& stage);  ///< of the stage that ends
   const OutputConfig output_;
   Schedule schedule_;
   Gauge& gauge_;

@@ -32,8 +32,8 @@ class KineticPeak {
  public:
   static constexpr double kMeaningful = 0.01;
   void look(double kinetic, double internal);
-  /// NaN where there was no internal energy.
-  double at_end(double internal) const;
+  /// least: of the internal energy at the end, from which on it is looked at. NaN where there was no internal energy.
+  double at_end(double internal, double least = kMeaningful) const;
   std::map<int, double> levels;  ///< ln(internal)/ln(1.01), rounded down; largest ratio there
 };
 
