@@ -116,7 +116,7 @@ A run is a list of stages. Times of motions, boundaries, pressures and loads cou
 - `withdraw` moves tools away from where they stand by `displacement`, smoothly, in `duration`; then they are gone.
   Without a displacement they are gone at once, and what they held the bodies by fades in `release_time`, as does what a boundary
   with `until` held: what lets go of a sheet in one step (`release: sudden`) makes it flow anew as it springs back.
-- `settle` takes motion out of the bodies until their kinetic energy stays below `kinetic_fraction` of the elastic one:
+- `settle` takes motion out of the bodies until the kinetic energy of each stays below `kinetic_fraction` of its elastic one:
   springback. Tools that forces drive and that press on them rest with them, and it does not end while a motion, a pressure or a load is between two of its
   times (in the last stage also where these are still to come). It ends at `limit` at the latest, and the result then says so. Forces come to rest as the root of it: with
   the default of 1e-5 to some .3 %; who reads a static force from the end of a run gives 1e-8.

@@ -10,8 +10,8 @@
 // A body rests when its kinetic energy and the energy that the forces out of
 // balance could still set free, f . M^-1 f / (2 omega^2), have together stayed below a
 // fraction of its elastic energy for a while. A body that returns to its shape keeps
-// none: then a millionth of all the energy that was put in stands for it; and what positions cannot tell is no unrest.
-// Each is judged by itself, with the omega of its own motion: beside a block under pressure a soft lip has no energy, and its forces, over
+// none: then a millionth of the largest energy that it has had in the stage stands for it; and what positions cannot tell is no unrest.
+// Each is judged by itself, with the omega of its own motion: beside a block under pressure a soft strip has no energy, and its forces, over
 // the block's omega^2, next to none to set free.
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ class Settle {
   /// shortest: s, time for which the bodies must be quiet (size^2 / (thickness wave
   /// speed), about the slowest swing of a strip). least: J, of which positions tell nothing: what has less rests.
   Settle(double start, std::size_t bodies, double shortest, double fraction, double least)
-      : shortest_(shortest), fraction_(fraction), least_(least), quiet_since_(start), looked_(start), omega_of_(bodies, 0.0) {}
+      : shortest_(shortest), fraction_(fraction), least_(least), quiet_since_(start), looked_(start), omega_of_(bodies, 0.0), most_of_(bodies, 0.0) {}
 
   /// One swing a body, over a step dt; driven: v . M v of the tools that settle with them.
   void estimate(const std::vector<Swing>& swings, double driven, double dt) {
@@ -52,22 +52,23 @@ class Settle {
   /// alpha, 1/s.
   double damping() const { return 2 * omega_; }
 
-  /// One unrest a body, and that of the tools that settle with them, which counts beside all elastic energy; put_in: J, the largest work and initial
-  /// energy so far. True when all rest.
-  bool at_rest(double t, const std::vector<Unrest>& bodies, const Unrest& tools, double put_in) {
+  /// One unrest a body, and that of the tools that settle with them, which counts beside the elastic energy of all. True when all rest.
+  bool at_rest(double t, const std::vector<Unrest>& bodies, const Unrest& tools) {
     restless_ = quiet_ = 0;
     bool quiet = true;
-    double elastic = 0;
-    const auto judge = [&](const Unrest& u, double omega, double beside) {
-      const double restless = u.kinetic + (omega > 0 ? 0.5 * u.f_Mf / (omega * omega) : 0), below = std::max(fraction_ * std::max(beside, 1e-6 * put_in), least_);
+    double elastic = 0, most = 0;
+    const auto judge = [&](const Unrest& u, double omega, double beside, double had) {
+      const double restless = u.kinetic + (omega > 0 ? 0.5 * u.f_Mf / (omega * omega) : 0), below = std::max(fraction_ * std::max(beside, 1e-6 * had), least_);
       if ((omega == 0 && restless > least_) || restless > below) quiet = false;
       if (quiet_ == 0 || restless * quiet_ > restless_ * below) restless_ = restless, quiet_ = below;
     };
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-      judge(bodies[b], omega_of_[b], bodies[b].elastic);
+      most_of_[b] = std::max(most_of_[b], bodies[b].elastic + bodies[b].kinetic);
+      judge(bodies[b], omega_of_[b], bodies[b].elastic, most_of_[b]);
       elastic += bodies[b].elastic;
+      most += most_of_[b];
     }
-    judge(tools, omega_, elastic);
+    judge(tools, omega_, elastic, most);
     const bool was_quiet = is_quiet();
     looked_ = t;
     if (!quiet) quiet_since_ = t;
@@ -86,6 +87,7 @@ class Settle {
   template <class Archive> void exchange(Archive& a) {
     for (double* value : {&shortest_, &fraction_, &least_, &quiet_since_, &looked_, &omega_, &restless_, &quiet_}) a.number(*value);
     a.list(omega_of_);
+    a.list(most_of_);
   }
 
  private:
@@ -96,6 +98,7 @@ class Settle {
   double shortest_ = 0, fraction_ = 0, least_ = 0, quiet_since_ = 0, looked_ = 0, restless_ = 0, quiet_ = 0;
   double omega_ = 0;               ///< of all together: what damps
   std::vector<double> omega_of_;   ///< of each body
+  std::vector<double> most_of_;    ///< likewise, J: the largest of its elastic and kinetic energy
 };
 
 }  // namespace forming_sim

@@ -85,7 +85,7 @@ void Simulation::Impl::see_rest() {
     of_tools.kinetic += 0.5 * drive->mass() * drive->velocity().squaredNorm();
   }
   if (!fading.empty() || still_driven()) settle.not_yet(time);
-  rests = settle.at_rest(time, bodies, of_tools, most);
+  rests = settle.at_rest(time, bodies, of_tools);
 }
 
 std::string Simulation::Impl::what_moves() const {

@@ -89,6 +89,102 @@ TEST(RunScene, TellsMetalThatIsPressedAsItNeverIs) {
   EXPECT_EQ(told_of_a_press(.05, "% of its bulk modulus, in element"), 0);
 }
 
+// A C whose upper arm is driven into the lower one.
+TEST(RunScene, TellsABodyThatPassesThroughItself) {
+  const std::string text = R"(
+name: c
+dimension: 2
+bodies:
+  - name: c
+    mesh:
+      unit_scale: 0.001
+      cell_type: quadrilateral
+      points: [[0,0],[1,0],[2,0],[3,0], [0,1],[1,1],[2,1],[3,1], [0,2],[1,2],[2,2],[3,2], [0,3],[1,3],[2,3],[3,3]]
+      cells: [0,1,5,4, 1,2,6,5, 2,3,7,6, 4,5,9,8, 8,9,13,12, 9,10,14,13, 10,11,15,14]
+    material: {density: 1000, law: hyperelastic, h1: 1e6, bulk_modulus: 1e7}
+    sets:
+      - {name: foot, choose: plane, point: [0, 0], normal: [0, 1]}
+      - {name: lip, choose: box, min: [0.0029, 0.0019], max: [0.0031, 0.0031]}
+    boundaries:
+      - {set: foot, kind: fixed}
+      - {set: lip, kind: velocity, axes: [y], times: [0, 1e-3, 2e-3], velocities: [[0, 0], [0, -1.6], [0, 0]]}
+tools:
+  - {name: table, point: [0, -0.001], normal: [0, 1]}
+stages:
+  - {kind: form, duration: 2e-3}
+)";
+  const std::vector<std::string> told = warnings_with("passes through itself", text);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].find("body c lies in itself"), 0u) << told[0];
+  std::string meets = text;
+  meets.replace(meets.find("    sets:"), 0, "    self_contact: true\n");
+  meets.replace(meets.find("-1.6]"), 5, "-1.2]");  // as far as there is room for both
+  EXPECT_TRUE(warnings_with("passes through itself", meets).empty());
+}
+
+TEST(RunScene, TellsThatInertiaTakesPart) {
+  const auto pressed = [](double speed) {
+    const std::string time = number_text(4e-4 / speed);
+    return R"(
+name: press
+dimension: 2
+bodies:
+  - name: strip
+    blank: {shape: strip, length: 0.001, thickness: 0.001, cells_along: 4, cells_through: 4}
+    material: {density: 2700, youngs_modulus: 70e9, poissons_ratio: 0.3, hardening: {curve: perfect, yield_stress: 50e6}}
+tools:
+  - {name: table, point: [0, 0], normal: [0, 1]}
+  - {name: press, point: [0, 0.001], normal: [0, -1], motion: {kind: trajectory, profile: linear, times: [0, )" + time + R"(], positions: [[0, 0], [0, -0.0004]]}}
+stages:
+  - {name: press, kind: form, duration: )" + time + "}\n";
+  };
+  EXPECT_EQ(warnings_with("inertia takes part", pressed(200)).size(), 1u);
+  EXPECT_TRUE(warnings_with("inertia takes part", pressed(20)).empty());
+}
+
+// The strip is pulled out from under the holder.
+TEST(RunScene, TellsAHolderThatHasLostWhatItPressed) {
+  const auto held = [](double way) {
+    return R"(
+name: hold
+dimension: 2
+bodies:
+  - name: strip
+    blank: {shape: strip, length: 0.01, thickness: 0.001, cells_along: 20, cells_through: 2}
+    material: {density: 2700, youngs_modulus: 70e9, poissons_ratio: 0.3}
+    boundaries: [{set: left, kind: velocity, axes: [x], times: [0, 2e-4, 4e-4], velocities: [[0, 0], [)" + number_text(-way / 2e-4) + R"(, 0], [0, 0]]}]
+tools:
+  - {name: table, point: [0, 0], normal: [0, 1]}
+  - name: holder
+    profile: {start: [0.006, 0.003], pieces: [{to: [0.006, 0.001]}, {to: [0.009, 0.001]}, {to: [0.009, 0.003]}]}
+    motion: {kind: force, times: [0, 5e-5], forces: [[0, 0], [0, -1e4]], mass: 0.02}
+stages:
+  - {kind: form, duration: 6e-4}
+)";
+  };
+  const std::vector<std::string> told = warnings_with("pressed on the bodies no more", held(6e-3));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].find("tool holder, which a force drives"), 0u) << told[0];
+  EXPECT_TRUE(warnings_with("pressed on the bodies no more", held(1e-3)).empty());
+}
+
+TEST(RunScene, TellsThatTwoTrianglesACellLock) {
+  const auto sheet = [](const std::string& pattern) {
+    return R"(
+name: sheet
+dimension: 2
+bodies:
+  - name: sheet
+    blank: {shape: strip, length: 0.01, thickness: 0.001, cells_along: 20, cells_through: 2, pattern: )" + pattern + R"(}
+    material: {density: 2700, youngs_modulus: 70e9, poissons_ratio: 0.3}
+stages:
+  - {kind: form, duration: 1e-6}
+)";
+  };
+  EXPECT_EQ(warnings_with("lock in bending", sheet("coarse")).size(), 1u);
+  EXPECT_TRUE(warnings_with("lock in bending", sheet("fine")).empty());
+}
+
 /// Warnings of what a settle stage that ends early cuts off; its limit is 4 ms.
 std::vector<std::string> told_unfinished(const std::string& ends) {
   const std::string text = R"(

@@ -84,6 +84,62 @@ TEST(Settle, ThatTheLimitCutsOffWhileALoadRisesSaysSo) {
   EXPECT_EQ(run.start()->run(never).code, Code::success);
 }
 
+TEST(Settle, ThatMovesOnIsToldToEndIt) {
+  const std::atomic<bool> never{false};
+  OneBody run(body_of(generate_blank(strip_of(10e-3, 1e-3, 10, 2)), aluminium(true)), 1e-4);
+  run.plan.stages.push_back(settle(1e-4));
+  pull_right(run, {0, 1e-5}, {Vec3::Zero(), Vec3(1, 0, 0)});
+  const Outcome outcome = run.start()->run(never);
+  EXPECT_EQ(outcome.code, Code::limit_reached);
+  EXPECT_NE(outcome.message.find("set right of body"), std::string::npos) << outcome.message;
+  EXPECT_EQ(outcome.message.find("a longer limit"), std::string::npos) << outcome.message;
+}
+
+// A strip sags beside a block under 100 MPa, whose energy is some million times that of the strip.
+TEST(Settle, JudgesEachBodyByItself) {
+  OneBody alone(body_of(generate_blank(strip_of(40e-3, 1e-3, 40, 2)), aluminium()), 1);
+  alone.plan.stages = {settle(.2)};
+  clamp_left(alone);
+  alone.plan.gravity = Vec3(0, -9.81, 0);
+  OneBody both = alone;
+  BlankConfig block = strip_of(40e-3, 40e-3, 6, 6);
+  block.origin = Vec3(0, -60e-3, 0);
+  add_flying(both.model, both.plan, body_of(generate_blank(block), aluminium()), "heavy", Vec3::Zero());
+  BoundaryConfig foot;
+  foot.set = "bottom";
+  foot.kind = "fixed";
+  both.plan.bodies[1].boundaries = {foot};
+  PressureConfig pressure;
+  pressure.set = "top";
+  pressure.times = {0, 1e-4};
+  pressure.values = {0, 100e6};
+  both.plan.bodies[1].pressures = {pressure};
+  double sags[2];
+  for (const bool block_too : {false, true}) {
+    auto sim = (block_too ? both : alone).start();
+    while (sim->step()) {}
+    double lowest = 0;
+    for (int n = 0; n < alone.model.bodies[0].node_count; ++n) lowest = std::max(lowest, sim->initial_positions()[n][1] - sim->positions()[n][1]);
+    sags[block_too] = lowest;
+  }
+  std::printf("  sags by %.5g m alone, %.5g m beside the block\n", sags[0], sags[1]);
+  EXPECT_NEAR(sags[1], sags[0], .01 * sags[0]);
+}
+
+// A compact block is slower to look at than to swing: it is quiet from one look to the next all the same, a time over which its weight can be felt.
+TEST(Settle, IsQuietBeforeItEnds) {
+  OneBody run(body_of(generate_blank(strip_of(10e-3, 10e-3, 2, 2)), aluminium()), 1);
+  run.model.tools = {plane_at("floor", 2, Vec3(0, -1e-5, 0), Vec3::UnitY())};
+  run.plan.gravity = Vec3(0, -9.81, 0);
+  run.plan.stages = {settle(.1)};
+  run.plan.stages[0].kinetic_fraction = 1e-8;
+  auto sim = run.start();
+  long quiet = 0;
+  while (sim->step()) quiet += sim->quiet();
+  EXPECT_GE(quiet, 100);
+  EXPECT_LT(sim->time(), .1);
+}
+
 // What has left the bodies neither is stopped nor has to come to rest, whatever acts on it.
 TEST(Settle, AHammerThatHasLeftFliesOn) {
   for (const double weight : {0., -10.}) {
