@@ -72,13 +72,18 @@ SetConfig round(const std::string& choose, const Vec3& point, double radius) {
   return s;
 }
 
-TEST(MeshSets, ACylinderOnTheSideOfABarIsItsSide) {
+/// Of radius 2.
+Mesh bar(const std::string& pattern) {
   BlankConfig b;
   b.shape = "bar";
   b.length = 3, b.radius = 2;
   b.cells_along = 2, b.cells_radius = 4;
-  b.pattern = "coarse";
-  Mesh mesh = generate_blank(b);
+  b.pattern = pattern;
+  return generate_blank(b);
+}
+
+TEST(MeshSets, ACylinderOnTheSideOfABarIsItsSide) {
+  Mesh mesh = bar("coarse");
   SetConfig s = round("cylinder", {0, 0, 7}, 2);
   EXPECT_EQ(choose_nodes(mesh, s), mesh.sets.at("side"));
   // The same bar, moved and laid along x.
@@ -92,12 +97,7 @@ TEST(MeshSets, ACylinderOnTheSideOfABarIsItsSide) {
 
 // Centres of faces lie inside the circle on which the corners are.
 TEST(MeshSets, FacesOnACylinderAreThereWithTheirCentres) {
-  BlankConfig b;
-  b.shape = "bar";
-  b.length = 3, b.radius = 2;
-  b.cells_along = 2, b.cells_radius = 4;
-  b.pattern = "fine";
-  const Mesh mesh = generate_blank(b);
+  const Mesh mesh = bar("fine");
   EXPECT_EQ(choose_nodes(mesh, round("cylinder", {0, 0, 7}, 2)), mesh.sets.at("side"));
 }
 

@@ -55,8 +55,8 @@ struct AnisotropyConfig {
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(r0), Field().above(0).at_most(100).required().doc("r value in tension along the rolling direction: plastic strain across the width over that through the thickness; 1 in all directions: none. The hardening curve is that of this tension"));
-    visit(FORMING_SIM_FIELD(r45), Field().at_least(0).at_most(100).computed("r0").doc("r value at 45 degrees to it"));
-    visit(FORMING_SIM_FIELD(r90), Field().at_least(0).at_most(100).computed("r0").doc("r value across it"));
+    visit(FORMING_SIM_FIELD(r45), Field().at_least(0).at_most(100).computed("r0").doc("r value at 45 degrees to it; 0 is that of r0"));
+    visit(FORMING_SIM_FIELD(r90), Field().at_least(0).at_most(100).computed("r0").doc("r value across it; 0 is that of r0"));
     visit(FORMING_SIM_FIELD(rolling_direction), Field().computed("x").doc("rolling direction at the start, of any length; it turns with the sheet. Dimension 2: in the plane, or along z"));
     visit(FORMING_SIM_FIELD(sheet_normal), Field().computed("z; y in dimension 2").doc("direction through the thickness at the start, at right angles to it; it turns with the sheet. Dimension 2: in the plane, or along z"));
   }
