@@ -133,9 +133,11 @@ template <class Cell> class WaitingPacks {
     packs_[count_++].wait_as(pack);
     if (count_ == 2) flow();
   }
-  /// An odd one flows beside what was there before it.
+  /// An odd one flows beside itself.
   void end() {
-    if (count_ > 0) flow();
+    if (count_ == 0) return;
+    flow_.repeat_first();
+    flow();
   }
 
  private:
@@ -153,7 +155,7 @@ template <class Cell> class WaitingPacks {
   const CellGroup& g_;
   const PlaneModuli& moduli_;
   OnePointPack<Cell> packs_[2];
-  FlowTogether<Twin<Pack>, kD<Cell>, Cell::ring> flow_{};
+  FlowTogether<Twin<Pack>, kD<Cell>, Cell::ring> flow_;
   int count_ = 0;
 };
 

@@ -57,11 +57,14 @@ double extrude(const std::string& pattern) {
 
 }  // namespace
 
-// Where no corner of a cell could turn inside out the billet was shut in the die: 104 kN and rising, then a cell was crushed.
+// Where no corner of a cell could turn inside out the billet was shut in the die: 104 kN and rising, then a cell was crushed. Folded cells take 1.4 times
+// what crossed ones do at 10 a radius (docs/elements.md), the same every time: their fading once read a number that nobody had written.
 TEST(Extrusion, OnePointRingsDoNotJam) {
   const double crossed = extrude("fine"), one_point = extrude("one_point");
   std::printf("  force on the die %.4g kN, of crossed cells %.4g\n", one_point / 1e3, crossed / 1e3);
-  EXPECT_NEAR(one_point, crossed, .25 * crossed);
+  EXPECT_GT(one_point, .9 * crossed);
+  EXPECT_LT(one_point, 1.5 * crossed);
+  EXPECT_EQ(extrude("one_point"), one_point);
 }
 
 }  // namespace forming_sim

@@ -101,6 +101,18 @@ template <class T, int D, bool Ring, class Metric = Isotropic> class FlowTogethe
     half_of(mean_.slope, half) = point.yield.slope;
   }
 
+  /// Of a Twin whose second half nobody has put: it goes as the first does. What it would have held otherwise decides what is looked at, and so on the last digits of the first.
+  void repeat_first() {
+    const auto both = [](T& number) { half_of(number, 1) = half_of(number, 0); };
+    repeat<kEdges<D, Ring>>([&](auto m) { repeat<D>([&](auto i) { both(edges_.x[m][i]), both(edges_.up[m][i]); }); });
+    repeat<D>([&](auto d) {
+      for (Plane<T>* plane : {&strain_[d], &ep_[d]}) both(plane->a), both(plane->b), both(plane->shear);
+      both(rise_[d]);
+    });
+    repeat<size>([&](auto i) { both(G_[i]), both(S_[i]); });
+    for (T* number : {&factor_, &J_, &dissipation_, &kept_, &mean_.sigma, &mean_.slope}) both(*number);
+  }
+
   /// Of a layer whose law does not return along S: the stress before it did, and the plastic strain that it took.
   void put_trial(const Symmetric<T, D>& S, const T& dp) {
     repeat<size>([&](auto i) { trial_[i] = S[i]; });

@@ -86,7 +86,9 @@ template <class T, int D> struct HourglassStrain {
     repeat<D>([&](auto d) {
       plane[d].a = s.plane[d].a;
       plane[d].b = s.plane[d].b;
-      if constexpr (D == 3) {
+      if constexpr (D == 2) {
+        plane[d].shear = T(0);
+      } else {
         plane[d].shear = s.plane[d].shear;
         warp[d] = s.warp[d];
       }
