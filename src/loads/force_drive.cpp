@@ -57,8 +57,8 @@ void ForceDrive::take(double t, double kick, double dt, double push, double answ
 }
 
 double ForceDrive::fallen(double t) const {
-  const double along = force_.at(t) < 0 ? pressed_at_ - way_ : way_ - pressed_at_;
-  return force_.at(t) != 0 && along > 0 ? along : 0;
+  const double F = force_.at(t), along = F < 0 ? pressed_at_ - way_ : way_ - pressed_at_;
+  return F != 0 && along > 0 ? along : 0;
 }
 
 }  // namespace forming_sim
