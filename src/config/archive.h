@@ -10,15 +10,21 @@
 
 namespace forming_sim {
 
+/// Whether all bytes of a T are its value: numbers, vectors of fixed size, and what has no padding, whose bytes nobody would have written.
+template <class T, class = void> struct Whole : std::bool_constant<std::is_arithmetic_v<T> || std::has_unique_object_representations_v<T>> {};
+template <class T> struct Whole<T, std::void_t<typename T::Scalar>> : std::bool_constant<sizeof(T) == T::SizeAtCompileTime * sizeof(typename T::Scalar)> {};
+
+
 class Writer {
  public:
   template <class T> void raw(const T& value) {
-    static_assert(std::is_trivially_copyable<T>::value, "only plain values");
+    static_assert(Whole<T>::value, "only plain values without padding");
     append(&value, sizeof(T));
   }
   template <class T> void number(const T& value) { raw(value); }
   void numbers(const double* values, std::size_t count) { append(values, count * sizeof(double)); }
   template <class T> void list(const std::vector<T>& values) {
+    static_assert(Whole<T>::value, "only plain values without padding");
     number(values.size());
     append(values.data(), values.size() * sizeof(T));
   }
@@ -45,12 +51,13 @@ class Reader {
  public:
   explicit Reader(const std::vector<char>& data) : data_(data) {}
   template <class T> void raw(T& value) {
-    static_assert(std::is_trivially_copyable<T>::value, "only plain values");
+    static_assert(Whole<T>::value, "only plain values without padding");
     take(&value, sizeof(T));
   }
   template <class T> void number(T& value) { raw(value); }
   void numbers(double* values, std::size_t count) { take(values, count * sizeof(double)); }
   template <class T> void list(std::vector<T>& values) {
+    static_assert(Whole<T>::value, "only plain values without padding");
     std::size_t count = 0;
     number(count);
     if (count > (data_.size() - at_) / sizeof(T)) fail();

@@ -8,8 +8,8 @@
 
 namespace forming_sim {
 
-/// What a source may hold; corners in the order of mesh.h.
-enum class RawKind { point, line, triangle, quadrilateral, tetrahedron, hexahedron };
+/// What a source may hold; corners in the order of mesh.h. As wide as a tag, so that a RawCell has no padding.
+enum class RawKind : long long { point, line, triangle, quadrilateral, tetrahedron, hexahedron };
 struct RawShape {
   const char* name;
   int dimension, corners;
@@ -19,7 +19,7 @@ const RawShape& shape_of(RawKind kind);
 struct RawCell {
   RawKind kind;
   long long tag;     ///< number by which its author knows it
-  int nodes[8];      ///< indices into RawMesh::points
+  int nodes[8] = {}; ///< indices into RawMesh::points
 };
 
 struct RawMesh {

@@ -114,7 +114,7 @@ A run is a list of stages. Times of motions, boundaries, pressures and loads cou
 
 - `form` runs for `duration`, or until a tool has stopped (`until_stopped`).
 - `withdraw` moves tools away from where they stand by `displacement`, smoothly, in `duration`; then they are gone.
-  Without a displacement they are gone at once, and what they held the bodies by fades in `release_time`, as does what a boundary
+  Without a displacement they are gone at once; they let go of what they squeezed the bodies by, and what then holds these fades in `release_time`, as does what a boundary
   with `until` held: what lets go of a sheet in one step (`release: sudden`) makes it flow anew as it springs back.
 - `settle` takes motion out of the bodies until the kinetic energy of each stays below `kinetic_fraction` of its elastic one:
   springback. Tools that forces drive and that press on them rest with them, and it does not end while a motion, a pressure or a load is between two of its

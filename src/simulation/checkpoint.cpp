@@ -11,7 +11,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f6600000012u;
+constexpr std::uint64_t kLayout = 0x6d726f6600000013u;
 
 template <class T> std::size_t mark_of(const T* values, std::size_t count) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(values), count * sizeof(T)});
@@ -44,7 +44,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
                         &initial, &most, &min_gap, &explicit_stable_dt, &first_dt, &first_element_dt, &smallest.dt, &next_crossing_check, &wall, &observed})
     a.number(*value);
   for (long* value : {&steps, &halvings, &sweeps, &swept_steps, &unsettled_steps, &active_pairs, &crossings, &longer_steps}) a.number(*value);
-  a.raw(control);
+  control.exchange(a);
   watch.exchange(a);
   if (plan.time_step.limit == "global") global.exchange(a, static_cast<std::size_t>(elements.blocks()) * kLanes);
   if (!by_cells()) departure.exchange(a, x.size());
@@ -65,6 +65,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.number(ledger_told);
   a.number(overstepped);
   a.number(fall_told);
+  supports.exchange(a);
   fading.exchange(a);
   a.numbers(contact_force.data(), contact_force.size());
   const auto exchange_reaction = [&](Reaction& reaction) {

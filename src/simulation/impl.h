@@ -9,6 +9,7 @@
 #include "forming_sim/loads/dead_load.h"
 #include "forming_sim/loads/fading_forces.h"
 #include "forming_sim/loads/pressure.h"
+#include "forming_sim/loads/receding_supports.h"
 #include "forming_sim/simulation/ledger_watch.h"
 #include "forming_sim/simulation/simulation.h"
 #include "simulation/departure.h"
@@ -41,6 +42,7 @@ struct Simulation::Impl {
   std::vector<Vec3> held_impulse;   ///< of contact on boundaries.nodes() along what holds them, in a step, N s
   PressureSet pressures;
   DeadLoadSet dead_loads;
+  RecedingSupports supports;        ///< in the place of tools that have let go
   FadingForces fading;              ///< of what has let go
   StageRunner stages;
   std::optional<Contact> contact;
@@ -164,6 +166,9 @@ struct Simulation::Impl {
   double release_time() const;
   /// Keeps what held the bodies until the running stage began, and no longer does, as forces that fade; held_before: the boundaries until then, of which some may have ended.
   void let_go(const BoundarySet& held_before, bool boundaries_ended);
+  void go_on_letting_go();
+  /// When what has let go is no more, s; 0: nothing has.
+  double let_go_until() const { return std::max(supports.end(), fading.end()); }
 
   // simulation.cpp
   void begin_stage();

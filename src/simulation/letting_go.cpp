@@ -1,10 +1,9 @@
 // What lets go of a body: tools that leave while they press on it, boundaries that end. Taken away in one step their forces would send
-// a wave through the body, which makes it flow anew where it was about to. So they stay as forces on its nodes, and fade.
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
+// a wave through the body, which makes it flow anew where it was about to. So they stay on its nodes: supports in the place of tools recede
+// until they squeeze it no more, and what then holds it fades.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <map>
 
 #include "forming_sim/mesh/measure.h"
 #include "forming_sim/simulation/stage_times.h"
@@ -15,6 +14,7 @@ namespace forming_sim {
 namespace {
 constexpr double kCantilever = 6.2;  ///< 2 pi sqrt(12)/1.875^2: period of the first swing of a beam held at one end, over L^2/(t c)
 constexpr double kRoom = 0.25;       ///< of the time until the bodies have to rest or are formed on: for more of it nothing fades
+constexpr double kSqueezed = 0.1;    ///< of the forces of tools that are let go: less that balances itself does not squeeze
 constexpr double kMoving = 0.3;      ///< of the forces that are let go: more than this sets the body in motion as a whole
 
 bool any(const std::vector<char>& of) { return std::find(of.begin(), of.end(), 1) != of.end(); }
@@ -28,18 +28,6 @@ double time_to_rest(const std::vector<StageConfig>& stages, int begin) {
     if (stages[k].kind == "settle") break;
   }
   return longest_time(until);
-}
-/// The projector on the directions in which no node of the body is held; a ring cannot go outward as a whole.
-Mat3 free_ways(const BoundarySet& held, const BodyModel& body, bool axisymmetric) {
-  Mat3 all = Mat3::Zero();
-  if (axisymmetric) all(0, 0) = 1;
-  for (std::size_t i = 0; i < held.nodes().size(); ++i)
-    if (held.nodes()[i] >= body.first_node && held.nodes()[i] < body.first_node + body.node_count) all += Mat3::Identity() - held.projector(static_cast<int>(i));
-  const Eigen::SelfAdjointEigenSolver<Mat3> directions(all);
-  Mat3 free = Mat3::Zero();
-  for (int k = 0; k < 3; ++k)
-    if (directions.eigenvalues()[k] < 1e-9) free += directions.eigenvectors().col(k) * directions.eigenvectors().col(k).transpose();
-  return free;
 }
 }  // namespace
 
@@ -77,7 +65,8 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
   };
   if (boundaries_ended)
     for (int n : held_before.nodes()) held_by[n] = free_part(held_before, n, f[n]) - free_part(boundaries, n, f[n]);
-  std::vector<char> on_surface(x.size(), 0), pressed_on(x.size(), 0);
+  std::vector<char> pressed_on(x.size(), 0);
+  std::vector<double> pressed_area(x.size(), 0);  // m2
   if (contact) {
     for (int n : touchable) pressed_on[n] = std::abs(contact_force[n]) > least_press() * contact->nodal_area()[n];
     for (const Contact::ActedOn& on : contact->acted_on(stages.left())) {
@@ -85,10 +74,15 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
       pressed_on[n] = pressed_on[n] || on.others;
       if (!on.asked || !pressed_on[n]) continue;
       held_by[n] = free_part(boundaries, n, on.others ? Node(on.impulse / previous_kick) : Node(-f[n]));
-      on_surface[n] = 1;
+      pressed_area[n] = contact->nodal_area()[n];
     }
   }
-  for (const BodyModel& body : model.bodies) {
+  std::map<int, std::vector<Vec3>> around;  // of nodes that are pressed, the areas of the faces there
+  for (const Face& face : faces)
+    for (int k = 0; k < face.corners; ++k)
+      if (pressed_area[face.nodes[k]] > 0) around[face.nodes[k]].push_back(area_share(face, k, x, model.axisymmetric));
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
     Node moving = Node::Zero();  // what accelerates nodes that nothing presses on, all together
     double held = 0;
     const int end = body.first_node + body.node_count;
@@ -97,13 +91,27 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
       if (!pressed_on[n]) moving += free_part(held_before, n, f[n]);
     }
     if (moving.norm() > kMoving * held) continue;  // it flies, or gathers speed: there is no rest that could be kept
-    std::vector<HoldingForce> forces;
+    std::vector<Held> forces;
     for (int n = body.first_node; n < end; ++n)
-      if (!held_by[n].isZero(0)) forces.push_back({n, on_surface[n] != 0, held_by[n]});
+      if (pressed_area[n] > 0)
+        for (const Vec3& part : parts_by_face(vec3(held_by[n]), around[n])) forces.push_back({{n, node(part)}, pressed_area[n]});
+      else if (!held_by[n].isZero(0))
+        forces.push_back({{n, held_by[n]}, 0});
     if (forces.empty()) continue;
-    const auto mass = elements.nodal_mass().begin();
-    fading.begin(time, duration, elements.stored_energy_of(body, x), {body.first_node, body.node_count, std::accumulate(mass + body.first_node, mass + end, 0.0), free_ways(boundaries, body, model.axisymmetric)}, std::move(forces), faces, x);
+    if (RecedingSupports::squeeze(forces) > kSqueezed) {
+      supports.begin({static_cast<int>(b), thickness_of(body.mesh, model.axisymmetric), body.material.E(), time, duration}, previous_dt, elements.nodal_mass(), x, forces);
+    } else {
+      std::vector<HoldingForce> to_fade;
+      for (const Held& held : forces) to_fade.push_back(held.by);
+      fading.begin(time, duration, elements.stored_energy_of(body, x), std::move(to_fade));
+    }
   }
+}
+
+void Simulation::Impl::go_on_letting_go() {
+  fading.forget(time);
+  for (RecedingSupports::Receded& receded : supports.take(time))
+    fading.begin(time, receded.of.fade, elements.stored_energy_of(model.bodies[receded.of.body], x), std::move(receded.forces));
 }
 
 }  // namespace forming_sim

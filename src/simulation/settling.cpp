@@ -84,7 +84,7 @@ void Simulation::Impl::see_rest() {
     of_tools.f_Mf += unbalanced * unbalanced / (drive->mass() + all);
     of_tools.kinetic += 0.5 * drive->mass() * drive->velocity().squaredNorm();
   }
-  if (!fading.empty() || still_driven()) settle.not_yet(time);
+  if (let_go_until() > 0 || still_driven()) settle.not_yet(time);
   rests = settle.at_rest(time, bodies, of_tools);
 }
 
@@ -111,8 +111,8 @@ std::string Simulation::Impl::why_unsettled() const {
     const std::string moving = what_moves();
     if (!moving.empty()) text << moving << ": end it with a velocity of 0";
     else text << (loaded ? "pressures or loads still act on them: let these end before (last entry 0) if nothing holds the bodies against them" : "a longer limit lets them come to rest");
-  } else if (!fading.empty()) {
-    text << "before the bodies rested; what held them was still fading, until " << fading.end() << " s: a longer limit or a shorter stages[].release_time lets them come to rest";
+  } else if (let_go_until() > 0) {
+    text << "before the bodies rested; what held them was still fading, until " << let_go_until() << " s: a longer limit or a shorter stages[].release_time lets them come to rest";
   } else if (still_driven()) {
     text << "while a motion, a pressure or a load still changed: a longer limit lets the bodies come to rest after it, and with `ends: limit` the stage does not wait for it";
   } else {

@@ -29,12 +29,12 @@ void Simulation::Impl::predict(double step_dt, NodeField& v_star) const {
 }
 
 void Simulation::Impl::find_loads() {
-  fading.forget(time);
-  if (pressures.empty() && dead_loads.empty() && fading.empty() && plan.gravity.isZero()) return external.clear();
+  if (pressures.empty() && dead_loads.empty() && supports.empty() && fading.empty() && plan.gravity.isZero()) return external.clear();
   external.assign(x.size(), Node::Zero());
   pressures.add(time, x, external);
   dead_loads.add(time, external);
-  fading.add(time, x, elements.nodal_mass(), external);
+  supports.add(time, x, external);
+  fading.add(time, external);
   if (!plan.gravity.isZero()) add_gravity(plan.gravity, physical_mass, external);
 }
 
@@ -43,6 +43,7 @@ void Simulation::Impl::take_step() {
   choose_dt();
   --control.until_next;
   if (control.longer) ++longer_steps;
+  go_on_letting_go();
   elements.find_forces(x, v, previous_dt, previous_kick);
   find_loads();
   if (stages.settling()) watch_settling();
@@ -154,7 +155,7 @@ void Simulation::Impl::book_loads() {
   const double kick = 0.5 * (previous_dt + dt), alpha = damping_rate();
   const std::vector<double>& mass = elements.nodal_mass();
   for (std::size_t i = 0; i < external.size(); ++i) work += 0.5 * kick * external[i].dot(v_before[i] + v[i]);
-  if (!fading.empty() && fading.work(kick, mass, v_before, v)) {
+  if (!fading.empty() && fading.work(kick, v_before, v)) {
     std::ostringstream text;
     text << "what had let go of the bodies was to fade, but drove them on by more than the elastic energy that they could spring back by: they gave way. At " << time
          << " s it was taken away at once; move the tools away instead (stages[].displacement), or give stages[].release_time less than they take to give way";

@@ -15,6 +15,16 @@ struct StepControl {
   double bound = 0;        ///< what was found last, s
   int interval = 1, until_next = 0;
 
+  template <class Archive> void exchange(Archive& a) {
+    a.number(stable_dt);
+    a.number(element);
+    a.number(node);
+    a.number(longer);
+    a.number(bound);
+    a.number(interval);
+    a.number(until_next);
+  }
+
   bool due() const { return until_next <= 0; }
   /// Something has come that the last bound did not foresee: ask at once, and again after one step.
   void hurry() { interval = 1, until_next = 0; }
