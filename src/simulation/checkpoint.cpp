@@ -41,7 +41,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.numbers(x.data()->data(), x.size() * 4);
   a.numbers(v.data()->data(), v.size() * 4);
   for (double* value : {&time, &dt, &previous_dt, &previous_kick, &work, &damping, &settled_away, &friction, &contact_dissipated, &contact_potential,
-                        &initial, &most, &min_gap, &explicit_stable_dt, &first_dt, &first_element_dt, &smallest.dt, &next_crossing_check, &wall, &observed})
+                        &initial, &most, &min_gap, &explicit_stable_dt, &first_dt, &first_element_dt, &farthest, &smallest.dt, &next_crossing_check, &wall, &observed})
     a.number(*value);
   for (long* value : {&steps, &halvings, &sweeps, &swept_steps, &unsettled_steps, &active_pairs, &crossings, &longer_steps}) a.number(*value);
   control.exchange(a);

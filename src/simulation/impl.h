@@ -66,6 +66,7 @@ struct Simulation::Impl {
   long longer_steps = 0;            ///< than time_step.limit node allows
   double first_dt = 0;
   double first_element_dt = 0;  ///< stable step of the limiting element at the start, s
+  double farthest = 0;          ///< coordinate of a node at the start, m
   Settle settle;                    ///< of the running stage
   std::string unsettled;            ///< why the last settle stage that ran into its limit did; empty: none has
   NodeField f_before;               ///< forces of the step before an estimate of the settling frequency
@@ -160,10 +161,12 @@ struct Simulation::Impl {
   void see_rest();
 
   // letting_go.cpp
-  /// L^2/(t c) of the body where it is most, c the speed of a wave along a bar, s: about the period of the slowest swing of a free strip.
-  double slowness() const;
-  /// Time in which fades what lets go at the beginning of the running stage, s; 0: it is gone at once.
-  double release_time() const;
+  /// L^2/(t c) of a body, c the speed of a wave along a bar, s: about the period of the slowest swing of a free strip.
+  double slowness(const BodyModel& body) const;
+  /// Whether what lets go at the beginning of the running stage fades, or is gone at once.
+  bool lets_go_slowly() const;
+  /// The time in which it fades, s; slowest: slowness of the bodies that are let go.
+  double release_time(double slowest) const;
   /// Keeps what held the bodies until the running stage began, and no longer does, as forces that fade; held_before: the boundaries until then, of which some may have ended.
   void let_go(const BoundarySet& held_before, bool boundaries_ended);
   void go_on_letting_go();

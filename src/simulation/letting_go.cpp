@@ -31,30 +31,28 @@ double time_to_rest(const std::vector<StageConfig>& stages, int begin) {
 }
 }  // namespace
 
-double Simulation::Impl::slowness() const {
-  double slowest = 0;
-  for (const BodyModel& body : model.bodies) {
-    const double size = bounds(body.mesh).diagonal().norm(), speed = std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling);
-    slowest = std::max(slowest, size * size / (thickness_of(body.mesh, model.axisymmetric) * speed));
-  }
-  return slowest;
+double Simulation::Impl::slowness(const BodyModel& body) const {
+  const double size = bounds(body.mesh).diagonal().norm(), speed = std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling);
+  return size * size / (thickness_of(body.mesh, model.axisymmetric) * speed);
 }
 
-double Simulation::Impl::release_time() const {
+bool Simulation::Impl::lets_go_slowly() const {
   const StageConfig& stage = stages.stage();
-  if (stage.release == "sudden") return 0;
-  if (stage.release_time > 0) return stage.release_time;
+  if (stage.release == "sudden") return false;
   const auto flows = [](const BodyModel& body) { return body.material.hardening || !body.material.layers.empty(); };
-  if (std::none_of(model.bodies.begin(), model.bodies.end(), flows)) return 0;  // what is elastic ends where it would anyhow
-  return std::min(kCantilever * slowness(), kRoom * time_to_rest(plan.stages, stages.index()));
+  return stage.release_time > 0 || std::any_of(model.bodies.begin(), model.bodies.end(), flows);  // what is elastic ends where it would anyhow
+}
+
+double Simulation::Impl::release_time(double slowest) const {
+  const StageConfig& stage = stages.stage();
+  return stage.release_time > 0 ? stage.release_time : std::min(kCantilever * slowest, kRoom * time_to_rest(plan.stages, stages.index()));
 }
 
 // What holds a node of a body at rest balances all other forces on it, f: so it is -f where tools pressed, and along the directions in
 // which a boundary lets go. Where something else acts on the node as well it is what the tools did in the last step.
 void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_ended) {
   if (!any(stages.left()) && !boundaries_ended) return;
-  const double duration = release_time();
-  if (duration == 0) return;
+  if (!lets_go_slowly()) return;
   NodeField f(x.size());
   sum_nodes(elements.team(), forces(), f);
   NodeField held_by(x.size(), Node::Zero());
@@ -81,6 +79,8 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
   for (const Face& face : faces)
     for (int k = 0; k < face.corners; ++k)
       if (pressed_area[face.nodes[k]] > 0) around[face.nodes[k]].push_back(area_share(face, k, x, model.axisymmetric));
+  std::vector<std::vector<Held>> forces_on(model.bodies.size());
+  double slowest = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     Node moving = Node::Zero();  // what accelerates nodes that nothing presses on, all together
@@ -91,12 +91,18 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
       if (!pressed_on[n]) moving += free_part(held_before, n, f[n]);
     }
     if (moving.norm() > kMoving * held) continue;  // it flies, or gathers speed: there is no rest that could be kept
-    std::vector<Held> forces;
+    std::vector<Held>& forces = forces_on[b];
     for (int n = body.first_node; n < end; ++n)
       if (pressed_area[n] > 0)
         for (const Vec3& part : parts_by_face(vec3(held_by[n]), around[n])) forces.push_back({{n, node(part)}, pressed_area[n]});
       else if (!held_by[n].isZero(0))
         forces.push_back({{n, held_by[n]}, 0});
+    if (!forces.empty()) slowest = std::max(slowest, slowness(body));
+  }
+  const double duration = release_time(slowest);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const std::vector<Held>& forces = forces_on[b];
     if (forces.empty()) continue;
     if (RecedingSupports::squeeze(forces) > kSqueezed) {
       supports.begin({static_cast<int>(b), thickness_of(body.mesh, model.axisymmetric), body.material.E(), time, duration}, previous_dt, elements.nodal_mass(), x, forces);

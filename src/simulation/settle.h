@@ -12,10 +12,11 @@
 // fraction of its elastic energy for a while. A body that returns to its shape keeps
 // none: then a millionth of the largest energy that it has had in the stage stands for it; and what positions cannot tell is no unrest.
 // Each is judged by itself, with the omega of its own motion: beside a block under pressure a soft strip has no energy, and its forces, over
-// the block's omega^2, next to none to set free.
+// the block's omega^2, next to none to set free. One that has had no energy in the stage has nothing to come to rest from, however slowly it would swing.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace forming_sim {
@@ -34,10 +35,10 @@ class Settle {
   };
 
   Settle() = default;
-  /// shortest: s, time for which the bodies must be quiet (size^2 / (thickness wave
+  /// shortest_of: s, time for which each body must be quiet (size^2 / (thickness wave
   /// speed), about the slowest swing of a strip). least: J, of which positions tell nothing: what has less rests.
-  Settle(double start, std::size_t bodies, double shortest, double fraction, double least)
-      : shortest_(shortest), fraction_(fraction), least_(least), quiet_since_(start), looked_(start), omega_of_(bodies, 0.0), most_of_(bodies, 0.0) {}
+  Settle(double start, std::vector<double> shortest_of, double fraction, double least)
+      : fraction_(fraction), least_(least), quiet_since_(start), looked_(start), shortest_of_(std::move(shortest_of)), omega_of_(shortest_of_.size(), 0.0), most_of_(shortest_of_.size(), 0.0) {}
 
   /// One swing a body, over a step dt; driven: v . M v of the tools that settle with them.
   void estimate(const std::vector<Swing>& swings, double driven, double dt) {
@@ -72,7 +73,7 @@ class Settle {
     const bool was_quiet = is_quiet();
     looked_ = t;
     if (!quiet) quiet_since_ = t;
-    return was_quiet && t - quiet_since_ > shortest_;
+    return was_quiet && t - quiet_since_ > shortest();
   }
   /// The bodies are not on their own yet: what they were held by fades.
   void not_yet(double t) { quiet_since_ = t; }
@@ -82,10 +83,16 @@ class Settle {
   double restless() const { return restless_; }
   double quiet() const { return quiet_; }
   /// For so long they have to be quiet, s.
-  double shortest() const { return shortest_; }
+  double shortest() const {
+    double longest = 0;
+    for (std::size_t b = 0; b < shortest_of_.size(); ++b)
+      if (most_of_[b] > least_) longest = std::max(longest, shortest_of_[b]);
+    return longest;
+  }
 
   template <class Archive> void exchange(Archive& a) {
-    for (double* value : {&shortest_, &fraction_, &least_, &quiet_since_, &looked_, &omega_, &restless_, &quiet_}) a.number(*value);
+    for (double* value : {&fraction_, &least_, &quiet_since_, &looked_, &omega_, &restless_, &quiet_}) a.number(*value);
+    a.list(shortest_of_);
     a.list(omega_of_);
     a.list(most_of_);
   }
@@ -95,9 +102,10 @@ class Settle {
     if (swing.v_Mv > 0 && swing.v_df < 0) omega = std::min(std::sqrt(-swing.v_df / (dt * swing.v_Mv)), 0.5 / dt);
   }
 
-  double shortest_ = 0, fraction_ = 0, least_ = 0, quiet_since_ = 0, looked_ = 0, restless_ = 0, quiet_ = 0;
+  double fraction_ = 0, least_ = 0, quiet_since_ = 0, looked_ = 0, restless_ = 0, quiet_ = 0;
   double omega_ = 0;               ///< of all together: what damps
-  std::vector<double> omega_of_;   ///< of each body
+  std::vector<double> shortest_of_;  ///< of each body, s
+  std::vector<double> omega_of_;   ///< likewise
   std::vector<double> most_of_;    ///< likewise, J: the largest of its elastic and kinetic energy
 };
 

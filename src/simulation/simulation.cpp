@@ -22,13 +22,15 @@ void Simulation::Impl::begin_stage() {
   if (steps > 0 && !stages.finished()) {
     let_go(held_before, ended);
     // What is free at once begins to swing, often faster than what the last step was for: its first kick is that of its own steps. A longer one would give it energy.
-    if (ended && release_time() == 0) {
+    if (ended && !lets_go_slowly()) {
       find_stable_step();
       previous_dt = std::min(previous_dt, full_dt());
     }
   }
   if (!stages.settling()) return;
-  settle = Settle(time, model.bodies.size(), slowness(), stages.stage().kinetic_fraction, least_energy());
+  std::vector<double> slowest;
+  for (const BodyModel& body : model.bodies) slowest.push_back(slowness(body));
+  settle = Settle(time, std::move(slowest), stages.stage().kinetic_fraction, least_energy());
 }
 
 void Simulation::Impl::check_ledger(double residual, double error) {

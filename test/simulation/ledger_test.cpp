@@ -137,6 +137,22 @@ TEST(LedgerWatch, ShortensStepsWhileEnergyComesFromNowhere) {
   EXPECT_EQ(watch.shortened(), 21);
 }
 
+// Places far from the origin are rounded more coarsely: what that does to a plate on which nothing acts is no energy from nowhere, and shortens no step.
+TEST(LedgerWatch, LeavesWhatWaitsFarFromTheOriginAlone) {
+  int steps[2];
+  for (const bool far : {false, true}) {
+    BlankConfig blank = strip_of(10e-3, 1e-3, 20, 2);
+    blank.origin = Vec3(far ? 1 : 0, 0, 0);
+    OneBody run(body_of(generate_blank(blank), aluminium(false)), 1e-3);
+    auto sim = run.start();
+    while (sim->step()) {}
+    steps[far] = sim->steps();
+    EXPECT_LT(sim->balance_error(), 0.01);
+    EXPECT_TRUE(sim->warnings().empty()) << sim->warnings()[0];
+  }
+  EXPECT_NEAR(steps[1], steps[0], 1);
+}
+
 // A tube of steel that does not yield is crushed to two thirds: it folds, snaps through and rings with strains of .4, and swings of
 // three steps a turn make a fifth of the work of the tools from nowhere where nothing watches over the ledger.
 TEST(LedgerWatch, KeepsATubeThatSnapsThrough) {

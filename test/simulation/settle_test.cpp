@@ -127,6 +127,20 @@ TEST(Settle, JudgesEachBodyByItself) {
 }
 
 // A compact block is slower to look at than to swing: it is quiet from one look to the next all the same, a time over which its weight can be felt.
+// A long thin strip far away, on which nothing acts, once made a settle stage as long as its own slowest swing.
+TEST(Settle, DoesNotWaitForABodyThatDoesNothing) {
+  OneBody alone = loaded(0, 5e-4, 1), beside = alone;
+  BlankConfig strip = strip_of(300e-3, 1e-3, 100, 2);
+  strip.origin = Vec3(0.5, 0, 0);
+  add_flying(beside.model, beside.plan, body_of(generate_blank(strip), aluminium()), "idle", Vec3::Zero());
+  auto first = alone.start(), second = beside.start();
+  for (auto* sim : {&first, &second})
+    while ((*sim)->step()) {}
+  std::printf("  at rest after %.3g s, beside an idle strip %.3g s\n", first->time(), second->time());
+  EXPECT_NEAR(second->time(), first->time(), .1 * first->time());
+  EXPECT_NEAR(sag(*second), sag(*first), .003 * sag(*first));
+}
+
 TEST(Settle, IsQuietBeforeItEnds) {
   OneBody run(body_of(generate_blank(strip_of(10e-3, 10e-3, 2, 2)), aluminium()), 1);
   run.model.tools = {plane_at("floor", 2, Vec3(0, -1e-5, 0), Vec3::UnitY())};

@@ -65,7 +65,7 @@ struct StageConfig {
     visit(FORMING_SIM_FIELD(ends), Field().choices({"rest", "limit"}).when("kind", {"settle"}).doc("rest: when the bodies rest; limit: at limit, also where they rest before it, so that it is known when the motions of later stages begin"));
     visit(FORMING_SIM_FIELD(release), Field().choices({"gradual", "sudden"})
           .doc("how tools that are gone, and boundaries whose until it is, let go of the bodies when the stage begins: gradual: tools that squeeze a body recede until they do so no more, in a third of release_time, and the forces that then still hold it fade (where a body gives way and they would drive it on they are gone at once, which is told); sudden: they are gone in one step, and the wave that this sends out may make a body flow that springs back"));
-    visit(FORMING_SIM_FIELD(release_time), Field().unit("s").at_least(0).when("release", {"gradual"}).computed("the period of the slowest swing of the largest body if it were held at one end, 6.2 L^2/(t c), and no more than a quarter of the time until the end of the next settle stage, or until the next form stage begins; none where no body is plastic, or one flies or gathers speed").doc("time in which these forces fade; 0: as by default"));
+    visit(FORMING_SIM_FIELD(release_time), Field().unit("s").at_least(0).when("release", {"gradual"}).computed("the period of the slowest swing of the largest body that is let go, if it were held at one end, 6.2 L^2/(t c), and no more than a quarter of the time until the end of the next settle stage, or until the next form stage begins; none where no body is plastic, or one flies or gathers speed").doc("time in which these forces fade; 0: as by default"));
   }
 };
 
