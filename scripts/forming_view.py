@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Opens rviz on a run: a node for launch files.
 
-usage: forming_view.py fit | VIEW [TOPICS] [options of rviz]
+usage: forming_view.py fit | VIEW [TOPICS [FRAME]] [options of rviz]
 
 VIEW is one of the shipped views, forming (a section in x-y) or forming_3d, shown at once. fit waits for the first
 run on the topics and frames its bodies, the legend beside them, in the one or the other by the run's dimension.
-TOPICS is the namespace of the topics, forming_server unless given, in the namespace of the node.
+TOPICS is the namespace of the topics, forming_server unless given, in the namespace of the node; FRAME the frame of
+the bodies, forming_world unless given.
 """
 import os
 import re
@@ -18,6 +19,7 @@ import yaml
 from forming_sim.msg import PlasticStrainTopology
 
 SHIPPED = '/forming_server'  # the topics in the shipped views
+SHIPPED_FRAME = 'forming_world'
 DISTANCE = 1.6  # of the camera, over the size of the bodies
 
 
@@ -43,15 +45,23 @@ def save(view):
     return path
 
 
-def load(path, topics):
-    """The shipped view, on these topics."""
+def load(path, topics, frame):
+    """The shipped view, on these topics and in this frame."""
     with open(path) as file:
-        return yaml.safe_load(file.read().replace(SHIPPED + '/', topics + '/'))
+        view = yaml.safe_load(file.read().replace(SHIPPED + '/', topics + '/'))
+    view['Visualization Manager']['Global Options']['Fixed Frame'] = frame
+    return view
+
+
+def split(arguments):
+    """What is given by its place, and the rest: options of rviz and remappings."""
+    places = next((i for i, a in enumerate(arguments) if re.match('-|__|.*:=', a)), len(arguments))
+    return arguments[:places], arguments[places:]
 
 
 def main():
-    name = sys.argv[1] if len(sys.argv) > 1 else ''
-    given, options = ('forming_server', sys.argv[2:]) if len(sys.argv) < 3 or re.match('-|__|.*:=', sys.argv[2]) else (sys.argv[2], sys.argv[3:])
+    given, options = split(sys.argv[1:])
+    name, given, frame = given + ['', 'forming_server', SHIPPED_FRAME][len(given):] if len(given) <= 3 else sys.exit(__doc__)
     topics = rospy.names.resolve_name(given, rospy.names.get_namespace() + 'view')
     views = os.path.join(rospkg.RosPack().get_path('forming_sim'), 'rviz')
     path = os.path.join(views, name + '.rviz')
@@ -62,15 +72,15 @@ def main():
             run = rospy.wait_for_message(topics + '/plastic_strain_topology', PlasticStrainTopology)
         except rospy.ROSInterruptException:
             return
-        view = load(os.path.join(views, 'forming.rviz' if run.dimension == 2 else 'forming_3d.rviz'), topics)
+        view = load(os.path.join(views, 'forming.rviz' if run.dimension == 2 else 'forming_3d.rviz'), topics, frame)
         nodes = [(p.x, p.y, p.z) for p in run.nodes]
         path = save(framed(view, [min(column) for column in zip(*nodes)], [max(column) for column in zip(*nodes)]))
         rospy.signal_shutdown('rviz takes its name')
     elif not os.path.exists(path):
         known = sorted(f[:-5] for f in os.listdir(views) if f.endswith('.rviz'))
         sys.exit(f"forming_view.py: given '{name}'; give fit or one of the views {', '.join(known)}")
-    elif topics != SHIPPED:
-        path = save(load(path, topics))
+    elif (topics, frame) != (SHIPPED, SHIPPED_FRAME):
+        path = save(load(path, topics, frame))
     os.execvp('rviz', ['rviz', '-d', path] + options)
 
 

@@ -29,7 +29,7 @@ int run(const OfflineOptions& options, const Scene& scene, std::unique_ptr<Simul
   std::signal(SIGTERM, stop);
   if (std::signal(SIGHUP, stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup asks to be left alone
   ProgressLine progress(isatty(STDERR_FILENO));
-  EndTable table;
+  EndTable table(options.output);
   std::vector<Observer*> watchers;
   if (!options.quiet) watchers = {&progress, &table};
   const Outcome outcome = run_scene(scene, options.output, options.thread_count(), options.resume, cancel, watchers, std::move(start));

@@ -11,7 +11,7 @@ namespace {
 constexpr double kHold = 1e6;      ///< K, of the masses: what is held counts so much more
 constexpr double kRest = .6;       ///< of all holds
 constexpr int kRounds = 64;        ///< with them kRest/kRounds of all holds lead halfway, some times as many to rounding
-constexpr double kDisagreed = .1;  ///< of the squares of what is told, which no rigid motion has: it tells nothing
+constexpr double kDisagreed = .1;  ///< of the squares of what is told, beside the motion of the masses, which no rigid motion has: it tells nothing
 
 /// So many of `count` that no more than `most` are asked; the nodes of structured cells repeat, and a prime stride does not fall in with them.
 std::size_t stride_of(std::size_t count, std::size_t most) {
@@ -131,7 +131,8 @@ template <int modes> BodyMotion MovingBody::of(const MassSums& masses, const std
   }
   Square G = Square::Zero();
   Vector g = Vector::Zero();
-  double told2 = 0;
+  double told2 = 0, beside2 = 0;
+  const Vector of_masses = mass > 0 ? solved(M, Mp) : Vector(Vector::Zero());
   for (const Hold& h : holds) {
     const Node r = h.x - c;
     double b[modes];
@@ -140,7 +141,10 @@ template <int modes> BodyMotion MovingBody::of(const MassSums& masses, const std
       repeat<modes>([&](auto l) { G(int{l}, int{k}) += b[l] * b[k]; });
       g[int{k}] += h.speed * b[k];
     });
+    double beside = h.speed;
+    repeat<modes>([&](auto k) { beside -= b[k] * of_masses[int{k}]; });
     told2 += h.speed * h.speed;
+    beside2 += beside * beside;
   }
   if (mass > 0) motion.own = rigid(c, solved(Square(M + kHold * mass * G), Mp));
   if (told2 == 0) return motion;
@@ -159,8 +163,8 @@ template <int modes> BodyMotion MovingBody::of(const MassSums& masses, const std
     E = Square(E * E);
   }
   motion.told = rigid(c, p);
-  const double left = (told2 - 2 * p.dot(g) + p.dot(G * p)) / told2;  // of the squares
-  motion.agreed = std::clamp(1 - left / kDisagreed, 0.0, 1.0);
+  const double left = std::max(told2 - 2 * p.dot(g) + p.dot(G * p), 0.0);  // of the squares
+  motion.agreed = beside2 > 0 ? std::max(1 - left / (kDisagreed * beside2), 0.0) : 1;
   return motion;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "forming_sim/config/words.h"
+#include "forming_sim/mesh/measure.h"
+#include "forming_sim/results/sharp_bend.h"
 
 namespace forming_sim {
 
@@ -24,6 +26,7 @@ void Recorder::on_stage_end(const Simulation& simulation, int index) {
                     energies.kinetic, energies.elastic, energies.plastic};
   ended.kinetic_over_internal_peak = record_.kinetic_peak.at_end(energies.elastic + energies.plastic);
   tell_inertia(simulation, stage);
+  tell_sharp_bends(simulation, index);
   record_.kinetic_peak.levels.clear();
   record_.stages.push_back(ended);
   if (stage.kind != "form") return;
@@ -49,6 +52,20 @@ void Recorder::tell_inertia(const Simulation& simulation, const StageConfig& sta
   if (stage.kind != "form" || !(most > kMuch) || e.initial > e.work || e.plastic < e.elastic) return;
   record_.notes.push_back("in stage " + stage.title() + " the kinetic energy was up to " + three_digits(100 * most) +
                           " % of the internal one when a fifth of this was there or more: unless bodies travel as a whole, inertia takes part in forces and shapes. Slower tools or less time_step.mass_scaling show by how much");
+}
+
+void Recorder::tell_sharp_bends(const Simulation& simulation, int stage) {
+  constexpr double kSharp = 15;  // degrees; a bend of 8 to 11 a cell springs back by a tenth too little or too much, of 23 by a factor (docs/elements.md)
+  const std::vector<StageConfig>& stages = simulation.plan().stages;
+  const auto forms = [](const StageConfig& s) { return s.kind == "form"; };
+  if (!forms(stages[stage]) || std::any_of(stages.begin() + stage + 1, stages.end(), forms)) return;
+  const Model& model = simulation.model();
+  for (const BodyModel& body : model.bodies) {
+    const SharpBend bend = sharpest_bend(body, model.axisymmetric, simulation.positions());
+    if (bend.degrees > kSharp)
+      record_.notes.push_back("body " + body.name + " is bent by up to " + three_digits(bend.degrees) + " degrees from one cell to the next, at " + place(bend.place) +
+                              " when forming ends: cells that follow a bend in steps of 10 degrees and less (docs/elements.md) give its force and its springback, longer ones neither");
+  }
 }
 
 void Recorder::on_end(const Simulation& simulation, Code code, const std::string&) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <sstream>
 #include <nlohmann/json.hpp>
 
@@ -300,6 +301,15 @@ void write_summary(const std::string& directory, const Json& summary) {
   // Names may hold bytes that are not UTF-8: they are replaced, never thrown over.
   const std::string text = summary.dump(2, ' ', false, Json::error_handler_t::replace);
   replace_file(in_directory(directory, "summary.json"), text + "\n");
+}
+
+std::string read_summary_text(const std::string& directory) {
+  const std::string path = in_directory(directory, "summary.json");
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  if (!file || !Json::accept(text.str())) throw Error(Code::output_error, "cannot read the summary " + path);
+  return text.str();
 }
 
 void SummaryFile::on_start(const Simulation& simulation) { start_time_ = simulation.time(); }

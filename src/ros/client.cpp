@@ -59,6 +59,7 @@ void print_summary(const SimulateFormingResult& result) {
   row("largest thinning", s.max_thinning, 100, "%");
   row("springback", s.springback_deg, 1, "deg");
   row("energy balance error", s.energies.balance_error, 100, "%");
+  row("kinetic over internal", s.kinetic_over_internal_forming, 100, "% (the most while forming)");
   row("crossings", static_cast<double>(s.crossings), 1, "");
   for (const ToolState& tool : s.tools) {
     row(("peak force on " + tool.name).c_str(), std::hypot(tool.peak_force.x, tool.peak_force.y, tool.peak_force.z), 1,
@@ -66,6 +67,7 @@ void print_summary(const SimulateFormingResult& result) {
     row((tool.name + " stopped at").c_str(), tool.stopped_s, 1e3, "ms");
     if (s.axisymmetric) row(("peak radial force on " + tool.name).c_str(), tool.peak_radial_force, 1, "N");
   }
+  for (const std::string& warning : s.warnings) std::printf("note: %s\n", warning.c_str());
   if (!result.files.empty()) std::printf("files in %s:\n", result.directory.c_str());
   for (const std::string& file : result.files) std::printf("  %s\n", file.c_str());
 }

@@ -24,8 +24,12 @@ Prepared prepare(const SceneSpec& message, const std::string& scene_text, int th
   Prepared prepared;
   try {
     std::vector<Fault> known;
-    prepared.scene = scene_from(message, known);
-    prepared.scene.text = scene_text.empty() ? write_scene(prepared.scene) : scene_text;
+    if (message.name.empty() && message.bodies.empty() && !scene_text.empty()) {
+      prepared.scene = read_scene(scene_text, fs::current_path().string(), known);
+    } else {
+      prepared.scene = scene_from(message, known);
+      prepared.scene.text = scene_text.empty() ? write_scene(prepared.scene) : scene_text;
+    }
     if (threads < 1 || threads > kMostThreads)
       known.push_back({Code::invalid_scene, "threads", std::to_string(threads), "give 1 to " + std::to_string(kMostThreads) + ", or 0 for the server's"});
     StartCheck start = check_start(prepared.scene, known, threads);

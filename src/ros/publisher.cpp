@@ -30,6 +30,8 @@ PublishOptions PublishOptions::read(const ros::NodeHandle& node) {
   read_parameter(node, "colour_max", "a number", options.markers.colour_max);
   read_parameter(node, "frame", "the name of a frame", options.markers.frame);
   const auto refuse = [&](const std::string& name, const std::string& given, const std::string& remedy) { refuse_parameter(node, name, given, remedy); };
+  if (const std::string& frame = options.markers.frame; frame.empty() || frame.front() == '/' || frame.back() == '/' || frame.find_first_of(" \t\n") != std::string::npos)
+    refuse("frame", '"' + frame + '"', "give the name of a frame, without a slash at either end and without spaces");
   if (!(options.rate > 0 && options.rate <= 1000)) {
     refuse("publish_rate", std::to_string(options.rate), "give a rate above 0 and at most 1000, in Hz");
   }

@@ -1,12 +1,11 @@
 #include "forming_sim/ros/summary.h"
 
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/results/summary.h"
 #include "forming_sim/ros/prepare.h"
 #include "forming_sim/tensor/vec.h"
 #include "geometry.h"
@@ -45,16 +44,9 @@ EnergyLedger ledger(const json& root) {
 }  // namespace
 
 RunSummary read_summary(const std::string& directory) {
-  const std::string path = directory + "/summary.json";
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
   RunSummary summary;
-  summary.json = text.str();
-  const json root = json::parse(summary.json, nullptr, false);
-  if (!file || root.is_discarded() || !root.is_object()) {
-    throw Error(Code::output_error, "cannot read the summary " + path);
-  }
+  summary.json = read_summary_text(directory);
+  const json root = json::parse(summary.json);
   summary.scene = root.value("scene", "");
   summary.dimension = static_cast<int>(count(root, "/dimension"));
   summary.axisymmetric = root.value("axisymmetric", false);
@@ -88,6 +80,8 @@ RunSummary read_summary(const std::string& directory) {
     state.stopped_s = number(tool, "/stopped_s");
     summary.tools.push_back(state);
   }
+  summary.kinetic_over_internal_forming = number(root, "/energy_J/kinetic_over_internal_forming");
+  summary.warnings = root.value("warnings", std::vector<std::string>());
   return summary;
 }
 

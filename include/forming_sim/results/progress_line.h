@@ -27,10 +27,14 @@ class ProgressLine : public Observer {
   double first_progress_ = 0;  ///< not 0 after a resume
 };
 
-/// A short table when the run has ended: what happened, forces, energies, the ledger.
+/// A short table when the run has ended: what happened, forces, energies, the ledger, and the warnings of the summary that the run left in `directory`.
 class EndTable : public Observer {
  public:
+  explicit EndTable(const std::string& directory) : directory_(directory) {}
   void on_end(const Simulation& simulation, Code code, const std::string& message) override;
+
+ private:
+  std::string directory_;
 };
 
 /// The line's text: fraction 0..1 of the run, seconds left (below 0: not known).

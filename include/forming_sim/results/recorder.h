@@ -20,6 +20,7 @@ class Recorder : public Observer {
  private:
   void look(const Simulation& simulation);
   void tell_inertia(const Simulation& simulation, const StageConfig& stage);  ///< of the stage that ends
+  void tell_sharp_bends(const Simulation& simulation, int stage);             ///< when the last of the form stages ends
   const OutputConfig output_;
   Schedule schedule_;
   Gauge& gauge_;

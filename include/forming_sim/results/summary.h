@@ -55,6 +55,9 @@ nlohmann::ordered_json summarize_refusal(const Scene& scene, const std::vector<F
 /// DIRECTORY/summary.json, replaced as a whole. Throws Error(output_error).
 void write_summary(const std::string& directory, const nlohmann::ordered_json& summary);
 
+/// What stands there, as text. Throws Error(output_error) where it is none.
+std::string read_summary_text(const std::string& directory);
+
 /// Writes the summary when the run ends.
 class SummaryFile : public Observer {
  public:

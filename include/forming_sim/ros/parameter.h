@@ -21,6 +21,11 @@ namespace forming_sim {
 template <class T> void read_parameter(const ros::NodeHandle& node, const std::string& name, const std::string& kind, T& value) {
   XmlRpc::XmlRpcValue given;
   if (!node.getParam(name, given)) return;
+  if constexpr (std::is_same_v<T, double>)  // roslaunch knows a number by its point: 3e8 comes as a text
+    if (given.getType() == XmlRpc::XmlRpcValue::TypeString) {
+      std::istringstream text(static_cast<std::string>(given));
+      if (text >> value && text.peek() == std::istringstream::traits_type::eof()) return;
+    }
   const bool rounded = std::is_same<T, int>::value && given.getType() == XmlRpc::XmlRpcValue::TypeDouble;
   if (!rounded && node.getParam(name, value)) return;
   std::ostringstream text;
