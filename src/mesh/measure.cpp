@@ -84,6 +84,11 @@ double thickness_of(const Mesh& mesh, bool axisymmetric) {
   return 2 * volume / area;
 }
 
+int nearest_node(const Mesh& mesh, const Vec3& point) {
+  const auto closer = [&](const Vec3& a, const Vec3& b) { return (a - point).squaredNorm() < (b - point).squaredNorm(); };
+  return static_cast<int>(std::min_element(mesh.nodes.begin(), mesh.nodes.end(), closer) - mesh.nodes.begin());
+}
+
 std::string place(const Vec3& x) {
   std::ostringstream text;
   text << '(' << x.x() << ", " << x.y() << ", " << x.z() << ") m";

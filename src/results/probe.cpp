@@ -5,17 +5,12 @@
 #include <cmath>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/mesh/measure.h"
 
 namespace forming_sim {
 namespace {
 
 constexpr double kDegrees = 180 / M_PI;
-
-int nearest_node(const BodyModel& body, const Vec3& point) {
-  const auto closer = [&](const Vec3& a, const Vec3& b) { return (a - point).squaredNorm() < (b - point).squaredNorm(); };
-  const auto& nodes = body.mesh.nodes;
-  return static_cast<int>(std::min_element(nodes.begin(), nodes.end(), closer) - nodes.begin());
-}
 
 std::vector<int> elements_of(const std::vector<int>& nodes, int corners,
                              const std::vector<std::array<int, 4>>& elements) {
@@ -46,7 +41,7 @@ std::vector<Probe> place_probes(const std::vector<ProbeConfig>& configs, const M
     Probe probe;
     probe.name = config.name;
     if (config.set.empty()) {
-      probe.nodes = {nearest_node(*body, config.point)};
+      probe.nodes = {nearest_node(body->mesh, config.point)};
     } else if (const auto set = body->mesh.sets.find(config.set); set != body->mesh.sets.end() && !set->second.empty()) {
       probe.nodes = set->second;
     } else {

@@ -152,6 +152,7 @@ void FormingServer::work() {
 void FormingServer::serve(Goal goal, Clock::time_point received) {
   bool accepted = false;
   SimulateFormingResult result;
+  tell(goal, Code::none, "the scene is checked and meshed");
   try {
     result = run(goal, accepted);
   } catch (const Error& error) {
@@ -165,6 +166,7 @@ void FormingServer::serve(Goal goal, Clock::time_point received) {
     result.code = ResultCode::INTERNAL_ERROR;
     result.message = "the run ended without an outcome: " + result.message;
   }
+  if (!accepted) tell(goal, static_cast<Code>(result.code), result.message);
   wait_for_client(received);
   {
     // From here a new goal is welcome: its client may have waited for this result only.
@@ -172,6 +174,17 @@ void FormingServer::serve(Goal goal, Clock::time_point received) {
     current_.reset();
   }
   finish(goal, result, accepted);
+}
+
+void FormingServer::tell(Goal& goal, Code code, const std::string& message) {
+  RunStatus status;
+  status.header = publisher_.header();
+  status.scene = goal.getGoal()->scene.name;
+  status.running = code == Code::none;
+  status.stage = "preparing";
+  status.code = static_cast<int>(code);
+  status.message = message;
+  publisher_.publish(status);
 }
 
 SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
@@ -210,7 +223,10 @@ SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
 
   SimulateFormingResult result = result_of(outcome.code, outcome.message);
   result.directory = directory;
-  if (!observer.begun()) return result;  // what is in the directory is of other runs
+  if (!observer.begun()) {
+    tell(goal, outcome.code, outcome.message);
+    return result;  // what is in the directory is of other runs
+  }
   result.files = run_files(directory);
   try {
     result.summary = read_summary(directory);

@@ -88,11 +88,22 @@ void tell_late(const Scene& scene, double end, std::vector<std::string>& notes) 
     if (tool.motion) tell("the motion of tool " + tool.name, *tool.motion);
 }
 
+void tell_odd_friction(const Scene& scene, std::vector<std::string>& notes) {
+  constexpr double kMost = 1;
+  const auto tell = [&](double friction, const std::string& whose) {
+    if (friction > kMost) notes.push_back("friction " + whose + " is " + number_text(friction) + ": metals in forming have .02 to .6; give a part of the normal force, not percent");
+  };
+  for (const ToolConfig& tool : scene.tools) tell(tool.friction, "of tool " + tool.name);
+  tell(scene.contact.friction, "of bodies against each other");
+  for (const PairConfig& pair : scene.contact.pairs) tell(pair.friction, "of the pair " + pair.first + ", " + pair.second);
+}
+
 }  // namespace
 
 void tell_odd_values(const Scene& scene, std::vector<std::string>& notes) {
   for (const BodyConfig& body : scene.bodies) tell_odd_material(body, notes);
   tell_odd_speeds(scene, notes);
+  tell_odd_friction(scene, notes);
   if (scene.time_step.mass_scaling > kMuchScaling)
     notes.push_back("time_step.mass_scaling " + number_text(scene.time_step.mass_scaling) + " makes waves " + three_digits(std::sqrt(scene.time_step.mass_scaling)) +
                     " times as slow: look at kinetic_over_internal_forming, and expect bodies to be squeezed flat where tools are faster than these waves");

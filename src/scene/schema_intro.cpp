@@ -18,7 +18,7 @@ forming_offline --plan my_scene.yaml                # what a step does and keeps
 forming_offline my_scene.yaml --output my_run       # the run and its files
 ```
 
-A scene is also the goal of the action `simulate_forming`: the message has the same field names. A message cannot
+A scene is also the goal of the action `simulate_forming`: the message has the same field names (in Python `springback.from` is `from_`). A message cannot
 leave a field out: there 0, "" and [] mean "not given", and the default holds.
 
 ## Units, coordinates, dimensions

@@ -21,6 +21,7 @@ TEST(RunScene, NothingHappensAndAllIsWell) {
   Scene scene = small_scene();
   scene.tools.clear();
   scene.bodies[0].blank->origin = Vec3(0.05, 0.3, 0);
+  for (ProbeConfig& probe : scene.output.probes) probe.point += Vec3(0.05, 0.3, 0);
   scene.stages.erase(scene.stages.begin() + 1);  // withdraw
   const Outcome outcome = run_scene(scene, directory.path(), 1, "", kNever);
   EXPECT_EQ(outcome.code, Code::success) << outcome.message;

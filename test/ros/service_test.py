@@ -28,44 +28,9 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import scenes  # noqa: E402
-from support import Client, executable  # noqa: E402
+from support import LIMIT, Client, Followed, executable, goal_of, run  # noqa: E402
 
 ACTION = '/forming_server/simulate_forming'
-LIMIT = rospy.Duration(60)
-
-
-class Followed:
-    """A goal with the feedback it got; waits on state, never on time."""
-
-    def __init__(self, goal):
-        self.client = Client()
-        assert self.client.wait_for_server(LIMIT), 'no server'
-        self.feedback = []
-        self.first = threading.Event()
-        self.active = threading.Event()
-        self.client.send_goal(goal, active_cb=self.active.set, feedback_cb=self._on_feedback)
-
-    def _on_feedback(self, feedback):
-        self.feedback.append(feedback.status)
-        self.first.set()
-
-    def wait_running(self):
-        assert self.first.wait(30), 'no feedback: ' + str(self.client.get_goal_status_text())
-        # Feedback may overtake the status; rospy's client gives a goal up as lost when it cancels it before that.
-        assert self.active.wait(30), 'not active: ' + str(self.client.get_goal_status_text())
-        assert self.client.get_state() == GoalStatus.ACTIVE, self.client.get_goal_status_text()
-
-    def result(self):
-        assert self.client.wait_for_result(LIMIT), 'no result'
-        return self.client.get_state(), self.client.get_result()
-
-
-def goal_of(scene, **fields):
-    return SimulateFormingGoal(scene=scenes.message(scene), **fields)
-
-
-def run(scene, **fields):
-    return Followed(goal_of(scene, **fields)).result()
 
 
 class ServiceTest(unittest.TestCase):

@@ -3,8 +3,13 @@ import subprocess
 import threading
 
 import actionlib
+import rospy
+from actionlib_msgs.msg import GoalStatus
 
-from forming_sim.msg import SimulateFormingAction
+import scenes
+from forming_sim.msg import SimulateFormingAction, SimulateFormingGoal
+
+LIMIT = rospy.Duration(60)
 
 
 def executable(name):
@@ -30,3 +35,37 @@ class Client(actionlib.SimpleActionClient):
     def _handle_feedback(self, handle, feedback):
         self._sent.wait()
         super()._handle_feedback(handle, feedback)
+
+
+class Followed:
+    """A goal with the feedback it got; waits on state, never on time."""
+
+    def __init__(self, goal):
+        self.client = Client()
+        assert self.client.wait_for_server(LIMIT), 'no server'
+        self.feedback = []
+        self.first = threading.Event()
+        self.active = threading.Event()
+        self.client.send_goal(goal, active_cb=self.active.set, feedback_cb=self._on_feedback)
+
+    def _on_feedback(self, feedback):
+        self.feedback.append(feedback.status)
+        self.first.set()
+
+    def wait_running(self):
+        assert self.first.wait(30), 'no feedback: ' + str(self.client.get_goal_status_text())
+        # Feedback may overtake the status; rospy's client gives a goal up as lost when it cancels it before that.
+        assert self.active.wait(30), 'not active: ' + str(self.client.get_goal_status_text())
+        assert self.client.get_state() == GoalStatus.ACTIVE, self.client.get_goal_status_text()
+
+    def result(self):
+        assert self.client.wait_for_result(LIMIT), 'no result'
+        return self.client.get_state(), self.client.get_result()
+
+
+def goal_of(scene, **fields):
+    return SimulateFormingGoal(scene=scenes.message(scene), **fields)
+
+
+def run(scene, **fields):
+    return Followed(goal_of(scene, **fields)).result()

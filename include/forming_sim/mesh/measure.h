@@ -34,6 +34,9 @@ double edge_of_tetrahedra(const Mesh& mesh);
 /// both turned, by the radii of their middles.
 double thickness_of(const Mesh& mesh, bool axisymmetric);
 
+/// The node whose initial place is nearest to a point.
+int nearest_node(const Mesh& mesh, const Vec3& point);
+
 /// "(x, y, z) m", as messages name a place.
 std::string place(const Vec3& x);
 

@@ -53,6 +53,8 @@ class FormingServer {
 
   void work();
   void serve(Goal goal, Clock::time_point received);
+  /// A status of a goal that does not run: it is prepared (Code::none), or it ended before its first step.
+  void tell(Goal& goal, Code code, const std::string& message);
   SimulateFormingResult run(Goal& goal, bool& accepted);
   void finish(Goal& goal, const SimulateFormingResult& result, bool accepted);
   /// Until the client of a goal that came then can take an answer to it.
