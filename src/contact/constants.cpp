@@ -38,7 +38,7 @@ void PairConstants::let_waves_leave(const ContactPair& pair, Rub& rub) const {
   const double area = pair.stiffness / (modulus * layer);
   rub.lasting = phi / sum;
   const WaveBody& body = waves->of_pair(pair.own, pair.surface);
-  rub.beta = body.impedance * rub.lasting * area * work.kick;
+  rub.beta = part_that_leaves(rub.friction) * body.impedance * rub.lasting * area * work.kick;
   rub.memory = kMemoryShare * body.time;
   rub.steady = relative(pair, work.steady);
 }

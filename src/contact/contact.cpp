@@ -134,7 +134,7 @@ void Contact::Impl::follow_steady_motion(double dt, const std::vector<ToolMotion
     work.each_of_bodies(pair, [&](int i, double b) {
       RubbedNode& rubbed = pressed[place_pressed[i]];
       rubbed.normal += b * pair.impulse * pair.normal;
-      rubbed.radiated += b * near.rubs[pair.rub].radiated;
+      rubbed.radiated += b / part_that_leaves(near.rubs[pair.rub].friction) * near.rubs[pair.rub].radiated;
       if (!by_tool) return;
       rubbed.by_tools += b * pair.impulse * pair.normal;
       rubbed.told_before += b * pair.impulse * speed_before;

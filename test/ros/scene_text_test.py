@@ -78,6 +78,7 @@ class SceneTextTest(unittest.TestCase):
                 rospy.sleep(0.05)
             self.fail('not heard; of %d messages the last is\n%s' % (len(heard), heard[-1] if heard else ''))
 
+        hear(lambda s: True)  # connected: the last status is latched
         Followed(goal_of(scenes.pressed_strip(), output_directory=self.path('run'))).result()
         hear(lambda s: s.running and s.stage == 'preparing' and s.scene == 'pressed strip')
         hear(lambda s: not s.running and s.code == ResultCode.SUCCESS)

@@ -7,8 +7,8 @@
 // Two things that steel does and a rigid tool does not keep them down.
 //
 // A tool that has the impedance of the body takes such waves away. Its traction on a surface that moves
-// with u along it is that of a half space, rho c_s u. Here it is, while the surfaces are pressed together,
-//   tau = -z phi (u - u_s),   z = rho c_s
+// with u along it is that of a half space, rho c_s u. Here it is, while the surfaces are pressed together, of a part kappa of that impedance (part_that_leaves),
+//   tau = -z phi (u - u_s),   z = kappa rho c_s,  kappa = min(1, 2 mu)
 // beside friction and not within its cone. u_s is what of u is steady while the surfaces are pressed, so that tau is nothing over a time longer than T:
 //   v_s <- v_s + dv_r - e/(z A T) + (1 - phi) dt/(T + dt) (v - v_s)   of either surface; e: impulse of tau on what it stands for, A
 //   phi <- phi + dt/(T + dt) (1 or 0 - phi)                             1: pressed
@@ -23,6 +23,7 @@
 // well-posed with it: Ranjith and Rice, J. Mech. Phys. Solids 49, 2001).
 // Either alone is not enough: without the delay friction above .2 feeds more than leaves, with the delay alone it feeds
 // slower and as surely (test/support/slide_eigenvalues.h).
+#include <algorithm>
 #include <vector>
 
 #include "forming_sim/contact/body_motion.h"
@@ -31,6 +32,10 @@ namespace forming_sim {
 
 constexpr double kSteadyTime = 4;     ///< T, of the time H/c_s that a wave of shear takes through the thickness H: with half of it something grows at friction .3, and what T drags along is as T
 constexpr double kMemoryShare = .25;  ///< T_N / T
+
+/// kappa: friction gives a swing a part mu at each of its ways through the thickness, of kappa z a part 2 kappa/(1 + kappa) leaves there: this is twice what is needed at least.
+/// (By the eigenvalues nothing grows with kappa = mu either. With kappa = 1 whatever the friction, a sheet that all but slides freely would be held as one that sticks.)
+inline double part_that_leaves(double friction) { return std::min(1.0, 2 * friction); }
 
 /// A body whose waves leave.
 struct WaveBody {
@@ -44,7 +49,7 @@ struct RubbedNode {
   int node;
   double area = 0;                  ///< m2
   Node normal = Node::Zero();       ///< impulse across the surface, N s
-  Node radiated = Node::Zero();     ///< e, N s
+  Node radiated = Node::Zero();     ///< sum e/kappa, N s
   // Of tools whose motion is told
   Node by_tools = Node::Zero();     ///< their part of `normal`, N s
   double told_before = 0, told = 0; ///< by_tools times the speed that they have there along it, in the step before and in this, N m
