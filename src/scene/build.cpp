@@ -1,6 +1,7 @@
 #include "forming_sim/scene/build.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "forming_sim/simulation/release.h"
 #include "geometry.h"
@@ -35,6 +36,8 @@ RunPlan build_plan(const Scene& scene) {
   }
   plan.gravity = scene.gravity;
   plan.contact = scene.contact;
+  for (PairConfig& pair : plan.contact.pairs)  // a body is the first
+    if (std::none_of(scene.bodies.begin(), scene.bodies.end(), [&](const BodyConfig& body) { return body.name == pair.first; })) std::swap(pair.first, pair.second);
   plan.time_step = scene.time_step;
   plan.stages = named(scene.stages);
   list_withdrawn_tools(scene.tools, plan.stages);

@@ -20,10 +20,14 @@ void check_pair(const Scene& scene, const PairConfig& pair, const std::string& p
   all = bodies;
   for (const ToolConfig& tool : scene.tools) all.push_back(tool.name);
   const auto knows = [](const std::vector<std::string>& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); };
-  if (!pair.first.empty() && !knows(bodies, pair.first))
-    faults.add(path + ".first", given_text(pair.first), "give one of the bodies " + one_of(bodies, ", ") + did_you_mean(pair.first, bodies));
-  if (!pair.second.empty() && !knows(all, pair.second))
-    faults.add(path + ".second", given_text(pair.second), "give one of the bodies and tools " + one_of(all, ", ") + did_you_mean(pair.second, all));
+  const auto look = [&](const std::string& name, const std::string& other, const char* field) {
+    const bool body_asked = knows(all, other) && !knows(bodies, other);  // tools do not meet each other
+    const std::vector<std::string>& names = body_asked ? bodies : all;
+    if (!name.empty() && !knows(names, name))
+      faults.add(path + field, given_text(name), (body_asked ? "give one of the bodies " : "give one of the bodies and tools ") + one_of(names, ", ") + did_you_mean(name, names));
+  };
+  look(pair.first, "", ".first");
+  look(pair.second, pair.first, ".second");
   if (pair.kind == "tied" && scene.contact.method != "implicit")
     faults.add(path + ".kind", given_text(pair.kind), "set contact.method to implicit: the baselines know no ties");
   if (pair.first != pair.second || pair.first.empty()) return;

@@ -1,4 +1,5 @@
 // What the fields of a scene say of each other.
+#include "forming_sim/scene/build.h"
 #include "forming_sim/scene/validate.h"
 
 #include <limits>
@@ -42,6 +43,19 @@ TEST(SceneRules, OptionsOfAnotherContactMethodAreRefused) {
   expect_fault(with("method: explicit, stiffness: 1e9, coefficient: 7e7"), "contact.stiffness", "leave out coefficient");
   expect_fault(with("friction_limit: 1e7"), "contact.friction_limit", "give friction beside it");
   expect_fault(with("friction: .1, friction_limit: 1e7, method: geometric"), "contact.friction_limit", "implicit or explicit");
+}
+
+TEST(SceneRules, APairHasABody) {
+  const auto with = [](const std::string& pair) { return replaced(flange_example(), "tools:\n", "contact: {pairs: [{" + pair + "}]}\ntools:\n"); };
+  const std::string body = scene_of(flange_example()).bodies[0].name;
+  for (const std::string& pair : {"first: " + body + ", second: die", "first: die, second: " + body}) {
+    const RunPlan plan = build_plan(scene_of(with(pair)));
+    EXPECT_EQ(plan.contact.pairs[0].first, body) << pair;
+    EXPECT_EQ(plan.contact.pairs[0].second, "die") << pair;
+  }
+  expect_fault(with("first: die, second: punch"), "contact.pairs[0].second", "give one of the bodies " + body);
+  expect_fault(with("first: dye, second: " + body), "contact.pairs[0].first", "did you mean die?");
+  expect_fault(with("first: " + body + ", second: punsh"), "contact.pairs[0].second", "did you mean punch?");
 }
 
 TEST(SceneRules, ToolsHaveOneSource) {

@@ -16,8 +16,8 @@ struct PairConfig {
   double tie_distance = 0;
 
   template <class Visitor> static void declare(Visitor&& visit) {
-    visit(FORMING_SIM_FIELD(first), Field().required().doc("name of a body"));
-    visit(FORMING_SIM_FIELD(second), Field().required().doc("name of another body or of a tool, or the same name again for a body and itself"));
+    visit(FORMING_SIM_FIELD(first), Field().required().doc("name of a body or of a tool"));
+    visit(FORMING_SIM_FIELD(second), Field().required().doc("name of another body or tool, one of both being a body, or the same name again for a body and itself"));
     visit(FORMING_SIM_FIELD(kind), Field().choices({"sliding", "frictionless", "sticking", "tied", "none"}).doc("sliding: with Coulomb friction; frictionless; sticking: no slip while pressed together, free to part; tied: what touches at the start stays together, the rest slides; none: they do not see each other"));
     visit(FORMING_SIM_FIELD(friction), Field().at_least(0).at_most(10).when("kind", {"sliding", "tied"}).doc("Coulomb friction of the pair, in place of that of the tool or of contact.friction"));
     visit(FORMING_SIM_FIELD(friction_limit), Field().unit("Pa").at_least(0).when("kind", {"sliding", "sticking", "tied"}).computed("no limit").doc("largest shear stress of the pair's friction, in place of that of the tool or of contact.friction_limit; with kind sticking surfaces stay together up to it and slide under it, whatever presses them"));
