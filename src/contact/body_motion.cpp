@@ -13,6 +13,8 @@ constexpr double kRest = .6;       ///< of all holds
 constexpr int kRounds = 64;        ///< with them kRest/kRounds of all holds lead halfway, some times as many to rounding
 constexpr double kDisagreed = .1;  ///< of the squares of what is told, beside the motion of the masses, which no rigid motion has: it tells nothing
 
+constexpr double kRounding = 1e-12; ///< of the squares of what is told: of a body that goes exactly as it is told nothing else is left
+
 /// So many of `count` that no more than `most` are asked; the nodes of structured cells repeat, and a prime stride does not fall in with them.
 std::size_t stride_of(std::size_t count, std::size_t most) {
   const auto is_prime = [](std::size_t n) {
@@ -163,8 +165,14 @@ template <int modes> BodyMotion MovingBody::of(const MassSums& masses, const std
     E = Square(E * E);
   }
   motion.told = rigid(c, p);
-  const double left = std::max(told2 - 2 * p.dot(g) + p.dot(G * p), 0.0);  // of the squares
-  motion.agreed = beside2 > 0 ? std::max(1 - left / (kDisagreed * beside2), 0.0) : 1;
+  double left = 0;  // of the squares
+  for (const Hold& h : holds) {
+    const Node r = h.x - c;
+    double missed = h.speed;
+    repeat<modes>([&](auto k) { missed -= along_mode(kMode<modes>[k], r, h.along) * p[int{k}]; });
+    left += missed * missed;
+  }
+  motion.agreed = std::max(1 - left / (kDisagreed * beside2 + kRounding * told2), 0.0);
   return motion;
 }
 

@@ -49,22 +49,24 @@ void RecedingSupports::begin(const OfBody& body, double dt, const std::vector<do
   Set set;
   set.of = body;
   set.added = body.start;
-  double pressed = 0, area = 0;  // N, m2
+  double pressed = 0, area = 0, stiffness = 0;  // N, m2, N/m
   for (const Held& h : held) {
+    if (h.by.force.isZero(0)) continue;
     Support support;
     support.node = h.by.node;
     support.force = h.by.force.norm();
     support.way = h.by.force / support.force;
     support.start = x[h.by.node].dot(support.way);
     if (h.area > 0) {
-      const double k = mass[h.by.node] * (kStiffness / dt) * (kStiffness / dt);
+      const double k = h.share * mass[h.by.node] * (kStiffness / dt) * (kStiffness / dt);
       support.give = support.force / k;
+      stiffness += k;
       pressed += support.force;
       area += h.area;
     }
     set.supports.push_back(support);
   }
-  set.depth = area > 0 ? kDepth * squeeze(held) * pressed / area * body.t / body.E : 0;
+  set.depth = area > 0 ? kDepth * squeeze(held) * pressed / area * body.t / body.E + 2 * pressed / stiffness : 0;
   sets_.push_back(std::move(set));
 }
 
@@ -81,8 +83,7 @@ double RecedingSupports::bears(const Support& support, double d, const Node& x) 
 
 void RecedingSupports::add(double t, const NodeField& x, NodeField& f) {
   for (Set& set : sets_) {
-    const bool half_open = 2 * t >= set.of.start + set.open();
-    const double d = set.receded(t), time = half_open ? t - set.added : 0;
+    const double half_open = 0.5 * (set.of.start + set.open()), d = set.receded(t), time = std::max(t - std::max(set.added, half_open), 0.0);
     for (Support& support : set.supports) {
       const double force = bears(support, d, x[support.node]);
       support.impulse += time * force;
@@ -106,7 +107,7 @@ double RecedingSupports::energy(double t, const NodeField& x) const {
 
 double RecedingSupports::end() const {
   double last = 0;
-  for (const Set& set : sets_) last = std::max(last, set.open());
+  for (const Set& set : sets_) last = std::max(last, set.open() + set.of.fade);
   return last;
 }
 
@@ -115,8 +116,10 @@ std::vector<RecedingSupports::Receded> RecedingSupports::take(double t) {
   for (const Set& set : sets_) {
     if (t < set.open()) continue;
     Receded one{set.of, {}};
-    for (const Support& support : set.supports)
-      if (support.impulse > 0) one.forces.push_back({support.node, support.impulse / set.meant * support.way});
+    for (const Support& support : set.supports) {
+      const double bore = set.meant > 0 ? support.impulse / set.meant : support.force;  // no step has come in so short a time: they fade from where they were
+      if (bore > 0) one.forces.push_back({support.node, bore * support.way});
+    }
     all.push_back(std::move(one));
   }
   sets_.erase(std::remove_if(sets_.begin(), sets_.end(), [t](const Set& set) { return t >= set.open(); }), sets_.end());

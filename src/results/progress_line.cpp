@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "forming_sim/config/fault.h"
 #include "forming_sim/results/summary.h"
 #include "forming_sim/simulation/simulation.h"
 
@@ -59,15 +61,20 @@ void ProgressLine::on_end(const Simulation&, Code, const std::string&) {
 }
 
 void EndTable::on_end(const Simulation& simulation, Code, const std::string&) {
-  const auto summary = nlohmann::json::parse(read_summary_text(directory_));
-  const auto& kinetic = summary["energy_J"]["kinetic_over_internal_forming"];
+  std::vector<std::string> warnings = simulation.warnings();
+  std::optional<double> kinetic;  // over internal energy
+  try {
+    const auto summary = nlohmann::json::parse(read_summary_text(directory_));
+    warnings = summary.at("warnings").get<std::vector<std::string>>();
+    if (const auto& most = summary.at("energy_J").at("kinetic_over_internal_forming"); most.is_number()) kinetic = most.get<double>();
+  } catch (const Error&) {}  // the disk is full, say: that is told already
   const std::vector<double> strain = simulation.plastic_strain();
   const ContactStatus contact = simulation.contact_status();
   const bool per_width = simulation.model().per_width();
   std::printf("elements             %d\nsteps                %ld\n", simulation.model().element_count(), simulation.steps());
   std::printf("simulated time       %.6g s\nsolver time          %.3g s\noutput time          %.3g s\n", simulation.time(), simulation.wall_time(), simulation.observed_time());
   std::printf("plastic strain, max  %.4g\n", strain.empty() ? 0.0 : *std::max_element(strain.begin(), strain.end()));
-  if (kinetic.is_number()) std::printf("kinetic / internal   %.3g at most while forming\n", kinetic.get<double>());
+  if (kinetic) std::printf("kinetic / internal   %.3g at most while forming\n", *kinetic);
   std::printf("balance error        %.3g\n", simulation.balance_error());
   std::printf("crossings            %ld\nsmallest gap / layer %.3g\n", contact.crossings, contact.min_gap_over_layer);
   if (contact.explicit_stable_dt > 0) std::printf("stable contact step  %.3g s\n", contact.explicit_stable_dt);
@@ -78,7 +85,7 @@ void EndTable::on_end(const Simulation& simulation, Code, const std::string&) {
     if (simulation.model().axisymmetric) std::printf(", radially %.4g N", tool.peak_radial_force);
     std::printf("\n");
   }
-  for (const std::string warning : summary["warnings"]) std::printf("note: %s\n", warning.c_str());
+  for (const std::string& warning : warnings) std::printf("note: %s\n", warning.c_str());
   std::fflush(stdout);
 }
 

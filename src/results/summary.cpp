@@ -308,7 +308,7 @@ std::string read_summary_text(const std::string& directory) {
   std::ifstream file(path);
   std::stringstream text;
   text << file.rdbuf();
-  if (!file || !Json::accept(text.str())) throw Error(Code::output_error, "cannot read the summary " + path);
+  if (!file || !Json::parse(text.str(), nullptr, false).is_object()) throw Error(Code::output_error, "cannot read the summary " + path);
   return text.str();
 }
 

@@ -25,7 +25,8 @@ Prepared prepare(const SceneSpec& message, const std::string& scene_text, int th
   try {
     std::vector<Fault> known;
     if (message.name.empty() && message.bodies.empty() && !scene_text.empty()) {
-      prepared.scene = read_scene(scene_text, fs::current_path().string(), known);
+      std::error_code unknown;
+      prepared.scene = read_scene(scene_text, fs::current_path(unknown).string(), known);
     } else {
       prepared.scene = scene_from(message, known);
       prepared.scene.text = scene_text.empty() ? write_scene(prepared.scene) : scene_text;

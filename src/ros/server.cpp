@@ -150,11 +150,12 @@ void FormingServer::work() {
 }
 
 void FormingServer::serve(Goal goal, Clock::time_point received) {
-  bool accepted = false;
+  bool accepted = false, begun = false;
+  std::string name = goal.getGoal()->scene.name;
   SimulateFormingResult result;
-  tell(goal, Code::none, "the scene is checked and meshed");
+  tell(name, Code::none, "the scene is being checked and meshed");
   try {
-    result = run(goal, accepted);
+    result = run(goal, accepted, begun, name);
   } catch (const Error& error) {
     result.code = static_cast<int>(error.code());
     result.message = error.what();
@@ -166,28 +167,31 @@ void FormingServer::serve(Goal goal, Clock::time_point received) {
     result.code = ResultCode::INTERNAL_ERROR;
     result.message = "the run ended without an outcome: " + result.message;
   }
-  if (!accepted) tell(goal, static_cast<Code>(result.code), result.message);
+  if (!begun) tell(name, static_cast<Code>(result.code), result.message);
   wait_for_client(received);
   {
     // From here a new goal is welcome: its client may have waited for this result only.
     const std::lock_guard<std::mutex> lock(mutex_);
     current_.reset();
   }
-  finish(goal, result, accepted);
+  finish(goal, name, result, accepted);
 }
 
-void FormingServer::tell(Goal& goal, Code code, const std::string& message) {
+void FormingServer::tell(const std::string& scene, Code code, const std::string& message) {
   RunStatus status;
   status.header = publisher_.header();
-  status.scene = goal.getGoal()->scene.name;
+  status.scene = scene;
   status.running = code == Code::none;
   status.stage = "preparing";
   status.code = static_cast<int>(code);
   status.message = message;
+  status.eta_s = -1;
+  status.min_thickness_m = -1;
+  status.min_gap_over_layer = 1;
   publisher_.publish(status);
 }
 
-SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
+SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted, bool& begun, std::string& name) {
   const auto request = goal.getGoal();
   const int threads = choose_threads(request->threads, threads_);
   std::string resume;
@@ -196,6 +200,7 @@ SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
   {
     Prepared prepared = prepare(request->scene, request->scene_text, threads);
     resume = check_resume(request->resume, prepared);
+    name = prepared.scene.name;
     if (!prepared.faults.empty()) return rejection(prepared.faults);
     scene = std::move(prepared.scene);
     simulation = std::move(prepared.simulation);
@@ -223,10 +228,8 @@ SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
 
   SimulateFormingResult result = result_of(outcome.code, outcome.message);
   result.directory = directory;
-  if (!observer.begun()) {
-    tell(goal, outcome.code, outcome.message);
-    return result;  // what is in the directory is of other runs
-  }
+  begun = observer.begun();
+  if (!begun) return result;  // what is in the directory is of other runs
   result.files = run_files(directory);
   try {
     result.summary = read_summary(directory);
@@ -236,8 +239,8 @@ SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted) {
   return result;
 }
 
-void FormingServer::finish(Goal& goal, const SimulateFormingResult& result, bool accepted) {
-  ROS_INFO("%s: %s", goal.getGoal()->scene.name.c_str(), result.message.c_str());
+void FormingServer::finish(Goal& goal, const std::string& name, const SimulateFormingResult& result, bool accepted) {
+  ROS_INFO("%s: %s", name.c_str(), result.message.c_str());
   if (result.code == ResultCode::CANCELLED) {
     goal.setCanceled(result, result.message);
   } else if (!accepted) {

@@ -167,9 +167,9 @@ struct Simulation::Impl {
   bool lets_go_slowly() const;
   /// The time in which it fades, s; slowest: slowness of the bodies that are let go.
   double release_time(double slowest) const;
-  /// Keeps what held the bodies until the running stage began, and no longer does, as forces that fade; held_before: the boundaries until then, of which some may have ended.
+  /// Keeps what held the bodies until the running stage began, and no longer does, by supports that recede and forces that fade; held_before: the boundaries until then, of which some may have ended.
   void let_go(const BoundarySet& held_before, bool boundaries_ended);
-  void go_on_letting_go();
+  void go_on_letting_go();  ///< what supports that have receded still bear begins to fade
   /// When what has let go is no more, s; 0: nothing has.
   double let_go_until() const { return std::max(supports.end(), fading.end()); }
 

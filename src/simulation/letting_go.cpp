@@ -92,11 +92,11 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
     }
     if (moving.norm() > kMoving * held) continue;  // it flies, or gathers speed: there is no rest that could be kept
     std::vector<Held>& forces = forces_on[b];
-    for (int n = body.first_node; n < end; ++n)
-      if (pressed_area[n] > 0)
-        for (const Vec3& part : parts_by_face(vec3(held_by[n]), around[n])) forces.push_back({{n, node(part)}, pressed_area[n]});
-      else if (!held_by[n].isZero(0))
-        forces.push_back({{n, held_by[n]}, 0});
+    for (int n = body.first_node; n < end; ++n) {
+      if (held_by[n].isZero(0)) continue;
+      const std::vector<Vec3> parts = pressed_area[n] > 0 ? parts_by_face(vec3(held_by[n]), around[n]) : std::vector<Vec3>{vec3(held_by[n])};
+      for (const Vec3& part : parts) forces.push_back({{n, node(part)}, pressed_area[n] / parts.size(), 1. / parts.size()});
+    }
     if (!forces.empty()) slowest = std::max(slowest, slowness(body));
   }
   const double duration = release_time(slowest);
@@ -105,7 +105,7 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
     const std::vector<Held>& forces = forces_on[b];
     if (forces.empty()) continue;
     if (RecedingSupports::squeeze(forces) > kSqueezed) {
-      supports.begin({static_cast<int>(b), thickness_of(body.mesh, model.axisymmetric), body.material.E(), time, duration}, previous_dt, elements.nodal_mass(), x, forces);
+      supports.begin({static_cast<int>(b), thickness_of(body.mesh, model.axisymmetric), body.material.E(), time, duration}, std::max(previous_dt, full_dt()), elements.nodal_mass(), x, forces);
     } else {
       std::vector<HoldingForce> to_fade;
       for (const Held& held : forces) to_fade.push_back(held.by);
@@ -117,7 +117,7 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
 void Simulation::Impl::go_on_letting_go() {
   fading.forget(time);
   for (RecedingSupports::Receded& receded : supports.take(time))
-    fading.begin(time, receded.of.fade, elements.stored_energy_of(model.bodies[receded.of.body], x), std::move(receded.forces));
+    if (!receded.forces.empty()) fading.begin(time, receded.of.fade, elements.stored_energy_of(model.bodies[receded.of.body], x), std::move(receded.forces));
 }
 
 }  // namespace forming_sim

@@ -77,6 +77,9 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
   double kinetic = 0;
   for (std::size_t i = 0; i < v.size(); ++i) kinetic += 0.5 * elements.nodal_mass()[i] * v[i].squaredNorm();
   initial = most = kinetic;
+  for (const Node& n : x) farthest = std::max(farthest, n.cwiseAbs().maxCoeff());
+  elements.find_rates(x, v, rates);
+  first_element_dt = elements.slowest_cell(rates).dt;
   begin_stage();
   choose_dt();
   told_at_start = warnings.size();

@@ -60,10 +60,6 @@ void Simulation::Impl::find_stable_step() {
   elements.renew_weights(x);
   elements.find_rates(x, v, rates);
   const CellLimit cell = elements.slowest_cell(rates);
-  if (first_element_dt == 0) {
-    first_element_dt = cell.dt;
-    for (const Node& n : x) farthest = std::max(farthest, n.cwiseAbs().maxCoeff());
-  }
   if (cell.dt < kCollapse * first_element_dt) collapse(cell.dt, cell.element);
   control.element = cell.element;
   control.node = -1;

@@ -169,6 +169,23 @@ TEST(BodyMotion, ToolsThatDoNotAgreeTellNothing) {
   for (const Node& x : cloud.x) EXPECT_LT(motion.told.at(x).norm(), 2);
 }
 
+// What moves on in addition, bodies and tools alike, is no agreement: it once was, of what rests beside it. And what a body does together with its tools agrees, up to rounding.
+TEST(BodyMotion, AgreementIsTheSameInAnyFrame) {
+  for (const double drift : {0., 1., 100.}) {
+    Cloud cloud(64, 2, 8);
+    for (Node& v : cloud.v) v = Node(drift, drift, 0, 0) + .1 * v;
+    const MovingBody body = cloud.body(0, 64, 3);
+    const Node up(0, 1, 0, 0), along(1, 0, 0, 0);
+    const std::vector<Hold> apart = {{Node(-1, -.1, 0, 0), up, drift}, {Node(1, -.1, 0, 0), up, drift}, {Node(0, .1, 0, 0), up, drift - 1}, {Node(0, .1, 0, 0), along, drift}};
+    EXPECT_EQ(cloud.motion(body, apart).agreed, 0) << drift;
+    const std::vector<Hold> together = {{Node(-1, -.1, 0, 0), up, drift + 1}, {Node(1, -.1, 0, 0), up, drift + 1}, {Node(0, .1, 0, 0), along, drift}};
+    EXPECT_GT(cloud.motion(body, together).agreed, .99) << drift;
+    for (Node& v : cloud.v) v = Node(drift, drift, 0, 0);  // as its tools
+    const std::vector<Hold> same = {{Node(-1, -.1, 0, 0), up, drift}, {Node(1, -.1, 0, 0), up, drift}, {Node(0, .1, 0, 0), along, drift}};
+    if (drift > 0) EXPECT_GT(cloud.motion(body, same).agreed, .99) << drift;
+  }
+}
+
 // In the plane the other three of the six modes are still.
 TEST(BodyMotion, OfThreeModesInThePlaneIsThatOfSix) {
   const Cloud cloud(64, 2, 9);

@@ -56,7 +56,9 @@ class SceneTextTest(unittest.TestCase):
         self.assertRegex(fields['bodies[0].blank.lenght'].given, 'line [0-9]+')
         state, result = Followed(SimulateFormingGoal(scene_text='bodies: [')).result()
         self.assertEqual(state, GoalStatus.REJECTED)
+        self.assertEqual(result.code, ResultCode.INVALID_SCENE)
         self.assertEqual(len(result.faults), 1)
+        self.assertIn('line 1', result.message + result.faults[0].given)
 
     def test_warnings_come_with_the_result(self):
         scene = scenes.pressed_strip()
@@ -80,13 +82,16 @@ class SceneTextTest(unittest.TestCase):
 
         hear(lambda s: True)  # connected: the last status is latched
         Followed(goal_of(scenes.pressed_strip(), output_directory=self.path('run'))).result()
-        hear(lambda s: s.running and s.stage == 'preparing' and s.scene == 'pressed strip')
+        hear(lambda s: s.running and s.stage == 'preparing' and s.scene == 'pressed strip' and s.eta_s < 0)
         hear(lambda s: not s.running and s.code == ResultCode.SUCCESS)
         wrong = scenes.pressed_strip()
         wrong['name'] = 'wrong'
         wrong['bodies'][0]['material']['density'] = -1.0
         Followed(goal_of(wrong)).result()
         hear(lambda s: s.scene == 'wrong' and not s.running and s.code == ResultCode.INVALID_SCENE)
+        wrong['name'] = 'wrong text'
+        Followed(SimulateFormingGoal(scene_text=yaml.safe_dump(wrong))).result()
+        hear(lambda s: s.scene == 'wrong text' and not s.running and s.code == ResultCode.INVALID_SCENE)
 
 
 if __name__ == '__main__':

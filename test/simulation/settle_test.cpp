@@ -126,7 +126,6 @@ TEST(Settle, JudgesEachBodyByItself) {
   EXPECT_NEAR(sags[1], sags[0], .01 * sags[0]);
 }
 
-// A compact block is slower to look at than to swing: it is quiet from one look to the next all the same, a time over which its weight can be felt.
 // A long thin strip far away, on which nothing acts, once made a settle stage as long as its own slowest swing.
 TEST(Settle, DoesNotWaitForABodyThatDoesNothing) {
   OneBody alone = loaded(0, 5e-4, 1), beside = alone;
@@ -141,6 +140,7 @@ TEST(Settle, DoesNotWaitForABodyThatDoesNothing) {
   EXPECT_NEAR(sag(*second), sag(*first), .003 * sag(*first));
 }
 
+// A compact block is slower to look at than to swing: it is quiet from one look to the next all the same, a time over which its weight can be felt.
 TEST(Settle, IsQuietBeforeItEnds) {
   OneBody run(body_of(generate_blank(strip_of(10e-3, 10e-3, 2, 2)), aluminium()), 1);
   run.model.tools = {plane_at("floor", 2, Vec3(0, -1e-5, 0), Vec3::UnitY())};

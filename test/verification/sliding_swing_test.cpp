@@ -88,7 +88,7 @@ TEST(SlidingSwing, WavesThatLeaveAndADelayEndItTogether) {
     double mu;
   };
   double waves_alone = 0, delay_alone = 0;
-  for (const Case& c : {Case{3, 1, .49}, Case{6, 2, .49}, Case{8, 4, .3}, Case{8, 4, .49}, Case{12, 6, .49}}) {
+  for (const Case& c : {Case{3, 1, .49}, Case{6, 2, .49}, Case{8, 4, .2}, Case{8, 4, .3}, Case{8, 4, .49}, Case{12, 6, .1}, Case{12, 6, .49}}) {
     const incline::Block block = incline::sliding_block(c.cells, c.rows, c.mu, 0);
     incline::LevelBlock level(block);
     std::vector<int> base;
@@ -101,8 +101,12 @@ TEST(SlidingSwing, WavesThatLeaveAndADelayEndItTogether) {
     }
     const MaterialConfig material = incline::material_of_block();
     const double speed = std::sqrt(material.mu() / material.density);
-    slide::Damped damped{true, true, material.density * speed, kSteadyTime * .2 / speed};
+    slide::Damped damped{true, true, part_that_leaves(c.mu) * material.density * speed, kSteadyTime * .2 / speed};
     const double both = slide::fastest_growth(level.elements, level.X, base, area, c.mu, damped);
+    // And with half of that, as much as friction gives.
+    damped.impedance = c.mu * material.density * speed;
+    EXPECT_LT(slide::fastest_growth(level.elements, level.X, base, area, c.mu, damped), 1e-2);
+    damped.impedance = part_that_leaves(c.mu) * material.density * speed;
     damped.delay = false;
     const double waves = slide::fastest_growth(level.elements, level.X, base, area, c.mu, damped);
     damped = {false, true, damped.impedance, damped.time};

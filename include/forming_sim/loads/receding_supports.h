@@ -7,10 +7,10 @@
 
 namespace forming_sim {
 
-/// What held a node when it was let go. A tool pressed on its area, m2; 0: a boundary held it.
+/// What held a node when it was let go. A tool pressed on its area, m2; 0: a boundary held it. Where it has more parts than one, each has its share of the node.
 struct Held {
   HoldingForce by;
-  double area = 0;
+  double area = 0, share = 1;
 };
 
 /// A force on a node by what presses on it from the faces around it, whose area vectors A n (outward) are given: one part where these are level within 30 degrees, up to three
@@ -19,10 +19,11 @@ std::vector<Vec3> parts_by_face(const Vec3& F, const std::vector<Vec3>& areas);
 
 /// Two tools that close on a sheet squeeze it by far more than its bending asks for. Forces that kept that would squeeze on while the sheet springs back, where it no
 /// longer is as it was: they bend it on, or make it buckle. Tools that open let go of the squeeze in a few thousandths of the thickness, and then bear just what bends. So do these:
-///   f = F max(0, 1 - (s + d)/give),  s = (x - place).F/|F|,  d = kDepth p t/E (3 u^2 - 2 u^3),  u = (t - start)/opening,
+///   f = F max(0, 1 - (s + d)/give),  s = (x - place).F/|F|,  d = (kDepth p t/E + 2 sum |F|/sum k) (3 u^2 - 2 u^3),  u = (t - start)/opening,
 /// p = squeeze() sum |F|/sum area, the mean pressure that balances itself: all recede as far, as tools do.
 /// A node that moves against its support meets more, one that moves along it leaves it behind, as it would the tool. With d as it is, it is the force of an energy, convex in x.
-/// give = F/k with k = m (kStiffness/dt)^2: as stiff as the time step bears, m the mass of the node. What a boundary held stays F.
+/// give = F/k with k = m (kStiffness/dt)^2: as stiff as the time step bears, m the mass of the node, or its share of it. What a boundary held stays F.
+/// (A block that is squeezed against a boundary, a plane of symmetry say, is pressed on from one side: there forces fade as they are.)
 class RecedingSupports {
  public:
   static constexpr double kStiffness = 0.3;   ///< the fastest swing is one of 2/dt: it becomes faster by 1 %
@@ -39,10 +40,10 @@ class RecedingSupports {
   void begin(const OfBody& body, double dt, const std::vector<double>& mass, const NodeField& x, const std::vector<Held>& held);
   /// f += what they bear at time t, of nodes at x.
   void add(double t, const NodeField& x, NodeField& f);
-  /// What they could still do if d stayed as it is at time t, J; but for what boundaries held.
+  /// What they could still do if d stayed as it is at time t, J; but for what boundaries held. Their gradient, for tests.
   double energy(double t, const NodeField& x) const;
   bool empty() const { return sets_.empty(); }
-  double end() const;  ///< when the last has receded, s
+  double end() const;  ///< when what the last still bear has faded, s
 
   /// What those of a body that have receded at time t bore in the mean since they were half open; they are gone then.
   struct Receded {

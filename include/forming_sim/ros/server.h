@@ -54,9 +54,10 @@ class FormingServer {
   void work();
   void serve(Goal goal, Clock::time_point received);
   /// A status of a goal that does not run: it is prepared (Code::none), or it ended before its first step.
-  void tell(Goal& goal, Code code, const std::string& message);
-  SimulateFormingResult run(Goal& goal, bool& accepted);
-  void finish(Goal& goal, const SimulateFormingResult& result, bool accepted);
+  void tell(const std::string& scene, Code code, const std::string& message);
+  /// Leaves the name of the scene, and whether it was accepted and its run began.
+  SimulateFormingResult run(Goal& goal, bool& accepted, bool& begun, std::string& name);
+  void finish(Goal& goal, const std::string& name, const SimulateFormingResult& result, bool accepted);
   /// Until the client of a goal that came then can take an answer to it.
   void wait_for_client(Clock::time_point received) const;
 
