@@ -83,7 +83,7 @@ double RecedingSupports::bears(const Support& support, double d, const Node& x) 
 
 void RecedingSupports::add(double t, const NodeField& x, NodeField& f) {
   for (Set& set : sets_) {
-    const double half_open = 0.5 * (set.of.start + set.open()), d = set.receded(t), time = std::max(t - std::max(set.added, half_open), 0.0);
+    const double from = set.of.start + kNearlyOpen * (set.open() - set.of.start), d = set.receded(t), time = std::max(t - std::max(set.added, from), 0.0);
     for (Support& support : set.supports) {
       const double force = bears(support, d, x[support.node]);
       support.impulse += time * force;

@@ -15,6 +15,7 @@ namespace {
 constexpr double kCantilever = 6.2;  ///< 2 pi sqrt(12)/1.875^2: period of the first swing of a beam held at one end, over L^2/(t c)
 constexpr double kRoom = 0.25;       ///< of the time until the bodies have to rest or are formed on: for more of it nothing fades
 constexpr double kSqueezed = 0.1;    ///< of the forces of tools that are let go: less that balances itself does not squeeze
+constexpr double kNext = 0.01;       ///< to nothing, of the energy that a squeezed body had: what is left to fade may do as much in any case
 constexpr double kMoving = 0.3;      ///< of the forces that are let go: more than this sets the body in motion as a whole
 
 bool any(const std::vector<char>& of) { return std::find(of.begin(), of.end(), 1) != of.end(); }
@@ -105,7 +106,7 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
     const std::vector<Held>& forces = forces_on[b];
     if (forces.empty()) continue;
     if (RecedingSupports::squeeze(forces) > kSqueezed) {
-      supports.begin({static_cast<int>(b), thickness_of(body.mesh, model.axisymmetric), body.material.E(), time, duration}, std::max(previous_dt, full_dt()), elements.nodal_mass(), x, forces);
+      supports.begin({static_cast<int>(b), thickness_of(body.mesh, model.axisymmetric), body.material.E(), elements.stored_energy_of(body, x), time, duration}, std::max(previous_dt, full_dt()), elements.nodal_mass(), x, forces);
     } else {
       std::vector<HoldingForce> to_fade;
       for (const Held& held : forces) to_fade.push_back(held.by);
@@ -117,7 +118,8 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
 void Simulation::Impl::go_on_letting_go() {
   fading.forget(time);
   for (RecedingSupports::Receded& receded : supports.take(time))
-    if (!receded.forces.empty()) fading.begin(time, receded.of.fade, elements.stored_energy_of(model.bodies[receded.of.body], x), std::move(receded.forces));
+    if (!receded.forces.empty())
+      fading.begin(time, receded.of.fade, std::max(elements.stored_energy_of(model.bodies[receded.of.body], x), kNext * receded.of.stored), std::move(receded.forces));
 }
 
 }  // namespace forming_sim

@@ -26,13 +26,14 @@ std::vector<Vec3> parts_by_face(const Vec3& F, const std::vector<Vec3>& areas);
 /// (A block that is squeezed against a boundary, a plane of symmetry say, is pressed on from one side: there forces fade as they are.)
 class RecedingSupports {
  public:
-  static constexpr double kStiffness = 0.3;   ///< the fastest swing is one of 2/dt: it becomes faster by 1 %
-  static constexpr double kOpening = 1. / 3;  ///< of the time in which what is left fades: long enough for what bends to follow
-  static constexpr double kDepth = 3;         ///< what presses on both faces of a sheet asks for 1/2, of two sheets between them for 1
-  /// A body of thickness t, m, and Young's modulus E, Pa, is let go from `start` on, s: the supports recede in kOpening of the time `fade`, s, and in that what they then still bear is to fade.
+  static constexpr double kStiffness = 0.3;    ///< the fastest swing is one of 2/dt: it becomes faster by 1 %
+  static constexpr double kOpening = 1. / 3;   ///< of the time in which what is left fades: long enough for what bends to follow
+  static constexpr double kNearlyOpen = 0.6;   ///< of the opening: from here on nothing is squeezed, and what they bear is meant
+  static constexpr double kDepth = 3;          ///< what presses on both faces of a sheet asks for 1/2, of two sheets between them for 1
+  /// A body of thickness t, m, and Young's modulus E, Pa, in which `stored`, J, are, is let go from `start` on, s: the supports recede in kOpening of the time `fade`, s, and in that what they then still bear is to fade.
   struct OfBody {
     int body = 0;
-    double t = 0, E = 0, start = 0, fade = 0;
+    double t = 0, E = 0, stored = 0, start = 0, fade = 0;
   };
   /// Of what holds a body, the part of the forces of tools that balances itself, (sum |F| - |sum F|)/sum |F|; 0 where none presses.
   static double squeeze(const std::vector<Held>& held);
@@ -45,7 +46,7 @@ class RecedingSupports {
   bool empty() const { return sets_.empty(); }
   double end() const;  ///< when what the last still bear has faded, s
 
-  /// What those of a body that have receded at time t bore in the mean since they were half open; they are gone then.
+  /// What those of a body that have receded at time t bore in the mean since they were nearly open; they are gone then.
   struct Receded {
     OfBody of;
     std::vector<HoldingForce> forces;
@@ -57,7 +58,7 @@ class RecedingSupports {
     a.number(count);
     sets_.resize(count);
     for (Set& set : sets_) {
-      for (double* value : {&set.of.t, &set.of.E, &set.of.start, &set.of.fade}) a.number(*value);
+      for (double* value : {&set.of.t, &set.of.E, &set.of.stored, &set.of.start, &set.of.fade}) a.number(*value);
       a.number(set.of.body);
       for (double* value : {&set.depth, &set.added, &set.meant}) a.number(*value);
       std::size_t many = set.supports.size();
