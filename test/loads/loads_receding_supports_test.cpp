@@ -52,10 +52,12 @@ TEST(RecedingSupports, RecedeByTheSqueezeAndHandOverWhatIsLeft) {
   EXPECT_EQ(s.end(), 12);
   NodeField x = moved((0.2 * give - depth) * way);
   x[1] = kPlaces[1] + node(Vec3(0, -1, -1));
-  on(s, 0, 3.8, x);  // before it is nearly open, at 3.875, nothing counts; then .2 s and .4 s of other forces do
+  // Before it is nearly open nothing counts; then .2 s and .4 s of other forces do.
+  const double open = 2 + RecedingSupports::kNearlyOpen * 2.5;
+  on(s, 0, open - 0.05, x);
   NodeField closer = x;
   closer[0] -= node(Vec3(0.1 * give * way));
-  const Vec3 first = on(s, 0, 4.075, x), then = on(s, 0, 4.475, closer);
+  const Vec3 first = on(s, 0, open + 0.2, x), then = on(s, 0, open + 0.6, closer);
   const auto left = s.take(4.5);
   EXPECT_TRUE(s.empty());
   ASSERT_EQ(left.size(), 1u);
