@@ -182,7 +182,9 @@ TEST(BodyMotion, AgreementIsTheSameInAnyFrame) {
     EXPECT_GT(cloud.motion(body, together).agreed, .99) << drift;
     for (Node& v : cloud.v) v = Node(drift, drift, 0, 0);  // as its tools
     const std::vector<Hold> same = {{Node(-1, -.1, 0, 0), up, drift}, {Node(1, -.1, 0, 0), up, drift}, {Node(0, .1, 0, 0), along, drift}};
-    if (drift > 0) EXPECT_GT(cloud.motion(body, same).agreed, .99) << drift;
+    if (drift > 0) {
+      EXPECT_GT(cloud.motion(body, same).agreed, .99) << drift;
+    }
   }
 }
 
