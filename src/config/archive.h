@@ -14,7 +14,6 @@ namespace forming_sim {
 template <class T, class = void> struct Whole : std::bool_constant<std::is_arithmetic_v<T> || std::has_unique_object_representations_v<T>> {};
 template <class T> struct Whole<T, std::void_t<typename T::Scalar>> : std::bool_constant<sizeof(T) == T::SizeAtCompileTime * sizeof(typename T::Scalar)> {};
 
-
 class Writer {
  public:
   template <class T> void raw(const T& value) {
@@ -27,6 +26,11 @@ class Writer {
     static_assert(Whole<T>::value, "only plain values without padding");
     number(values.size());
     append(values.data(), values.size() * sizeof(T));
+  }
+  /// Values that are exchanged part by part.
+  template <class T, class Exchange> void each(std::vector<T>& values, Exchange&& exchange) {
+    number(values.size());
+    for (T& value : values) exchange(value);
   }
   template <class T> void lists(const std::map<std::string, std::vector<T>>& named) {
     number(named.size());
@@ -63,6 +67,13 @@ class Reader {
     if (count > (data_.size() - at_) / sizeof(T)) fail();
     values.resize(count);
     take(values.data(), count * sizeof(T));
+  }
+  template <class T, class Exchange> void each(std::vector<T>& values, Exchange&& exchange) {
+    std::size_t count = 0;
+    number(count);
+    if (count > data_.size() - at_) fail();
+    values.resize(count);
+    for (T& value : values) exchange(value);
   }
   template <class T> void lists(std::map<std::string, std::vector<T>>& named) {
     std::size_t count = 0;

@@ -84,6 +84,12 @@ double thickness_of(const Mesh& mesh, bool axisymmetric) {
   return 2 * volume / area;
 }
 
+bool is_sheet(const Mesh& mesh, double thickness) {
+  Vec3 sizes = bounds(mesh).sizes();
+  std::sort(sizes.data(), sizes.data() + 3);
+  return sizes[2] >= 8 * thickness && (mesh.dimension == 2 || sizes[1] >= 3 * thickness);
+}
+
 int nearest_node(const Mesh& mesh, const Vec3& point) {
   const auto closer = [&](const Vec3& a, const Vec3& b) { return (a - point).squaredNorm() < (b - point).squaredNorm(); };
   return static_cast<int>(std::min_element(mesh.nodes.begin(), mesh.nodes.end(), closer) - mesh.nodes.begin());

@@ -10,7 +10,6 @@
 namespace forming_sim {
 
 namespace {
-constexpr double kLong = 8, kWide = 3;  // its larger sizes over the thickness; of a bar the middle one is 2
 constexpr double kLevel = 0.9;  // cosine at the start: edges of the blank are none of its bends
 
 Vec3 normal_of(const Face& face, const NodeField& x) {
@@ -29,10 +28,7 @@ double degrees_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross
 SharpBend sharpest_bend(const BodyModel& body, bool axisymmetric, const NodeField& x) {
   SharpBend sharpest;
   const Mesh& mesh = body.mesh;
-  const double thickness = thickness_of(mesh, axisymmetric);
-  Vec3 sizes = bounds(mesh).sizes();
-  std::sort(sizes.data(), sizes.data() + 3);
-  if (sizes[2] < kLong * thickness || (mesh.dimension == 3 && sizes[1] < kWide * thickness)) return sharpest;
+  if (!is_sheet(mesh, thickness_of(mesh, axisymmetric))) return sharpest;
   NodeField X, now;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
     X.push_back(node(mesh.nodes[n]));

@@ -1,5 +1,4 @@
 // Meshes of bodies that are taken, and told because they do not do what their author expects of them.
-#include <algorithm>
 #include <cmath>
 
 #include "forming_sim/config/words.h"
@@ -51,14 +50,11 @@ void note_polygonal_bar(const BodyConfig& config, const Mesh& mesh, Model& model
 /// A sheet of free tetrahedra with hardly more than one of them through its thickness.
 void note_coarse_sheet(const BodyConfig& config, const Mesh& mesh, Model& model) {
   constexpr double kCoarse = 0.8;  // edges over the thickness
-  constexpr double kLong = 8, kWide = 3;  // its larger sizes over the thickness; of a bar the middle one is 2
   constexpr int kFew = 100;        // elements, which are no mesh of a sheet
   const double edge = edge_of_tetrahedra(mesh);
   if (edge == 0 || mesh.simplex_count() < kFew) return;
   const double thickness = thickness_of(mesh, false);
-  Vec3 sizes = bounds(mesh).sizes();
-  std::sort(sizes.data(), sizes.data() + 3);
-  if (!(edge > kCoarse * thickness) || sizes[2] < kLong * thickness || sizes[1] < kWide * thickness) return;
+  if (!(edge > kCoarse * thickness) || !is_sheet(mesh, thickness)) return;
   model.notes.push_back("the tetrahedra of body " + config.name + " have edges " + three_digits(edge / thickness) + " times as long as the body is thick: with one of them through its thickness a sheet bends a fourth too stiffly, "
                         "with two by 4 % (docs/elements.md); give shorter edges, or hexahedra with pattern one_point");
 }

@@ -2,10 +2,7 @@
 """Goals that are the text of a scene, and what the server says of a goal beside its numbers."""
 import json
 import os
-import shutil
 import sys
-import tempfile
-import unittest
 
 import h5py
 import rospy
@@ -15,24 +12,13 @@ from forming_sim.msg import ResultCode, RunStatus, SimulateFormingGoal
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import scenes  # noqa: E402
-from support import Followed, goal_of, run  # noqa: E402
+from support import Followed, ServerTest, goal_of, run  # noqa: E402
 
 
-class SceneTextTest(unittest.TestCase):
-    def setUp(self):
-        self.directory = tempfile.mkdtemp(prefix='forming_sim_')
-        self.addCleanup(shutil.rmtree, self.directory)
-
-    def path(self, name):
-        return os.path.join(self.directory, name)
-
+class SceneTextTest(ServerTest):
     def read(self, *names):
         with open(self.path(os.path.join(*names)), 'rb') as file:
             return file.read()
-
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(rospy.get_param('/forming_server/output_root'), ignore_errors=True)
 
     def test_a_goal_may_be_the_text_of_a_scene(self):
         scene = scenes.pressed_strip()

@@ -3,14 +3,11 @@
 import json
 import math
 import os
-import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import time
-import unittest
 
 import actionlib
 import h5py
@@ -28,23 +25,12 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import scenes  # noqa: E402
-from support import LIMIT, Client, Followed, executable, goal_of, run  # noqa: E402
+from support import LIMIT, Client, Followed, ServerTest, executable, goal_of, run  # noqa: E402
 
 ACTION = '/forming_server/simulate_forming'
 
 
-class ServiceTest(unittest.TestCase):
-    def setUp(self):
-        self.directory = tempfile.mkdtemp(prefix='forming_sim_')
-        self.addCleanup(shutil.rmtree, self.directory)
-
-    def path(self, name):
-        return os.path.join(self.directory, name)
-
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(rospy.get_param('/forming_server/output_root'), ignore_errors=True)
-
+class ServiceTest(ServerTest):
     # ---- success
 
     def test_success_with_feedback_files_and_topics(self):

@@ -1,5 +1,8 @@
 """What the tests of the service share."""
+import os
+import shutil
 import subprocess
+import sys
 import threading
 
 import actionlib
@@ -8,6 +11,9 @@ from actionlib_msgs.msg import GoalStatus
 
 import scenes
 from forming_sim.msg import SimulateFormingAction, SimulateFormingGoal
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'outside'))
+from own_directory import OwnDirectory  # noqa: E402
 
 LIMIT = rospy.Duration(60)
 
@@ -69,3 +75,11 @@ def goal_of(scene, **fields):
 
 def run(scene, **fields):
     return Followed(goal_of(scene, **fields)).result()
+
+
+class ServerTest(OwnDirectory):
+    """Leaves nothing of what a server wrote where it chose the place."""
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(rospy.get_param('/forming_server/output_root'), ignore_errors=True)

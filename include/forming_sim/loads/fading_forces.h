@@ -28,21 +28,13 @@ class FadingForces {
   double end() const;  ///< when the last of them is gone, s
 
   template <class Archive> void exchange(Archive& a) {
-    std::size_t count = sets_.size();
-    a.number(count);
-    sets_.resize(count);
-    for (Set& set : sets_) {
-      a.number(set.start);
-      a.number(set.duration);
-      a.number(set.may_do);
-      std::size_t many = set.forces.size();
-      a.number(many);
-      set.forces.resize(many);
-      for (HoldingForce& held : set.forces) {
+    a.each(sets_, [&](Set& set) {
+      for (double* value : {&set.start, &set.duration, &set.may_do}) a.number(*value);
+      a.each(set.forces, [&](HoldingForce& held) {
         a.number(held.node);
         a.numbers(held.force.data(), 3);
-      }
-    }
+      });
+    });
   }
 
  private:

@@ -54,22 +54,16 @@ class RecedingSupports {
   std::vector<Receded> take(double t);
 
   template <class Archive> void exchange(Archive& a) {
-    std::size_t count = sets_.size();
-    a.number(count);
-    sets_.resize(count);
-    for (Set& set : sets_) {
+    a.each(sets_, [&](Set& set) {
       for (double* value : {&set.of.t, &set.of.E, &set.of.stored, &set.of.start, &set.of.fade}) a.number(*value);
       a.number(set.of.body);
       for (double* value : {&set.depth, &set.added, &set.meant}) a.number(*value);
-      std::size_t many = set.supports.size();
-      a.number(many);
-      set.supports.resize(many);
-      for (Support& support : set.supports) {
+      a.each(set.supports, [&](Support& support) {
         a.number(support.node);
         a.numbers(support.way.data(), 3);
         for (double* value : {&support.force, &support.start, &support.give, &support.impulse}) a.number(*value);
-      }
-    }
+      });
+    });
   }
 
  private:

@@ -34,6 +34,9 @@ double edge_of_tetrahedra(const Mesh& mesh);
 /// both turned, by the radii of their middles.
 double thickness_of(const Mesh& mesh, bool axisymmetric);
 
+/// Whether it is a sheet of this thickness: 8 times as long and, in space, 3 times as wide as thick (of a bar the middle one of its sizes is 2 times).
+bool is_sheet(const Mesh& mesh, double thickness);
+
 /// The node whose initial place is nearest to a point.
 int nearest_node(const Mesh& mesh, const Vec3& point);
 
