@@ -67,8 +67,17 @@ double edge_of_tetrahedra(const Mesh& mesh) {
   return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
-double thickness_of(const Mesh& mesh, bool axisymmetric) {
-  double volume = 0, area = 0;
+double thickness_of(const Mesh& mesh, bool axisymmetric, const std::vector<SymmetryPlane>& planes) {
+  constexpr double kParallel = 0.99;  // cosine
+  double volume = 0, area = 0, cut = 0;
+  const auto is_cut = [&](const Facet& facet) {
+    const Vec3 a = area_vector(mesh, facet);
+    return std::any_of(planes.begin(), planes.end(), [&](const SymmetryPlane& plane) {
+      if (std::abs(a.dot(plane.normal)) < kParallel * a.norm() * plane.normal.norm()) return false;
+      const auto set = mesh.sets.find(plane.set);
+      return set != mesh.sets.end() && std::all_of(facet.nodes.begin(), facet.nodes.begin() + mesh.dimension, [&](int n) { return std::binary_search(set->second.begin(), set->second.end(), n); });
+    });
+  };
   const auto& X = mesh.nodes;
   for (const auto& s : mesh.simplices()) {
     Mat3 edges = Mat3::Identity();
@@ -77,11 +86,10 @@ double thickness_of(const Mesh& mesh, bool axisymmetric) {
     volume += radius * edges.determinant() / (mesh.dimension == 2 ? 2 : 6);
   }
   for (const Facet& f : mesh.surface) {
-    const Vec3 a = X[f.nodes[1]] - X[f.nodes[0]];
     const double radius = axisymmetric ? (X[f.nodes[0]].x() + X[f.nodes[1]].x()) / 2 : 1;
-    area += mesh.dimension == 2 ? radius * a.norm() : 0.5 * a.cross(X[f.nodes[2]] - X[f.nodes[0]]).norm();
+    (is_cut(f) ? cut : area) += radius * area_vector(mesh, f).norm();
   }
-  return 2 * volume / area;
+  return 2 * volume / (area > 0 ? area : cut);
 }
 
 bool is_sheet(const Mesh& mesh, double thickness) {

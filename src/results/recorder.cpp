@@ -61,7 +61,7 @@ void Recorder::tell_sharp_bends(const Simulation& simulation, int stage) {
   if (!forms(stages[stage]) || std::any_of(stages.begin() + stage + 1, stages.end(), forms)) return;
   const Model& model = simulation.model();
   for (const BodyModel& body : model.bodies) {
-    const SharpBend bend = sharpest_bend(body, model.axisymmetric, simulation.positions());
+    const SharpBend bend = sharpest_bend(body, simulation.positions());
     if (bend.degrees > kSharp)
       record_.notes.push_back("body " + body.name + " is bent by up to " + three_digits(bend.degrees) + " degrees from one cell to the next, at " + place(bend.place) +
                               " when forming ends: cells that follow a bend in steps of 10 degrees and less (docs/elements.md) give its force and its springback, longer ones neither");

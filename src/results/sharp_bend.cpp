@@ -25,10 +25,10 @@ Vec3 centre_of(const Face& face, const NodeField& x) {
 double degrees_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / M_PI; }
 }  // namespace
 
-SharpBend sharpest_bend(const BodyModel& body, bool axisymmetric, const NodeField& x) {
+SharpBend sharpest_bend(const BodyModel& body, const NodeField& x) {
   SharpBend sharpest;
   const Mesh& mesh = body.mesh;
-  if (!is_sheet(mesh, thickness_of(mesh, axisymmetric))) return sharpest;
+  if (!is_sheet(mesh, body.thickness)) return sharpest;
   NodeField X, now;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
     X.push_back(node(mesh.nodes[n]));

@@ -198,6 +198,16 @@ void check_springback_nodes(const Scene& scene, const std::vector<Mesh>& bodies,
   check(scene.output.springback->reference_from, scene.output.springback->reference_to, "reference_to");
 }
 
+/// What a boundary holds across alone is taken for a plane of symmetry.
+std::vector<SymmetryPlane> symmetry_planes(const BodyConfig& config) {
+  std::vector<SymmetryPlane> planes;
+  for (const BoundaryConfig& boundary : config.boundaries) {
+    if (boundary.kind == "symmetric") planes.push_back({boundary.set, boundary.normal});
+    else if (boundary.kind == "fixed" && boundary.axes.size() == 1) planes.push_back({boundary.set, Vec3::Unit(boundary.axes[0][0] - 'x')});
+  }
+  return planes;
+}
+
 void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
   tell_odd_body(config, mesh, model);
   BodyModel body;
@@ -209,6 +219,7 @@ void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
   body.material = config.material;
   body.pressure_average = config.pressure_average;
   body.self_contact = config.self_contact;
+  body.thickness = thickness_of(mesh, model.axisymmetric, symmetry_planes(config));
   body.mesh = std::move(mesh);
   model.bodies.push_back(std::move(body));
 }

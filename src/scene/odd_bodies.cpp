@@ -53,7 +53,7 @@ void note_coarse_sheet(const BodyConfig& config, const Mesh& mesh, Model& model)
   constexpr int kFew = 100;        // elements, which are no mesh of a sheet
   const double edge = edge_of_tetrahedra(mesh);
   if (edge == 0 || mesh.simplex_count() < kFew) return;
-  const double thickness = thickness_of(mesh, false);
+  const double thickness = thickness_of(mesh, false, {});
   if (!(edge > kCoarse * thickness) || !is_sheet(mesh, thickness)) return;
   model.notes.push_back("the tetrahedra of body " + config.name + " have edges " + three_digits(edge / thickness) + " times as long as the body is thick: with one of them through its thickness a sheet bends a fourth too stiffly, "
                         "with two by 4 % (docs/elements.md); give shorter edges, or hexahedra with pattern one_point");

@@ -34,7 +34,7 @@ double time_to_rest(const std::vector<StageConfig>& stages, int begin) {
 
 double Simulation::Impl::slowness(const BodyModel& body) const {
   const double size = bounds(body.mesh).diagonal().norm(), speed = std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling);
-  return size * size / (thickness_of(body.mesh, model.axisymmetric) * speed);
+  return size * size / (body.thickness * speed);
 }
 
 bool Simulation::Impl::lets_go_slowly() const {
@@ -106,7 +106,7 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
     const std::vector<Held>& forces = forces_on[b];
     if (forces.empty()) continue;
     if (RecedingSupports::squeeze(forces) > kSqueezed) {
-      supports.begin({static_cast<int>(b), thickness_of(body.mesh, model.axisymmetric), body.material.E(), elements.stored_energy_of(body, x), time, duration}, std::max(previous_dt, full_dt()), elements.nodal_mass(), x, forces);
+      supports.begin({static_cast<int>(b), body.thickness, body.material.E(), elements.stored_energy_of(body, x), time, duration}, std::max(previous_dt, full_dt()), elements.nodal_mass(), x, forces);
     } else {
       std::vector<HoldingForce> to_fade;
       for (const Held& held : forces) to_fade.push_back(held.by);

@@ -9,7 +9,6 @@
 #include "forming_sim/config/words.h"
 #include "forming_sim/loads/velocity_field.h"
 #include "forming_sim/mesh/axis.h"
-#include "forming_sim/mesh/measure.h"
 #include "forming_sim/simulation/release.h"
 #include "simulation/impl.h"
 
@@ -56,9 +55,9 @@ RunPlan with_limit(RunPlan plan, const Model& model) {
 
 namespace {
 
-WaveBody waves_of(const BodyModel& body, double mass_scaling, bool axisymmetric) {
+WaveBody waves_of(const BodyModel& body, double mass_scaling) {
   const double density = body.material.density * mass_scaling, shear_speed = std::sqrt(body.material.mu() / density);
-  return {density * shear_speed, kSteadyTime * thickness_of(body.mesh, axisymmetric) / shear_speed, body.first_node, body.node_count};
+  return {density * shear_speed, kSteadyTime * body.thickness / shear_speed, body.first_node, body.node_count};
 }
 
 }  // namespace
@@ -132,7 +131,7 @@ void Simulation::Impl::tell_quick_press() {
   const std::vector<SurfacePair> pairs = contact->surface_pairs();
   for (const BodyModel& body : model.bodies) {
     const auto rubs = [&](const SurfacePair& p) { return (p.first == body.name || p.second == body.name) && p.friction > 0; };
-    const double T = waves_of(body, plan.time_step.mass_scaling, model.axisymmetric).time, share = all / T;
+    const double T = waves_of(body, plan.time_step.mass_scaling).time, share = all / T;
     if (share >= kQuick || std::none_of(pairs.begin(), pairs.end(), rubs)) continue;
     std::ostringstream text;
     text.precision(2);
@@ -165,10 +164,10 @@ void Simulation::Impl::set_up_contact() {
     first_facet += count;
     const MaterialConfig& m = body.material;
     const double density = m.density * plan.time_step.mass_scaling;
-    s.waves = waves_of(body, plan.time_step.mass_scaling, model.axisymmetric);
+    s.waves = waves_of(body, plan.time_step.mass_scaling);
     setup.bodies.push_back(std::move(s));
     setup.softest_modulus = std::min(setup.softest_modulus, m.E());
-    setup.thinnest = std::min(setup.thinnest, thickness_of(body.mesh, model.axisymmetric));
+    setup.thinnest = std::min(setup.thinnest, body.thickness);
     setup.wave_speed = std::min(
         setup.wave_speed, std::sqrt((m.K() + 4. / 3 * m.mu()) / density));
   }

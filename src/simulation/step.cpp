@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "forming_sim/loads/gravity.h"
-#include "forming_sim/mesh/measure.h"
 #include "forming_sim/parallel/denormals.h"
 #include "simulation/impl.h"
 
@@ -141,7 +140,7 @@ void Simulation::Impl::tell_fall(int tool) {
   if (!(fallen > 0)) return;
   if (thinnest == 0) {
     thinnest = std::numeric_limits<double>::max();
-    for (const BodyModel& body : model.bodies) thinnest = std::min(thinnest, thickness_of(body.mesh, model.axisymmetric));
+    for (const BodyModel& body : model.bodies) thinnest = std::min(thinnest, body.thickness);
   }
   if (fallen < thinnest) return;
   fall_told = true;

@@ -34,13 +34,13 @@ TEST(SharpBend, IsWhatASheetTurnsByFromCellToCell) {
       if (dimension == 3) blank.shape = "plate", blank.width = 4e-3, blank.cells_across = 4;
       const BodyModel body = body_of(generate_blank(blank), aluminium());
       for (double degrees : {3., 12., 25.}) {
-        const SharpBend bend = sharpest_bend(body, false, bent(body, degrees, length));
+        const SharpBend bend = sharpest_bend(body, bent(body, degrees, length));
         EXPECT_NEAR(bend.degrees, degrees, 1e-6) << dimension << pattern;
         EXPECT_LT(std::abs(bend.place.x()), 5e-3);
       }
       NodeField level;
       for (const Vec3& X : body.mesh.nodes) level.push_back(node(X));
-      EXPECT_NEAR(sharpest_bend(body, false, level).degrees, 0, 1e-9) << "its own edges are no bends";
+      EXPECT_NEAR(sharpest_bend(body, level).degrees, 0, 1e-9) << "its own edges are no bends";
     }
 }
 
@@ -48,7 +48,7 @@ TEST(SharpBend, OfWhatIsNoSheetIsNotAsked) {
   const BodyModel block = body_of(generate_blank(strip_of(4e-3, 4e-3, 8, 8)), aluminium());
   NodeField x;
   for (const Vec3& X : block.mesh.nodes) x.push_back(node(X.x(), X.y() * (1 + 100 * X.x()), 0));
-  EXPECT_EQ(sharpest_bend(block, false, x).degrees, 0);
+  EXPECT_EQ(sharpest_bend(block, x).degrees, 0);
 }
 
 }  // namespace forming_sim

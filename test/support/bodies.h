@@ -5,6 +5,7 @@
 
 #include "forming_sim/element/elements.h"
 #include "forming_sim/mesh/generate.h"
+#include "forming_sim/mesh/measure.h"
 #include "forming_sim/simulation/model.h"
 
 namespace forming_sim {
@@ -78,6 +79,7 @@ inline BodyModel body_of(Mesh mesh, const MaterialConfig& material, const std::s
   body.element_count = mesh.simplex_count();
   body.material = material;
   body.pressure_average = average;
+  body.thickness = thickness_of(mesh, false, {});
   body.mesh = std::move(mesh);
   return body;
 }

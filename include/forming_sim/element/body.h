@@ -15,6 +15,7 @@ struct BodyModel {
   MaterialConfig material;
   std::string pressure_average = "cell";     ///< cell | node | element
   bool self_contact = false;                 ///< it meets itself where it folds
+  double thickness = 0;          ///< m, thickness_of() at the start
   Mesh mesh;                     ///< its own mesh, nodes numbered from 0; sets hold the named sets of the scene too
 };
 

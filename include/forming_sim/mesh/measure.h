@@ -2,6 +2,7 @@
 // Volumes, areas and extents of a mesh.
 #include <array>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -30,9 +31,14 @@ double size_of(const Mesh& mesh);
 double flatness(const Mesh& mesh);
 /// Mean length of the edges of the tetrahedra that no hexahedron was split into, m; 0 where there are none.
 double edge_of_tetrahedra(const Mesh& mesh);
-/// Twice the volume over the surface: the thickness of a thin sheet, m. Axisymmetric:
-/// both turned, by the radii of their middles.
-double thickness_of(const Mesh& mesh, bool axisymmetric);
+/// A plane of symmetry, of this normal, which the nodes of a set lie in or move along.
+struct SymmetryPlane {
+  std::string set;
+  Vec3 normal;
+};
+/// Twice the volume over the surface but for what lies in planes of symmetry: the thickness of a thin sheet, m, also where the mesh is a
+/// half or a slice of it. Axisymmetric: both turned, by the radii of their middles.
+double thickness_of(const Mesh& mesh, bool axisymmetric, const std::vector<SymmetryPlane>& planes);
 
 /// Whether it is a sheet of this thickness: 8 times as long and, in space, 3 times as wide as thick (of a bar the middle one of its sizes is 2 times).
 bool is_sheet(const Mesh& mesh, double thickness);

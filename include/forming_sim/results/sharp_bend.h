@@ -10,6 +10,6 @@ struct SharpBend {
   Vec3 place = Vec3::Zero();  ///< of that edge, m
 };
 /// Of a body that is a sheet, at x; of one that is none, 0.
-SharpBend sharpest_bend(const BodyModel& body, bool axisymmetric, const NodeField& x);
+SharpBend sharpest_bend(const BodyModel& body, const NodeField& x);
 
 }  // namespace forming_sim
