@@ -150,12 +150,12 @@ void FormingServer::work() {
 }
 
 void FormingServer::serve(Goal goal, Clock::time_point received) {
-  bool accepted = false, begun = false;
-  std::string name = goal.getGoal()->scene.name;
-  SimulateFormingResult result;
-  tell(name, Code::none, "the scene is being checked and meshed");
+  Answer answer;
+  answer.scene = goal.getGoal()->scene.name;
+  SimulateFormingResult& result = answer.result;
+  tell(answer.scene, Code::none, "the scene is being checked and meshed");
   try {
-    result = run(goal, accepted, begun, name);
+    run(goal, answer);
   } catch (const Error& error) {
     result.code = static_cast<int>(error.code());
     result.message = error.what();
@@ -167,14 +167,14 @@ void FormingServer::serve(Goal goal, Clock::time_point received) {
     result.code = ResultCode::INTERNAL_ERROR;
     result.message = "the run ended without an outcome: " + result.message;
   }
-  if (!begun) tell(name, static_cast<Code>(result.code), result.message);
+  if (!answer.begun) tell(answer.scene, static_cast<Code>(result.code), result.message);
   wait_for_client(received);
   {
     // From here a new goal is welcome: its client may have waited for this result only.
     const std::lock_guard<std::mutex> lock(mutex_);
     current_.reset();
   }
-  finish(goal, name, result, accepted);
+  finish(goal, answer);
 }
 
 void FormingServer::tell(const std::string& scene, Code code, const std::string& message) {
@@ -191,7 +191,8 @@ void FormingServer::tell(const std::string& scene, Code code, const std::string&
   publisher_.publish(status);
 }
 
-SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted, bool& begun, std::string& name) {
+void FormingServer::run(Goal& goal, Answer& answer) {
+  SimulateFormingResult& result = answer.result;
   const auto request = goal.getGoal();
   const int threads = choose_threads(request->threads, threads_);
   std::string resume;
@@ -200,23 +201,30 @@ SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted, bool& begun
   {
     Prepared prepared = prepare(request->scene, request->scene_text, threads);
     resume = check_resume(request->resume, prepared);
-    name = prepared.scene.name;
-    if (!prepared.faults.empty()) return rejection(prepared.faults);
+    answer.scene = prepared.scene.name;
+    if (!prepared.faults.empty()) {
+      result = rejection(prepared.faults);
+      return;
+    }
     scene = std::move(prepared.scene);
     simulation = std::move(prepared.simulation);
   }
   std::string directory;
   try {
-    if (cancel_) return result_of(Code::cancelled, "cancelled before the first step");
+    if (cancel_) {
+      result = result_of(Code::cancelled, "cancelled before the first step");
+      return;
+    }
     directory = make_output_directory(request->output_directory, output_root_, scene.name);
   } catch (const Error& error) {
     const bool chosen = request->output_directory.empty();
-    return rejection({{error.code(), chosen ? "output_root" : "output_directory", '"' + (chosen ? output_root_ : request->output_directory) + '"',
+    result = rejection({{error.code(), chosen ? "output_root" : "output_directory", '"' + (chosen ? output_root_ : request->output_directory) + '"',
                        std::string(error.what()) + "; give a directory that the server may write to"}});
+    return;
   }
 
   goal.setAccepted("running; files go to " + directory);
-  accepted = true;
+  answer.accepted = true;
   ROS_INFO("%s: running with %d threads, files in %s", scene.name.c_str(), threads, directory.c_str());
 
   RosObserver observer(publisher_, scene.name, [&goal](const RunStatus& status) {
@@ -226,24 +234,24 @@ SimulateFormingResult FormingServer::run(Goal& goal, bool& accepted, bool& begun
   });
   const Outcome outcome = run_scene(scene, directory, threads, resume, cancel_, {&observer}, std::move(simulation));
 
-  SimulateFormingResult result = result_of(outcome.code, outcome.message);
+  result = result_of(outcome.code, outcome.message);
   result.directory = directory;
-  begun = observer.begun();
-  if (!begun) return result;  // what is in the directory is of other runs
+  answer.begun = observer.begun();
+  if (!answer.begun) return;  // what is in the directory is of other runs
   result.files = run_files(directory);
   try {
     result.summary = read_summary(directory);
   } catch (const Error& error) {
-    if (outcome.code == Code::success) return result_of(error.code(), error.what());
+    if (outcome.code == Code::success) result = result_of(error.code(), error.what());
   }
-  return result;
 }
 
-void FormingServer::finish(Goal& goal, const std::string& name, const SimulateFormingResult& result, bool accepted) {
-  ROS_INFO("%s: %s", name.c_str(), result.message.c_str());
+void FormingServer::finish(Goal& goal, const Answer& answer) {
+  const SimulateFormingResult& result = answer.result;
+  ROS_INFO("%s: %s", answer.scene.c_str(), result.message.c_str());
   if (result.code == ResultCode::CANCELLED) {
     goal.setCanceled(result, result.message);
-  } else if (!accepted) {
+  } else if (!answer.accepted) {
     goal.setRejected(result, result.message);
   } else if (result.code == ResultCode::SUCCESS) {
     goal.setSucceeded(result, result.message);

@@ -46,6 +46,13 @@ class FormingServer {
     bool cancelled;
   };
 
+  /// To a goal: how far it came, and the result.
+  struct Answer {
+    std::string scene;      ///< its name
+    bool accepted = false, begun = false;
+    SimulateFormingResult result;
+  };
+
   void on_goal(Goal goal);
   void on_cancel(Goal goal);
   bool on_validate(ValidateScene::Request& request, ValidateScene::Response& response);
@@ -55,9 +62,9 @@ class FormingServer {
   void serve(Goal goal, Clock::time_point received);
   /// A status of a goal that does not run: it is prepared (Code::none), or it ended before its first step.
   void tell(const std::string& scene, Code code, const std::string& message);
-  /// Leaves the name of the scene, and whether it was accepted and its run began.
-  SimulateFormingResult run(Goal& goal, bool& accepted, bool& begun, std::string& name);
-  void finish(Goal& goal, const std::string& name, const SimulateFormingResult& result, bool accepted);
+  /// Prepares and runs what it is the answer to; throws Error, and then holds how far it came.
+  void run(Goal& goal, Answer& answer);
+  void finish(Goal& goal, const Answer& answer);
   /// Until the client of a goal that came then can take an answer to it.
   void wait_for_client(Clock::time_point received) const;
 
