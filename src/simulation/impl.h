@@ -12,6 +12,7 @@
 #include "forming_sim/loads/receding_supports.h"
 #include "forming_sim/simulation/ledger_watch.h"
 #include "forming_sim/simulation/simulation.h"
+#include "forming_sim/simulation/steady_step.h"
 #include "simulation/departure.h"
 #include "simulation/global_limit.h"
 #include "simulation/settle.h"
@@ -57,6 +58,7 @@ struct Simulation::Impl {
   double time = 0, dt = 0, previous_dt = 0, previous_kick = 0;
   long steps = 0;
   StepControl control;
+  SteadyStep steady;
   LedgerWatch watch;
   GlobalLimit global;
   Departure departure;              ///< watched where a step may come near the true limit

@@ -29,7 +29,7 @@ void Simulation::Impl::choose_dt() {
   if (control.due()) find_stable_step();
   const TimeStepConfig& config = plan.time_step;
   watch.follow();
-  dt = config.safety * watch.factor() * control.stable_dt;
+  dt = steady.follow(config.safety * watch.factor() * control.stable_dt);
   if (previous_dt > 0) dt = std::min(dt, kRise * previous_dt);
   limit.dt = dt;
   limit.element = control.element;
