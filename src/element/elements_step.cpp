@@ -136,6 +136,12 @@ double Elements::slowest_wave() const {
   return speed;
 }
 
+double Elements::fastest_wave() const {
+  double speed = 0;
+  for (const Group& g : groups_) speed = std::max(speed, std::sqrt((g.solid.K + 4.0 / 3 * g.solid.mu) / g.density));
+  return speed;
+}
+
 void Elements::add_mass(const std::vector<double>& kg) {
   for (std::size_t n = 0; n < mass_.size(); ++n) mass_[n] += kg[n];
 }

@@ -52,11 +52,23 @@ void sum(const NodalForces& forces, long first, long last, double* f) {
   });
 }
 
-void kick(double keep, double push, const double* v, const NodalForces& forces, const double* mass, long first, long last, double* to) {
+bool is_zero(const double* u) { return u[0] == 0 && u[1] == 0 && u[2] == 0; }
+
+template <bool may_rest> long kick(double keep, double push, double still, const double* v, const NodalForces& forces, const double* mass, long first, long last, double* to) {
+  long resting = 0;
   with_kind_of(forces, [&](auto D, auto loaded) {
     const auto node = [&](long n, double over_mass) {
-      const Quad f = force<D, loaded>(forces, n);
-      record(to, n) = keep * record(v, n) + over_mass * f;
+      const Quad f = force<D, loaded>(forces, n), du = over_mass * f;
+      record(to, n) = keep * record(v, n) + du;
+      if constexpr (may_rest) {
+        if (!is_zero(v + 4 * n)) return;
+        if constexpr (loaded)
+          if (!is_zero(forces.load + 4 * n)) return;
+        const Quad squares = du * du;
+        if ((squares[0] + squares[2]) + (squares[1] + squares[3]) > still * still) return;
+        record(to, n) = Quad{0, 0, 0, 0};
+        ++resting;
+      }
     };
     long n = first;
     for (; n + 4 <= last; n += 4) {  // four divisions at once
@@ -66,6 +78,10 @@ void kick(double keep, double push, const double* v, const NodalForces& forces, 
     }
     for (; n < last; ++n) node(n, push / mass[n]);
   });
+  return resting;
+}
+long kick(double keep, double push, double still, const double* v, const NodalForces& forces, const double* mass, long first, long last, double* to) {
+  return (still > 0 ? kick<true> : kick<false>)(keep, push, still, v, forces, mass, first, last, to);
 }
 
 double move(double dt, const double* v, const double* then, long first, long last, double* x) {

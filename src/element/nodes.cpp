@@ -42,10 +42,12 @@ Node force_on(long node, const NodalForces& forces) {
   return f;
 }
 
-void kick_nodes(Team& team, const Kick& kick, const NodeField& v, const NodalForces& forces, const std::vector<double>& mass, NodeField& to) {
+long kick_nodes(Team& team, const Kick& kick, const NodeField& v, const NodalForces& forces, const std::vector<double>& mass, NodeField& to) {
+  std::atomic<long> resting{0};
   team.share(static_cast<long>(v.size()), kNodesOfAThread, [&](long first, long last) {
-    kernels().kick(kick.keep, kick.push, numbers(v), forces, mass.data(), first, last, numbers(to));
+    resting += kernels().kick(kick.keep, kick.push, kick.still, numbers(v), forces, mass.data(), first, last, numbers(to));
   });
+  return resting;
 }
 
 double move_nodes(Team& team, double dt, const NodeField& v, const NodeField* then, NodeField& x) {
@@ -53,18 +55,20 @@ double move_nodes(Team& team, double dt, const NodeField& v, const NodeField* th
                       [&](long first, long last) { return kernels().move(dt, numbers(v), numbers(then), first, last, numbers(x)); });
 }
 
-double kick_and_move_nodes(Team& team, const Kick& kick, const NodeField& v_before, const NodalForces& forces, const std::vector<double>& mass,
+KickedAndMoved kick_and_move_nodes(Team& team, const Kick& kick, const NodeField& v_before, const NodalForces& forces, const std::vector<double>& mass,
                            const std::function<void(long first, long last)>& hold, double dt, const NodeField* then, NodeField& v, NodeField& x) {
-  return team.largest(static_cast<long>(x.size()), kNodesOfAThread, [&](long first, long last) {
+  std::atomic<long> resting{0};
+  const double apart = team.largest(static_cast<long>(x.size()), kNodesOfAThread, [&](long first, long last) {
     double most = 0;
     for (long begin = first; begin < last; begin += kPart) {
       const long end = std::min(last, begin + kPart);
-      kernels().kick(kick.keep, kick.push, numbers(v_before), forces, mass.data(), begin, end, numbers(v));
+      resting += kernels().kick(kick.keep, kick.push, kick.still, numbers(v_before), forces, mass.data(), begin, end, numbers(v));
       hold(begin, end);
       most = std::max(most, kernels().move(dt, numbers(v), numbers(then), begin, end, numbers(x)));
     }
     return most;
   });
+  return {apart, resting};
 }
 
 long compare_nodes(Team& team, const NodeField& x, NodeField& seen, std::vector<char>& moved) {

@@ -67,17 +67,24 @@ double edge_of_tetrahedra(const Mesh& mesh) {
   return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
-double thickness_of(const Mesh& mesh, bool axisymmetric, const std::vector<SymmetryPlane>& planes) {
+std::vector<char> cut_facets(const Mesh& mesh, const std::vector<SymmetryPlane>& planes) {
   constexpr double kParallel = 0.99;  // cosine
-  double volume = 0, area = 0, cut = 0;
-  const auto is_cut = [&](const Facet& facet) {
-    const Vec3 a = area_vector(mesh, facet);
-    return std::any_of(planes.begin(), planes.end(), [&](const SymmetryPlane& plane) {
-      if (std::abs(a.dot(plane.normal)) < kParallel * a.norm() * plane.normal.norm()) return false;
-      const auto set = mesh.sets.find(plane.set);
-      return set != mesh.sets.end() && std::all_of(facet.nodes.begin(), facet.nodes.begin() + mesh.dimension, [&](int n) { return std::binary_search(set->second.begin(), set->second.end(), n); });
-    });
-  };
+  std::vector<char> cut(mesh.surface.size(), 0);
+  for (const SymmetryPlane& plane : planes) {
+    const auto set = mesh.sets.find(plane.set);
+    if (set == mesh.sets.end()) continue;
+    const auto in_set = [&](int n) { return std::binary_search(set->second.begin(), set->second.end(), n); };
+    for (std::size_t i = 0; i < cut.size(); ++i) {
+      const Facet& facet = mesh.surface[i];
+      const Vec3 area = area_vector(mesh, facet);
+      if (std::abs(area.dot(plane.normal)) >= kParallel * area.norm() * plane.normal.norm() && std::all_of(facet.nodes.begin(), facet.nodes.begin() + mesh.dimension, in_set)) cut[i] = 1;
+    }
+  }
+  return cut;
+}
+
+double thickness_of(const Mesh& mesh, bool axisymmetric, const std::vector<char>& cut) {
+  double volume = 0, area[2] = {0, 0};  // m2, of what is not cut and what is
   const auto& X = mesh.nodes;
   for (const auto& s : mesh.simplices()) {
     Mat3 edges = Mat3::Identity();
@@ -85,11 +92,12 @@ double thickness_of(const Mesh& mesh, bool axisymmetric, const std::vector<Symme
     const double radius = axisymmetric ? (X[s[0]].x() + X[s[1]].x() + X[s[2]].x()) / 3 : 1;
     volume += radius * edges.determinant() / (mesh.dimension == 2 ? 2 : 6);
   }
-  for (const Facet& f : mesh.surface) {
+  for (std::size_t i = 0; i < mesh.surface.size(); ++i) {
+    const Facet& f = mesh.surface[i];
     const double radius = axisymmetric ? (X[f.nodes[0]].x() + X[f.nodes[1]].x()) / 2 : 1;
-    (is_cut(f) ? cut : area) += radius * area_vector(mesh, f).norm();
+    area[cut[i]] += radius * area_vector(mesh, f).norm();
   }
-  return 2 * volume / (area > 0 ? area : cut);
+  return 2 * volume / (area[0] > 0 ? area[0] : area[1]);
 }
 
 bool is_sheet(const Mesh& mesh, double thickness) {

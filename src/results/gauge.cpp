@@ -24,14 +24,20 @@ Peak greatest_plastic_strain(const Simulation& simulation) {
   return peak;
 }
 
+/// Faces in planes of symmetry are inside of what is simulated, and count for nothing.
 Peak greatest_surface_strain(const Simulation& simulation) {
   const std::vector<SurfaceStrain> strain = simulation.surface_strain();
   Peak peak;
   peak.time = simulation.time();
-  if (strain.empty()) return peak;
-  const auto index = std::max_element(strain.begin(), strain.end(), [](const SurfaceStrain& a, const SurfaceStrain& b) { return a.major < b.major; }) - strain.begin();
-  const Facet& facet = simulation.surface()[index];
-  peak.value = strain[index].major;
+  std::size_t first = 0, greatest = strain.size();
+  for (const BodyModel& body : simulation.model().bodies) {
+    for (std::size_t i = 0; i < body.cut.size(); ++i)
+      if (!body.cut[i] && (greatest == strain.size() || strain[first + i].major > strain[greatest].major)) greatest = first + i;
+    first += body.cut.size();
+  }
+  if (greatest == strain.size()) return peak;
+  const Facet& facet = simulation.surface()[greatest];
+  peak.value = strain[greatest].major;
   peak.element = facet.element;
   peak.position = centre(facet.nodes, simulation.model().dimension, simulation.positions());
   return peak;

@@ -209,7 +209,6 @@ std::vector<SymmetryPlane> symmetry_planes(const BodyConfig& config) {
 }
 
 void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
-  tell_odd_body(config, mesh, model);
   BodyModel body;
   body.name = config.name;
   body.first_node = model.node_count();
@@ -219,8 +218,10 @@ void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
   body.material = config.material;
   body.pressure_average = config.pressure_average;
   body.self_contact = config.self_contact;
-  body.thickness = thickness_of(mesh, model.axisymmetric, symmetry_planes(config));
+  body.cut = cut_facets(mesh, symmetry_planes(config));
+  body.thickness = thickness_of(mesh, model.axisymmetric, body.cut);
   body.mesh = std::move(mesh);
+  tell_odd_body(config, body, model);
   model.bodies.push_back(std::move(body));
 }
 

@@ -48,14 +48,15 @@ void note_polygonal_bar(const BodyConfig& config, const Mesh& mesh, Model& model
 }
 
 /// A sheet of free tetrahedra with hardly more than one of them through its thickness.
-void note_coarse_sheet(const BodyConfig& config, const Mesh& mesh, Model& model) {
+void note_coarse_sheet(const BodyModel& body, Model& model) {
+  const Mesh& mesh = body.mesh;
   constexpr double kCoarse = 0.8;  // edges over the thickness
   constexpr int kFew = 100;        // elements, which are no mesh of a sheet
   const double edge = edge_of_tetrahedra(mesh);
   if (edge == 0 || mesh.simplex_count() < kFew) return;
-  const double thickness = thickness_of(mesh, false, {});
+  const double thickness = body.thickness;
   if (!(edge > kCoarse * thickness) || !is_sheet(mesh, thickness)) return;
-  model.notes.push_back("the tetrahedra of body " + config.name + " have edges " + three_digits(edge / thickness) + " times as long as the body is thick: with one of them through its thickness a sheet bends a fourth too stiffly, "
+  model.notes.push_back("the tetrahedra of body " + body.name + " have edges " + three_digits(edge / thickness) + " times as long as the body is thick: with one of them through its thickness a sheet bends a fourth too stiffly, "
                         "with two by 4 % (docs/elements.md); give shorter edges, or hexahedra with pattern one_point");
 }
 
@@ -80,14 +81,15 @@ void note_standing_strip(const BodyConfig& config, Model& model) {
 
 }  // namespace
 
-void tell_odd_body(const BodyConfig& config, const Mesh& mesh, Model& model) {
+void tell_odd_body(const BodyConfig& config, const BodyModel& body, Model& model) {
+  const Mesh& mesh = body.mesh;
   if (const int parts = config.self_contact ? 1 : count_parts(mesh); parts > 1)
     model.notes.push_back("body " + config.name + " consists of " + std::to_string(parts) +
                           " parts that share no node, and they pass through each other: set its self_contact to true, or give them as bodies of their own");
   note_soft_strip(config, model);
   note_stiff_strip(config, model);
   note_polygonal_bar(config, mesh, model);
-  note_coarse_sheet(config, mesh, model);
+  note_coarse_sheet(body, model);
   constexpr double kFlat = 1.5;
   if (const double flat = flatness(mesh); flat > kFlat)
     model.notes.push_back("the cells of body " + config.name + " are " + three_digits(flat) +

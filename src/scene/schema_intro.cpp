@@ -151,7 +151,7 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | `options` | what viscosity, damping, settling and mass scaling took or added; `time_step`: the limit and its cost, and `shortened`, how often steps were made shorter because energy came from nowhere; `raised_step`: mass added by `time_step.raise_to`, in kg, as a fraction, by body, and where most |
 | `contact` | `crossings` (must be 0), `halvings`, `min_gap_over_h0`, `h0_m`; `sweeps_per_step`: what finding the forces took, of the steps in which anything is near, and `share_at_max_sweeps`, the fraction of these steps that ended at `contact.max_sweeps`, with forces that still changed (by how much in all: `docs/contact.md`, patch); with `contact.method: explicit` `explicit_stable_dt_s`, the smallest step up to which its layer was stable |
 | `plastic_strain` | the largest equivalent plastic strain and where it is |
-| `surface_strain` | the largest principal logarithmic strain on the surface, extrapolated to it |
+| `surface_strain` | the largest principal logarithmic strain on the surface; faces in planes of symmetry are none |
 | `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom` |
 | `thinning` | the largest 1 - t/t0 of a node of `top`, t its thickness, t0 that of the start; where and when it is |
 | `bodies` | for each body: name, mass (that of the solver, with what `mass_scaling` and `raise_to` add), centre, momentum, angular momentum about the origin, `bounding_box` (`min`, `max`) |

@@ -17,10 +17,18 @@ template <class T> std::size_t mark_of(const T* values, std::size_t count) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(values), count * sizeof(T)});
 }
 
-/// A number of each body's nodes and each tool's surface, which come from files that may have changed.
+/// A number of each body's mesh and each tool's surface, which come from files that may have changed.
 std::vector<std::size_t> marks_of(const Model& model, const NodeField& X) {
   std::vector<std::size_t> marks;
-  for (const BodyModel& body : model.bodies) marks.push_back(mark_of(X.data() + body.first_node, static_cast<std::size_t>(body.node_count)));
+  for (const BodyModel& body : model.bodies) {
+    std::vector<int> numbers;
+    for (const std::array<int, 4>& corners : body.mesh.simplices()) numbers.insert(numbers.end(), corners.begin(), corners.end());
+    for (const auto& [name, nodes] : body.mesh.sets) {
+      numbers.insert(numbers.end(), name.begin(), name.end());
+      numbers.insert(numbers.end(), nodes.begin(), nodes.end());
+    }
+    marks.push_back(mark_of(X.data() + body.first_node, static_cast<std::size_t>(body.node_count)) ^ mark_of(numbers.data(), numbers.size()));
+  }
   for (const ToolModel& tool : model.tools) {
     std::vector<int> corners;
     for (const Facet& facet : tool.mesh.surface) corners.insert(corners.end(), facet.nodes.begin(), facet.nodes.end());
@@ -43,7 +51,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   for (double* value : {&time, &dt, &previous_dt, &previous_kick, &work, &damping, &settled_away, &friction, &contact_dissipated, &contact_potential,
                         &initial, &most, &min_gap, &explicit_stable_dt, &first_dt, &first_element_dt, &farthest, &smallest.dt, &next_crossing_check, &wall, &observed})
     a.number(*value);
-  for (long* value : {&steps, &halvings, &sweeps, &swept_steps, &unsettled_steps, &active_pairs, &crossings, &longer_steps}) a.number(*value);
+  for (long* value : {&steps, &halvings, &sweeps, &swept_steps, &unsettled_steps, &active_pairs, &crossings, &longer_steps, &resting}) a.number(*value);
   control.exchange(a);
   watch.exchange(a);
   steady.exchange(a);
@@ -76,9 +84,10 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   };
   for (Reaction& reaction : reactions) exchange_reaction(reaction);
   for (ToolStatus& tool : tools) {
-    for (Vec3* value : {&tool.force, &tool.moment, &tool.peak_force}) a.numbers(value->data(), 3);
+    for (Vec3* value : {&tool.way, &tool.force, &tool.moment, &tool.peak_force}) a.numbers(value->data(), 3);
     a.number(tool.radial_force);
     a.number(tool.peak_radial_force);
+    a.number(tool.most_against);
     exchange_reaction(tool.felt);
     a.number(tool.touched);
     a.number(tool.pressed);

@@ -65,10 +65,13 @@ struct Simulation::Impl {
   CellRates rates;                  ///< when the stable step was last asked for
   StepLimit limit, smallest;
   AddedMass added;
+  long resting = 1;                 ///< nodes that the last kick left at rest; 1 before the first, which looks for them
   long longer_steps = 0;            ///< than time_step.limit node allows
   double first_dt = 0;
   double first_element_dt = 0;  ///< stable step of the limiting element at the start, s
   double farthest = 0;          ///< coordinate of a node at the start, m
+  double place_rounding() const;  ///< of places, as a strain of the smallest cells
+  double rounding() const;        ///< m/s2 by which cells that rest may accelerate a node
   Settle settle;                    ///< of the running stage
   std::string unsettled;            ///< why the last settle stage that ran into its limit did; empty: none has
   NodeField f_before;               ///< forces of the step before an estimate of the settling frequency
@@ -130,7 +133,7 @@ struct Simulation::Impl {
   /// (dt_previous + dt)/2 f/m with damping.
   Kick kick_of(double step_dt) const;
   /// v* = v + kick, with prescribed motion.
-  void predict(double step_dt, NodeField& v_star) const;
+  void predict(double step_dt, NodeField& v_star);
   void find_loads();
   void take_step();
   void book(const ContactStep& done);

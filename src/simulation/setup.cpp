@@ -284,6 +284,7 @@ void Simulation::Impl::place_tools() {
     tools[k].position = pose.position;
     tools[k].rotation = pose.rotation;
     tools[k].velocity = pose.velocity;
+    if (!pose.velocity.isZero(0)) tools[k].way = pose.velocity.stableNormalized();
     tools[k].present = stages.present(static_cast<int>(k));
     if (const double stop = stages.stops()[k]; !std::isnan(stop)) tools[k].stopped = stop;
   }

@@ -50,7 +50,7 @@ void Simulation::Impl::tell_unstopped() {
   const auto tool = std::find_if(model.tools.begin(), model.tools.end(), [&](const ToolModel& t) { return t.name == stage.until_stopped; });
   if (tool == model.tools.end() || !tool->motion) return;
   std::ostringstream text;
-  text << "stage " << stage.title() << " ended after its duration: tool " << tool->name << " felt " << tools[tool - model.tools.begin()].peak_force.norm() << " of the "
+  text << "stage " << stage.title() << " ended after its duration: tool " << tool->name << " felt " << tools[tool - model.tools.begin()].most_against << " of the "
        << tool->motion->stop_force << (model.per_width() ? " N/m" : " N") << " that stop it";
   warnings.push_back(text.str());
 }

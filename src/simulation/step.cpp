@@ -20,10 +20,10 @@ NodalForces Simulation::Impl::forces() const {
   return f;
 }
 
-Kick Simulation::Impl::kick_of(double step_dt) const { return Kick(0.5 * (previous_dt + step_dt), damping_rate()); }
+Kick Simulation::Impl::kick_of(double step_dt) const { return Kick(0.5 * (previous_dt + step_dt), damping_rate(), resting > 0 ? rounding() : 0); }
 
-void Simulation::Impl::predict(double step_dt, NodeField& v_star) const {
-  kick_nodes(elements.team(), kick_of(step_dt), v, forces(), elements.nodal_mass(), v_star);
+void Simulation::Impl::predict(double step_dt, NodeField& v_star) {
+  resting = kick_nodes(elements.team(), kick_of(step_dt), v, forces(), elements.nodal_mass(), v_star);
   boundaries.apply_velocity(time, step_dt, x, v_star);
 }
 
@@ -60,7 +60,9 @@ void Simulation::Impl::take_step() {
     v.swap(v_before);
     const BoundarySet::Prescription prescribed = boundaries.prescription(time, dt);
     const auto hold = [&](long first, long last) { boundaries.apply_velocity(prescribed, x, first, last, v); };
-    departed = kick_and_move_nodes(elements.team(), kick_of(dt), v_before, forces(), elements.nodal_mass(), hold, dt, then, v, x);
+    const KickedAndMoved moved = kick_and_move_nodes(elements.team(), kick_of(dt), v_before, forces(), elements.nodal_mass(), hold, dt, then, v, x);
+    departed = moved.apart;
+    resting = moved.resting;
   }
   book_loads();
   if (stages.settling()) see_rest();
@@ -115,7 +117,8 @@ void Simulation::Impl::book(const ContactStep& done) {
     run_on(tool.radial_force, felt.radial);
     if (tool.force.squaredNorm() > tool.peak_force.squaredNorm()) tool.peak_force = tool.force;
     if (std::abs(tool.radial_force) > std::abs(tool.peak_radial_force)) tool.peak_radial_force = tool.radial_force;
-    if (const double most = stages.stop_force(static_cast<int>(k)); most > 0 && tool.force.norm() >= most) stages.stop(static_cast<int>(k), time + done.dt);
+    tool.most_against = std::max(tool.most_against, tool.against());
+    if (const double most = stages.stop_force(static_cast<int>(k)); most > 0 && tool.against() >= most) stages.stop(static_cast<int>(k), time + done.dt);
   }
 }
 

@@ -87,7 +87,7 @@ TEST_P(Nodes, kick_and_move_in_one_pass_are_both_one_after_the_other) {
         for (long n = first; n < last; ++n)
           if (held(n)) v2[n] = x2[n];
       };
-      EXPECT_EQ(kick_and_move_nodes(team, kick, block.v, block.forces(false), mass, hold, dt, looks_back ? &then : nullptr, v2, x2), apart);
+      EXPECT_EQ(kick_and_move_nodes(team, kick, block.v, block.forces(false), mass, hold, dt, looks_back ? &then : nullptr, v2, x2).apart, apart);
       EXPECT_EQ(v2, v);
       EXPECT_EQ(x2, x);
       double most = 0;

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "forming_sim/element/stillness.h"
-#include "support/bodies.h"
+#include "support/runs.h"
 
 namespace forming_sim {
 namespace {
@@ -65,6 +65,29 @@ TEST(Stillness, LooksThatGainNothingAreRare) {
   }
   EXPECT_GE(looks, 8);
   EXPECT_LE(looks, 11);
+}
+
+// Nothing acts on it: what the rounding of its cells pulls moves no node, at the place where it is either.
+TEST(Stillness, ABodyThatNothingTouchesRests) {
+  for (CellKind kind : {CellKind::quad2, CellKind::crossed, CellKind::quad1, CellKind::hex6, CellKind::hex24, CellKind::hex1})
+    for (double away : {0., 1e3}) {
+      Mesh mesh = block_of(kind, 6);
+      for (Vec3& X : mesh.nodes) X += Vec3(away, -.3 * away, 0);
+      auto sim = OneBody(body_of(mesh, aluminium(true)), 1).start();
+      for (int step = 0; step < 300; ++step) sim->step();
+      EXPECT_EQ(sim->positions(), sim->initial_positions()) << shape_of(kind).name << " at " << away;
+      EXPECT_EQ(sim->velocities(), NodeField(mesh.nodes.size(), Node::Zero())) << shape_of(kind).name << " at " << away;
+      EXPECT_EQ(sim->energies().kinetic, 0) << shape_of(kind).name;
+    }
+}
+
+// Gravity that is far less than what rounding could pull is still felt.
+TEST(Stillness, ALoadIsNoRounding) {
+  OneBody run(body_of(block_of(CellKind::crossed, 4), aluminium()), 1);
+  run.plan.gravity = Vec3(0, -1e-4, 0);
+  auto sim = run.start();
+  for (int step = 0; step < 300; ++step) sim->step();
+  for (const Node& v : sim->velocities()) EXPECT_NEAR(v[1], -1e-4 * sim->time(), .01e-4 * sim->time());
 }
 
 TEST(Stillness, CrossedTriangles) { same_bits(CellKind::crossed, 16, 1); }

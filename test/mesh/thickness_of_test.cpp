@@ -25,46 +25,47 @@ Mesh with_set(const BlankConfig& blank, int axis, double at) {
   return mesh;
 }
 
+double thickness(const Mesh& mesh, const std::vector<SymmetryPlane>& planes = {}, bool axisymmetric = false) { return thickness_of(mesh, axisymmetric, cut_facets(mesh, planes)); }
 double of_whole_section() { return kLength * kThickness / (kLength + kThickness); }
 
 }  // namespace
 
 TEST(ThicknessOf, ASheetIsTwiceItsVolumeOverItsSurface) {
-  EXPECT_NEAR(thickness_of(generate_blank(sheet(2)), false, {}), of_whole_section(), 1e-12);
+  EXPECT_NEAR(thickness(generate_blank(sheet(2))), of_whole_section(), 1e-12);
   const double volume = kLength * kWidth * kThickness, area = 2 * (kLength * kWidth + kWidth * kThickness + kThickness * kLength);
-  EXPECT_NEAR(thickness_of(generate_blank(sheet(3)), false, {}), 2 * volume / area, 1e-12);
+  EXPECT_NEAR(thickness(generate_blank(sheet(3))), 2 * volume / area, 1e-12);
 }
 
 TEST(ThicknessOf, ASliceOfASheetIsAsThickAsItsSection) {
   const Mesh slice = with_set(sheet(3, 0.1e-3), -1, 0);  // a slice holds all its nodes across
-  EXPECT_NEAR(thickness_of(slice, false, {{"plane", Vec3(0, -2, 0)}}), of_whole_section(), 1e-12);
+  EXPECT_NEAR(thickness(slice, {{"plane", Vec3(0, -2, 0)}}), of_whole_section(), 1e-12);
 }
 
 TEST(ThicknessOf, HalfASheetIsAsThickAsTheWhole) {
   BlankConfig half = sheet(2);
   half.length /= 2;
-  EXPECT_NEAR(thickness_of(with_set(half, 0, 0), false, {{"plane", Vec3::UnitX()}}), of_whole_section(), 1e-12);
+  EXPECT_NEAR(thickness(with_set(half, 0, 0), {{"plane", Vec3::UnitX()}}), of_whole_section(), 1e-12);
   half = sheet(2);
   half.thickness /= 2;
-  EXPECT_NEAR(thickness_of(with_set(half, 1, 0), false, {{"plane", Vec3::UnitY()}}), of_whole_section(), 1e-12);
+  EXPECT_NEAR(thickness(with_set(half, 1, 0), {{"plane", Vec3::UnitY()}}), of_whole_section(), 1e-12);
 }
 
 TEST(ThicknessOf, WhatIsHeldAlongItselfIsNoPlaneOfSymmetry) {
   const Mesh mesh = with_set(sheet(2), 1, 0);
-  EXPECT_NEAR(thickness_of(mesh, false, {{"plane", Vec3::UnitX()}}), of_whole_section(), 1e-12);
-  EXPECT_NEAR(thickness_of(mesh, false, {{"a missing set", Vec3::UnitY()}}), of_whole_section(), 1e-12);
+  EXPECT_NEAR(thickness(mesh, {{"plane", Vec3::UnitX()}}), of_whole_section(), 1e-12);
+  EXPECT_NEAR(thickness(mesh, {{"a missing set", Vec3::UnitY()}}), of_whole_section(), 1e-12);
 }
 
 TEST(ThicknessOf, ABodyBetweenPlanesOfSymmetryAloneHasItsOwnSurface) {
   const Mesh mesh = with_set(sheet(2), -1, 0);
-  EXPECT_NEAR(thickness_of(mesh, false, {{"plane", Vec3::UnitX()}, {"plane", Vec3::UnitY()}}), of_whole_section(), 1e-12);
+  EXPECT_NEAR(thickness(mesh, {{"plane", Vec3::UnitX()}, {"plane", Vec3::UnitY()}}), of_whole_section(), 1e-12);
 }
 
 TEST(ThicknessOf, ADiscThatIsTurnedIsAsThickAsItsSectionSays) {
   const double R = kLength;
   Mesh section = generate_blank(sheet(2));
   close_at_axis(section);
-  EXPECT_NEAR(thickness_of(section, true, {}), R * R * kThickness / (R * R + R * kThickness), 1e-9);
+  EXPECT_NEAR(thickness(section, {}, true), R * R * kThickness / (R * R + R * kThickness), 1e-9);
 }
 
 }  // namespace forming_sim

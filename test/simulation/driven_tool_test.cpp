@@ -94,6 +94,31 @@ TEST(DrivenTool, ARamStopsUnderItsForce) {
   EXPECT_EQ(vec3(resumed->positions()[5]), vec3(sim->positions()[5]));
 }
 
+// Half a block pushes its ram aside by friction, which the other half would balance: a press feels neither.
+TEST(DrivenTool, ARamOnHalfABlockStopsWhereItDoesOnTheWhole) {
+  const double height = 10e-3, force = 4e6;
+  double way[2];
+  for (const bool half : {false, true}) {
+    const double length = half ? 10e-3 : 20e-3;
+    OneBody run(body_of(generate_blank(strip_of(length, height, half ? 5 : 10, 5)), aluminium(true)), 1e-3);
+    press(run, height, 1e-3, 1e-3);
+    for (ToolModel& tool : run.model.tools) tool.friction = .3;
+    run.model.tools[1].motion->stop_force = half ? force / 2 : force;
+    run.plan.stages[0].until_stopped = "ram";
+    run.plan.time_step.damping = 2e4;
+    if (half) run.plan.bodies[0].boundaries = {symmetric("left", Vec3::UnitX())};
+    auto sim = run.start();
+    while (sim->step()) {}
+    const ToolStatus& ram = sim->tools()[1];
+    ASSERT_TRUE(ram.stopped.has_value());
+    way[half] = -ram.position.y();
+    std::printf("  %s: stopped after %.4g mm under (%.4g, %.4g) N/m\n", half ? "half" : "whole", 1e3 * way[half], ram.force.x(), ram.force.y());
+    EXPECT_NEAR(ram.force.y(), run.model.tools[1].motion->stop_force, 1e-3 * force);
+    if (half) EXPECT_GT(std::abs(ram.force.x()), .1 * ram.force.y());
+  }
+  EXPECT_NEAR(way[1], way[0], .01 * way[0]);
+}
+
 TEST(DrivenTool, WhatDidNotStopIsTold) {
   auto sim = stopping_ram(1e9, 5e-6).start();
   while (sim->step()) {}

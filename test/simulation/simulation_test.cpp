@@ -207,6 +207,28 @@ TEST(Simulation, CancelEndsTheRunAndSaysSo) {
   EXPECT_EQ(sim->run(cancel).code, Code::cancelled);
 }
 
+TEST(Simulation, ACheckpointOfAnotherMeshIsRefused) {
+  const auto run = [] { return tumbling(CellKind::crossed, 1e-3); };
+  const std::vector<char> saved = run().start()->save();
+  const auto refused = [&](OneBody other) {
+    try {
+      other.start()->restore(saved);
+    } catch (const Error& error) {
+      return std::string(error.what()).find("the mesh of body block has changed") == 0;
+    }
+    return false;
+  };
+  EXPECT_FALSE(refused(run()));
+  OneBody other = run();
+  ASSERT_FALSE(other.model.bodies[0].mesh.sets["left"].empty());
+  other.model.bodies[0].mesh.sets["right"].push_back(0);
+  EXPECT_TRUE(refused(other)) << "a set has another node";
+  other = run();
+  std::vector<int>& corners = other.model.bodies[0].mesh.cells[0].nodes;
+  std::rotate(corners.begin(), corners.begin() + 1, corners.begin() + 4);
+  EXPECT_TRUE(refused(other)) << "a cell begins at another corner";
+}
+
 TEST(Simulation, ADamagedCheckpointIsRefused) {
   auto sim = tumbling(CellKind::crossed, 1e-3).start();
   std::vector<char> saved = sim->save();

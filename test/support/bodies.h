@@ -79,7 +79,8 @@ inline BodyModel body_of(Mesh mesh, const MaterialConfig& material, const std::s
   body.element_count = mesh.simplex_count();
   body.material = material;
   body.pressure_average = average;
-  body.thickness = thickness_of(mesh, false, {});
+  body.cut = cut_facets(mesh, {});
+  body.thickness = thickness_of(mesh, false, body.cut);
   body.mesh = std::move(mesh);
   return body;
 }

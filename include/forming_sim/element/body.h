@@ -15,8 +15,9 @@ struct BodyModel {
   MaterialConfig material;
   std::string pressure_average = "cell";     ///< cell | node | element
   bool self_contact = false;                 ///< it meets itself where it folds
-  double thickness = 0;          ///< m, thickness_of() at the start
   Mesh mesh;                     ///< its own mesh, nodes numbered from 0; sets hold the named sets of the scene too
+  std::vector<char> cut;         ///< cut_facets() of the mesh
+  double thickness = 0;          ///< m, thickness_of() at the start
 };
 
 }  // namespace forming_sim

@@ -94,6 +94,7 @@ class Elements {
   void add_mass(const std::vector<double>& kg);
 
   double slowest_wave() const;  ///< sqrt((K + 4 mu/3)/rho) of the slowest material, masses scaled, m/s
+  double fastest_wave() const;  ///< likewise of the fastest
 
   /// f = internal forces at x as if nothing yielded on the way from the last positions: a change of
   /// x gives the elastic tangent. Without viscosity; no memory changes, what nodal_forces() gave is lost. Not of Law::classical.

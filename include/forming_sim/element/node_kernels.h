@@ -9,8 +9,8 @@ namespace forming_sim {
 struct NodeKernels {
   /// f of element/nodal_forces.h
   void (*sum)(const NodalForces& forces, long first, long last, double* f);
-  /// to = keep v + push/m f; mass: one number a node.
-  void (*kick)(double keep, double push, const double* v, const NodalForces& forces, const double* mass, long first, long last, double* to);
+  /// to = keep v + push/m f, and 0 where v and the load are and the rest is at most `still` in size (element/nodes.h): of how many nodes it is; mass: one number a node.
+  long (*kick)(double keep, double push, double still, const double* v, const NodalForces& forces, const double* mass, long first, long last, double* to);
   /// x += dt v; the largest |v - then|^2, 0 without `then`.
   double (*move)(double dt, const double* v, const double* then, long first, long last, double* x);
   /// moved = is x other than seen, seen = x; of how many nodes it is. moved: one number a node.

@@ -11,13 +11,17 @@ namespace forming_sim {
 
 /// The kick in a time of `time` s with damping (1/s) at the mean of the two velocities:
 /// v <- keep v + push f/m = ((1 - a) v + time f/m) / (1 + a), a = damping time/2.
+/// A node that rests, bears no load and would be accelerated by at most `rounding`, m/s2, goes on to rest: cells that are as they were at the start pull by what their
+/// rounding leaves, and would set going in a few steps what nothing has touched (element/stillness.h). With 0 nothing is looked at.
 struct Kick {
   double keep, push;
+  double still;  ///< m/s: push f/m up to which it rests
 
-  Kick(double time, double damping) {
+  Kick(double time, double damping, double rounding = 0) {
     const double a = 0.5 * damping * time;
     keep = (1 - a) / (1 + a);
     push = time / (1 + a);
+    still = time * rounding;
   }
 };
 
@@ -26,15 +30,19 @@ void sum_nodes(Team& team, const NodalForces& forces, NodeField& f);
 /// f of one node, the same to the last bit.
 Node force_on(long node, const NodalForces& forces);
 
-/// to = v after the kick; mass: kg.
-void kick_nodes(Team& team, const Kick& kick, const NodeField& v, const NodalForces& forces, const std::vector<double>& mass, NodeField& to);
+/// to = v after the kick; mass: kg. Returns how many nodes go on to rest.
+long kick_nodes(Team& team, const Kick& kick, const NodeField& v, const NodalForces& forces, const std::vector<double>& mass, NodeField& to);
 
 /// x += dt v. Returns the largest |v - then|^2, 0 without `then`.
 double move_nodes(Team& team, double dt, const NodeField& v, const NodeField* then, NodeField& x);
 
 /// Both, a part of the nodes at a time, which a core's cache holds meanwhile: v = v_before after the kick, then hold(first, last)
-/// for what else acts on the velocities of the nodes [first, last), then x += dt v. Returns what move_nodes does.
-double kick_and_move_nodes(Team& team, const Kick& kick, const NodeField& v_before, const NodalForces& forces, const std::vector<double>& mass,
+/// for what else acts on the velocities of the nodes [first, last), then x += dt v. Returns what move_nodes and kick_nodes do.
+struct KickedAndMoved {
+  double apart;
+  long resting;
+};
+KickedAndMoved kick_and_move_nodes(Team& team, const Kick& kick, const NodeField& v_before, const NodalForces& forces, const std::vector<double>& mass,
                            const std::function<void(long first, long last)>& hold, double dt, const NodeField* then, NodeField& v, NodeField& x);
 
 /// moved = does x differ from seen, node by node; seen = x. Returns how many do.

@@ -4,7 +4,8 @@
 // The forces of a cell follow from the places of its nodes and its memory. Where
 // the nodes stand still and the last evaluation left the memory as it was, the next
 // one would give the same bits: there is nothing to do. So a body that waits for a
-// tool, or the part of a bar that the wave has not reached, costs nothing.
+// tool, or the part of a bar that the wave has not reached, costs nothing. (What its cells pull by
+// rounding does not count: Kick of element/nodes.h.)
 #include <vector>
 
 #include "forming_sim/parallel/team.h"

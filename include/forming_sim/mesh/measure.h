@@ -36,9 +36,11 @@ struct SymmetryPlane {
   std::string set;
   Vec3 normal;
 };
-/// Twice the volume over the surface but for what lies in planes of symmetry: the thickness of a thin sheet, m, also where the mesh is a
+/// Of every facet of the surface, 1: it lies in one of the planes, where the body goes on.
+std::vector<char> cut_facets(const Mesh& mesh, const std::vector<SymmetryPlane>& planes);
+/// Twice the volume over the surface that is not cut (cut_facets): the thickness of a thin sheet, m, also where the mesh is a
 /// half or a slice of it. Axisymmetric: both turned, by the radii of their middles.
-double thickness_of(const Mesh& mesh, bool axisymmetric, const std::vector<SymmetryPlane>& planes);
+double thickness_of(const Mesh& mesh, bool axisymmetric, const std::vector<char>& cut);
 
 /// Whether it is a sheet of this thickness: 8 times as long and, in space, 3 times as wide as thick (of a bar the middle one of its sizes is 2 times).
 bool is_sheet(const Mesh& mesh, double thickness);
