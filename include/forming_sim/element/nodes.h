@@ -36,12 +36,13 @@ long kick_nodes(Team& team, const Kick& kick, const NodeField& v, const NodalFor
 /// x += dt v. Returns the largest |v - then|^2, 0 without `then`.
 double move_nodes(Team& team, double dt, const NodeField& v, const NodeField* then, NodeField& x);
 
-/// Both, a part of the nodes at a time, which a core's cache holds meanwhile: v = v_before after the kick, then hold(first, last)
-/// for what else acts on the velocities of the nodes [first, last), then x += dt v. Returns what move_nodes and kick_nodes do.
+/// What move_nodes and kick_nodes return.
 struct KickedAndMoved {
   double apart;
   long resting;
 };
+/// Both, a part of the nodes at a time, which a core's cache holds meanwhile: v = v_before after the kick, then hold(first, last)
+/// for what else acts on the velocities of the nodes [first, last), then x += dt v.
 KickedAndMoved kick_and_move_nodes(Team& team, const Kick& kick, const NodeField& v_before, const NodalForces& forces, const std::vector<double>& mass,
                            const std::function<void(long first, long last)>& hold, double dt, const NodeField* then, NodeField& v, NodeField& x);
 
