@@ -15,6 +15,7 @@ namespace forming_sim {
 namespace {
 
 constexpr double kOwn = 0.1;  ///< least weight with which a tie holds a vertex of its own
+constexpr double kAsNear = 1e-3;  ///< of the distance of a tie: facets whose distances differ by less are as near
 
 struct EdgeLengths {
   double smallest = std::numeric_limits<double>::infinity(), mean = 0;
@@ -163,6 +164,7 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
   if (pairs.empty()) return ties;
   Workspace work;
   const std::vector<bool> all(setup.tools.size(), true);
+  const NodeField out = outwards(f, x);
   const NearList list = build_list(f, x, {ToolIndex(f, place, all), {}, all, is_plane, planes}, {}, radius, work);
   const auto at = [&](int v) -> const Node& { return v < f.body_nodes ? x[v] : place[v - f.body_nodes]; };
   for (const TiedPair& pair : pairs) {
@@ -175,15 +177,22 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
       if (!(own == pair.first && g.surface == pair.second) && !(own == pair.second && g.surface == pair.first)) continue;
       Closest nearest;
       int facet = -1;
+      double facing = 0;
       near.clear();
       for (int i = g.first; i < g.last; ++i) {
         const auto& c = f.facets[list.facets[i].facet];
         const Node* const corner[3] = {&at(c[0]), &at(c[1]), &at(c[f.corners() - 1])};
         const Closest q = closest_on_facet(f.corners(), at(g.vertex), *corner[0], *corner[1], *corner[f.corners() - 1]);
         if (q.squared <= pair.near * pair.near) near.push_back(list.facets[i].facet);
-        if (q.squared > pair.distance * pair.distance || (facet >= 0 && q.squared >= nearest.squared)) continue;
+        if (q.squared > pair.distance * pair.distance) continue;
+        // At a rim the sides of what lies below are as near as its top: of facets that are as near the one that the vertex looks at.
+        const Node normal = f.facet_outward[list.facets[i].facet] * facet_normal(f.dimension, *corner[0], *corner[1], *corner[f.corners() - 1]);
+        const double along = -dot3(out[g.vertex], normal) / std::sqrt(normal.squaredNorm()), across = f.rigid(c[0]) ? std::abs(along) : along;  // either side of a tool may be its outside
+        const double slack = kAsNear * pair.distance, apart = std::sqrt(q.squared) - std::sqrt(nearest.squared);
+        if (facet >= 0 && (apart > slack || (apart > -slack && across <= facing))) continue;
         nearest = q;
         facet = list.facets[i].facet;
+        facing = across;
       }
       if (facet < 0) continue;
       touches[g.vertex] = zone[g.vertex] = true;

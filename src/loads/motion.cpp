@@ -6,6 +6,7 @@
 #include <string>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/config/words.h"
 #include "forming_sim/loads/rotation.h"
 #include "forming_sim/loads/tool.h"
 
@@ -69,6 +70,7 @@ Curve shaped(const std::string& profile, bool trajectory, const std::vector<doub
 }  // namespace
 
 RigidMotion::RigidMotion(const MotionConfig& config, int dimension) {
+  constexpr double kMostSteps = 1e6;
   const bool trajectory = config.kind == "trajectory";
   if (!trajectory && config.kind != "velocity")
     refuse("kind", "\"" + config.kind + "\"", "give trajectory or velocity");
@@ -107,7 +109,10 @@ RigidMotion::RigidMotion(const MotionConfig& config, int dimension) {
     if (to <= from) continue;
     double fastest = 0;
     for (const Vec3& turn : turns) fastest = std::max(fastest, turn.norm());
-    const int steps = std::max(64, static_cast<int>(std::ceil(fastest * (to - from) / kRadiansPerDegree)));
+    const double degrees = std::ceil(fastest * (to - from) / kRadiansPerDegree), steps = std::max(64.0, degrees);
+    if (!(reached.times.size() + steps <= kMostSteps))
+      refuse("spins_deg_s", "spins about a changing axis by up to " + number_text(degrees) + " degrees until " + number_text(to) + " s",
+             "orientations are found degree by degree, at most 1e6 of them: end the times nearer to the end of the stages, or spin about one axis");
     for (int j = 1; j <= steps; ++j) reached.times.push_back(from + (to - from) * j / steps);
   }
   reached.rotations.push_back(Mat3::Identity());

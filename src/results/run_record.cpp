@@ -49,14 +49,14 @@ int level_of(double internal) { return static_cast<int>(std::floor(std::log(inte
 }  // namespace
 
 void KineticPeak::look(double kinetic, double internal) {
-  if (!(internal > 0) || !std::isfinite(kinetic / internal)) return;
+  if (!(internal > 0) || !std::isfinite(internal) || !std::isfinite(kinetic / internal)) return;
   double& most = levels[level_of(internal)];
   most = std::max(most, kinetic / internal);
 }
 
 double KineticPeak::at_end(double internal, double least) const {
   double most = std::numeric_limits<double>::quiet_NaN();
-  if (!(internal > 0)) return most;
+  if (!(internal > 0) || !std::isfinite(internal)) return most;
   for (auto level = levels.lower_bound(level_of(least * internal)); level != levels.end(); ++level) most = std::fmax(most, level->second);
   return most;
 }

@@ -1,5 +1,7 @@
 #include "forming_sim/results/start.h"
 
+#include <new>
+
 #include "forming_sim/config/words.h"
 #include "forming_sim/results/probe.h"
 #include "forming_sim/scene/build.h"
@@ -41,6 +43,8 @@ StartCheck check_start(const Scene& scene, std::vector<Fault> known, int threads
     found.faults = error.faults();
   } catch (const Error& error) {
     found.faults.push_back({error.code(), "scene", error.what(), "change the scene so that it can start"});
+  } catch (const std::bad_alloc&) {
+    found.faults.push_back({Code::invalid_scene, "scene", "more than the memory that there is", "give fewer cells, or run it where there is more (--estimate tells how much a scene takes)"});
   } catch (const std::exception& error) {
     found.faults.push_back({Code::internal_error, "scene", error.what(), "please report this as a defect"});
   }

@@ -1,4 +1,5 @@
 // Meshes of bodies that are taken, and told because they do not do what their author expects of them.
+#include <algorithm>
 #include <cmath>
 
 #include "forming_sim/config/words.h"
@@ -60,6 +61,14 @@ void note_coarse_sheet(const BodyModel& body, Model& model) {
                         "with two by 4 % (docs/elements.md); give shorter edges, or hexahedra with pattern one_point");
 }
 
+/// The classical law keeps its pressure in the simplices, and where these are no parts of cells nothing takes the mean.
+void note_classical_simplices(const BodyModel& body, Model& model) {
+  const auto free = [](const Cells& cells) { return cells.kind == CellKind::triangle || cells.kind == CellKind::tetrahedron; };
+  if (body.material.law != "classical" || body.pressure_average == "element" || std::none_of(body.mesh.cells.begin(), body.mesh.cells.end(), free)) return;
+  model.notes.push_back("the law of body " + body.name + " is classical, which keeps a pressure in every one of its free " + (body.mesh.dimension == 2 ? "triangles" : "tetrahedra") +
+                        ": they lock in plastic flow and bend too stiffly, with forces up to twice as large; give quadrilaterals or hexahedra, or the law green_elastic");
+}
+
 /// Lengths in millimetres where the thickness is in metres, say.
 void note_long_cells(const BodyConfig& config, Model& model) {
   constexpr double kLong = 50;  // times as long as high
@@ -90,6 +99,7 @@ void tell_odd_body(const BodyConfig& config, const BodyModel& body, Model& model
   note_stiff_strip(config, model);
   note_polygonal_bar(config, mesh, model);
   note_coarse_sheet(body, model);
+  note_classical_simplices(body, model);
   constexpr double kFlat = 1.5;
   if (const double flat = flatness(mesh); flat > kFlat)
     model.notes.push_back("the cells of body " + config.name + " are " + three_digits(flat) +

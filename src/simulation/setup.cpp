@@ -173,6 +173,12 @@ void Simulation::Impl::set_up_contact() {
   }
   if (plan.contact.layer > setup.thinnest)
     throw SceneError({{Code::invalid_scene, "contact.layer", number_text(plan.contact.layer), "give less than twice the volume of the thinnest body over its surface, " + three_digits(setup.thinnest) + " m, or leave it out"}});
+  for (std::size_t i = 0; i < plan.contact.pairs.size(); ++i) {
+    const PairConfig& pair = plan.contact.pairs[i];
+    for (const BodyModel& body : model.bodies)
+      if ((body.name == pair.first || body.name == pair.second) && pair.tie_distance > 0.5 * body.thickness)
+        throw SceneError({{Code::invalid_scene, "contact.pairs[" + std::to_string(i) + "].tie_distance", number_text(pair.tie_distance), "give less than half the thickness of body " + body.name + ", which is " + three_digits(body.thickness) + " m, so that its other side is not tied too"}});
+  }
   for (const ToolModel& tool : model.tools) {
     ContactSurface s;
     s.name = tool.name;

@@ -195,6 +195,9 @@ TEST(RigidMotion, refusals_name_field_and_remedy) {
   MotionConfig spline = spinning({Vec3(0, 0, 1)});
   spline.profile = "spline";
   EXPECT_NE(message(spline, 3).find("motion.profile"), std::string::npos);
+  MotionConfig for_ever = spinning({Vec3(360, 0, 0), Vec3(0, 360, 0)});
+  for_ever.times = {0, 1e6};
+  EXPECT_NE(message(for_ever, 3).find("motion.spins_deg_s"), std::string::npos);
   MotionConfig backwards = trajectory("linear");
   backwards.times = {0, 2, 1};
   EXPECT_EQ(message(backwards, 3).rfind("motion.times[2]", 0), 0u);

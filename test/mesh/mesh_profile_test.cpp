@@ -101,6 +101,11 @@ TEST(MeshProfile, NonsenseIsRefusedByItsPiece) {
   p.closed = false;
   p.chord_error = -1;
   EXPECT_TRUE(has(error_of([&] { mesh_profile(p); }), "profile.chord_error"));
+  p = way({0, 0, 0}, {{{1, 0, 0}, 1}});
+  p.chord_error = 1e-30;
+  EXPECT_TRUE(has(error_of([&] { mesh_profile(p); }), "more than 100000 segments; give at least 1e-09 m"));
+  p = way({0, 0, 0}, {{{1e40, 0, 0}, 1e40}});
+  EXPECT_TRUE(has(error_of([&] { mesh_profile(p, 1e-3); }), "beside cells of 0.001 m"));
 }
 
 }  // namespace

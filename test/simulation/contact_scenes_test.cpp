@@ -265,4 +265,43 @@ stages: [{kind: form, duration: 1e-4}]
   EXPECT_LT(sim.balance_error(), 1e-3);
 }
 
+// At the rim of two blocks of one size the sides of the lower one are as near as its top: the pressure goes through the top, everywhere.
+TEST(ContactScenes, TiedBlocksFeelTheirPressureUpToTheRim) {
+  const double pressure = 20e6, side = 6e-3;
+  for (const int D : {2, 3}) {
+    MaterialConfig m = aluminium();
+    m.poissons_ratio = 0;
+    BlankConfig lower = strip_of(side, side, 3, 3);
+    lower.pattern = "one_point";
+    if (D == 3) lower.shape = "plate", lower.width = side, lower.cells_across = 3;
+    BlankConfig upper = lower;
+    upper.origin[D - 1] = side;
+    OneBody run(body_of(generate_blank(lower), m), 2e-4);
+    run.model.bodies[0].name = "lower";
+    BodyLoads& loads = add_flying(run.model, run.plan, body_of(generate_blank(upper), m), "upper", Vec3::Zero());
+    PressureConfig press;
+    press.set = "top";
+    press.times = {0, 1e-4};
+    press.values = {0, pressure};
+    press.profile = "smooth";
+    loads.pressures = {press};
+    run.plan.bodies[0].boundaries = {symmetric("bottom", Vec3::Unit(D - 1))};
+    run.plan.contact.pairs = {{}};
+    run.plan.contact.pairs[0].first = "lower";
+    run.plan.contact.pairs[0].second = "upper";
+    run.plan.contact.pairs[0].kind = "tied";
+    run.plan.time_step.damping = 2e5;
+    auto sim = run.start();
+    while (sim->step()) {}
+    const std::vector<double> felt = sim->contact_pressure();
+    int between = 0;
+    for (std::size_t n = 0; n < felt.size(); ++n) {
+      if (std::abs(sim->initial_positions()[n][D - 1] - side) > 1e-9) continue;
+      ++between;
+      EXPECT_NEAR(felt[n], pressure, .01 * pressure) << D << "D, at " << vec3(sim->initial_positions()[n]).transpose();
+    }
+    EXPECT_EQ(between, D == 2 ? 8 : 32);
+  }
+}
+
 }  // namespace forming_sim
