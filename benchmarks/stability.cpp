@@ -27,7 +27,7 @@ std::vector<Row> stability(const Request& request) {
     bool on_request;
   };
   constexpr Case cases[] = {{"incompressible", nearly_incompressible, false}, {"large-strain", large_strain, false},      {"shapes", bad_shapes, false},
-                            {"steps", many_steps, false},                     {"ten-million-steps", ten_million_steps, true}, {"spin", spin, false},
+                            {"steps", many_steps, false},                     {"ten-million-steps", ten_million_steps, true}, {"spin", spin, false}, {"swings", free_swings, false},
                             {"impact", fast_impact, false},                   {"sudden", sudden_loads, false}};
   const std::vector<std::string>& asked = request.arguments;
   std::string known;

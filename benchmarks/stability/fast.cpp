@@ -44,6 +44,21 @@ std::vector<Row> fast_impact(const Request&) {
         const Energies& e = sim->energies();
         rows.push_back(at_most(name, "kinetic + elastic energy / that at the start", (e.kinetic + e.elastic) / e.initial, 1, sim->wall_time()));
       }
+  // A cube in space, without viscosity, as a run takes it.
+  for (const char* pattern : {"fine", "coarse", "one_point"}) {
+    const std::string name = std::string("a cube at 1000 m/s, ") + pattern;
+    const double side = 10e-3, speed = 1000;
+    BlankConfig blank = strip_of(side, side, 6, 6);
+    blank.shape = "plate";
+    blank.width = side;
+    blank.cells_across = 6;
+    blank.pattern = pattern;
+    OneBody run(body_of(generate_blank(blank), aluminium(true)), 2 * side / speed);
+    run.plan.bodies[0].initial_velocity = Vec3(0, 0, -speed);
+    run.model.tools = {plane_at("wall", 3, Vec3(0, 0, -1e-5), Vec3::UnitZ())};
+    const auto sim = tried(rows, name, run, 0.02);
+    rows.push_back(at_most(name, "crossings", static_cast<double>(sim->contact_status().crossings), 0, sim->wall_time()));
+  }
   return rows;
 }
 

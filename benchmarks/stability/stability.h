@@ -18,6 +18,7 @@ std::vector<Row> bad_shapes(const Request&);             ///< slivers, cells of 
 std::vector<Row> many_steps(const Request&);             ///< a million steps of a small body
 std::vector<Row> ten_million_steps(const Request&);      ///< only where it is asked for
 std::vector<Row> spin(const Request&);                   ///< 1000 turns
+std::vector<Row> free_swings(const Request&);            ///< of a run with its default time step, elastic and after plastic flow
 std::vector<Row> fast_impact(const Request&);            ///< 100 to 1000 m/s and more
 std::vector<Row> sudden_loads(const Request&);           ///< full pressure at once; mass scaling by 1e4
 
