@@ -84,7 +84,7 @@ std::string plan_text(const Simulation& simulation) {
     moving = moving || loads.moves_at_first();
   }
   if_any(held > 0, std::to_string(held) + " boundaries", "held or driven nodes");
-  if (held > 0 || simulation.reactions_kept() > 0) if_any(simulation.reactions_kept() > 0, "reactions of " + std::to_string(simulation.reactions_kept()) + " held nodes, for probes", "reactions of held nodes");
+  if (held > 0 || simulation.reactions_kept() > 0) if_any(simulation.reactions_kept() > 0, "reactions of " + std::to_string(simulation.reactions_kept()) + (held > 0 ? " held nodes" : " nodes on the axis") + ", for probes", "reactions of held nodes");
   if_any(pressed > 0, std::to_string(pressed) + " pressures on surfaces", "pressure on surfaces");
   if_any(dead > 0, std::to_string(dead) + " tractions and forces", "tractions and forces");
   if_any(!plan.gravity.isZero(), "gravity", "gravity");

@@ -78,6 +78,7 @@ void require_first_part(const std::string& path, const ResultHeader& header) {
   std::error_code unknown;
   if (!std::filesystem::exists(path, unknown)) return;
   try {
+    require_sound(path);
     const Hdf5File file(path, Hdf5File::Mode::read);
     if (const std::string why = difference(read_header(file.root()), header); !why.empty()) throw Error(Code::output_error, why);
   } catch (const Error& error) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "forming_sim/config/fault.h"
+#include "mesh/read_apart.h"
 
 namespace forming_sim {
 namespace {
@@ -118,8 +119,21 @@ std::vector<FrameEntry> read_entries(const Hdf5Group& root) {
   return entries;
 }
 
+void require_sound(const std::string& path) {
+  try {
+    bytes_read_apart("result file " + path, path, [&] {
+      const Hdf5File file(path, Hdf5File::Mode::read);
+      read_header(file.root());
+      for (const FrameEntry& entry : read_entries(file.root())) file.root().group("frames").group(entry.name).text("stage");
+      return std::vector<char>();
+    });
+  } catch (const Error& error) {
+    throw Error(error.code() == Code::mesh_error ? Code::output_error : error.code(), error.what());
+  }
+}
+
 ResultReader::ResultReader(const std::string& path)
-    : file_(path, Hdf5File::Mode::read), header_(read_header(file_.root())), frames_(read_entries(file_.root())) {}
+    : file_((require_sound(path), path), Hdf5File::Mode::read), header_(read_header(file_.root())), frames_(read_entries(file_.root())) {}
 
 Frame ResultReader::frame(std::size_t index) const {
   const FrameEntry& entry = frames_.at(index);

@@ -318,6 +318,14 @@ class BadInput(OwnDirectory):
         self.assertEqual(self.offline(*resume).returncode, 0, self.said)
         with h5py.File(self.path('out/result.h5')) as result:
             self.assertEqual(len(result['frames']), frames)
+        # Texts whose length is damaged: the library would break over them, or read on for ever.
+        with open(self.path('out/result.h5'), 'rb') as file:
+            sound = file.read()
+        texts = sound.index(b'GCOL')
+        for place in range(texts + 8, texts + 72, 4):
+            with open(self.path('out/result.h5'), 'wb') as file:
+                file.write(sound[:place] + b'\xff\x7f' + sound[place + 2:])
+            self.assertIn(self.offline(*resume).returncode, (0, 1), self.said)
         # A file that is none of its first part stays as it is.
         self.write('out/result.h5', 'not HDF5')
         self.assertEqual(self.offline(*resume).returncode, 1)

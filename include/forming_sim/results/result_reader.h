@@ -22,6 +22,8 @@ class ResultReader {
   std::vector<FrameEntry> frames_;
 };
 
+/// Reads all texts of the file once in a process of their own: over damaged ones libhdf5 breaks, or does not end.
+void require_sound(const std::string& path);
 ResultHeader read_header(const Hdf5Group& root);
 std::vector<FrameEntry> read_entries(const Hdf5Group& root);
 
