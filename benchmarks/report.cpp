@@ -59,7 +59,7 @@ void Report::add(const Finished& run) {
     rows_.push_back({name, sought_[i].quantity, run.found[i], sought_[i].expected, error, run.size.wall_time, std::abs(error) <= sought_[i].goal, ""});
     csv_ += '"' + name_ + "\",\"" + run.choice + "\",\"" + run.mesh + "\"," + std::to_string(run.size.cells) + ',' + std::to_string(run.size.unknowns) + ',' +
             std::to_string(run.size.steps) + ',' + csv_number(run.size.wall_time) + ',' + csv_number(cost / run.size.wall_time) + ",\"" + sought_[i].quantity + "\"," +
-            csv_number(run.found[i]) + ',' + csv_number(sought_[i].expected) + ',' + csv_number(error) + '\n';
+            csv_number(run.found[i]) + ',' + csv_number(sought_[i].expected) + ',' + csv_number(error) + ",\n";
   }
   std::printf("\n");
   if (!run.note.empty()) std::printf("    %s\n", run.note.c_str());
@@ -112,6 +112,9 @@ void Report::no_answer(const std::string& choice, const std::string& why, double
     row.holds = holds;
     row.note = why;
     rows_.push_back(row);
+    std::string quoted = why;
+    for (std::size_t at = quoted.find('"'); at != std::string::npos; at = quoted.find('"', at + 2)) quoted.insert(at, "\"");
+    csv_ += '"' + name_ + "\",\"" + choice + "\",,,,," + csv_number(wall_time) + ",,\"" + s.quantity + "\",," + csv_number(s.expected) + ",,\"" + quoted + "\"\n";
   }
 }
 
@@ -119,7 +122,7 @@ std::vector<Row> Report::finish() {
   tell_orders();
   if (!request_.directory.empty()) {
     replace_file(in_directory(request_.directory, report_ + ".csv"),
-                 "problem,choice,mesh,cells,unknowns,steps,wall_time_s,element_steps_per_s,quantity,found,expected,error\n" + csv_);
+                 "problem,choice,mesh,cells,unknowns,steps,wall_time_s,element_steps_per_s,quantity,found,expected,error,note\n" + csv_);
     for (const auto* figures : {&figures_, &finer_figures_})
       for (const Figure& figure : *figures) figure.write(request_.directory);
   }

@@ -10,6 +10,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 
+COLOURS = 10  # of matplotlib's cycle: what comes after has them again, with another marker
+MARKERS = "os^Dv"
+
+
 def read_series(path):
     """Name of a series -> (list of x, list of y), in the order of the file."""
     series = {}
@@ -37,11 +41,13 @@ def main():
     parser.add_argument("--output", required=True, help="PNG to write")
     options = parser.parse_args()
 
-    figure, axes = plt.subplots(figsize=(8, 5), layout="constrained")
-    for name, (x, y) in read_series(options.csv).items():
+    series = read_series(options.csv)
+    many = len(series) > COLOURS
+    figure, axes = plt.subplots(figsize=(11 if many else 8, 5), layout="constrained")
+    for index, (name, (x, y)) in enumerate(series.items()):
         # The dashed ones are what a curve is compared with.
         reference = any(word in name for word in ("exact", "measured", "analytic", "expected"))
-        marker = "o" if len(x) < 12 or options.logarithmic else None
+        marker = MARKERS[index // COLOURS % len(MARKERS)] if len(x) < 12 or options.logarithmic else None
         axes.plot(x, y, "--" if reference else "-", marker=marker, markersize=4, linewidth=1.2, label=name)
     if options.logarithmic:
         axes.set_xscale("log")
@@ -52,7 +58,7 @@ def main():
     axes.set_xlabel(options.x)
     axes.set_ylabel(options.y)
     axes.grid(True, which="both", alpha=0.3)
-    if options.equal:  # shapes fill their axes
+    if options.equal or many:  # shapes fill their axes, and so do many curves
         axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.01, 1))
     else:
         axes.legend(fontsize=8)
