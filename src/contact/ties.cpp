@@ -15,7 +15,7 @@ namespace forming_sim {
 namespace {
 
 constexpr double kOwn = 0.1;  ///< least weight with which a tie holds a vertex of its own
-constexpr double kAsNear = 1e-3;  ///< of the distance of a tie: facets whose distances differ by less are as near
+constexpr double kAsNear = 1e-3;  ///< of the distance of a tie, and of 1, a cosine: facets that differ by less are as near, and face as well
 
 struct EdgeLengths {
   double smallest = std::numeric_limits<double>::infinity(), mean = 0;
@@ -177,21 +177,31 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
       if (!(own == pair.first && g.surface == pair.second) && !(own == pair.second && g.surface == pair.first)) continue;
       Closest nearest;
       int facet = -1;
-      double facing = 0;
       near.clear();
+      const auto closest = [&](int of) {
+        const auto& c = f.facets[of];
+        return closest_on_facet(f.corners(), at(g.vertex), at(c[0]), at(c[1]), at(c[f.corners() - 1]));
+      };
+      double least = pair.distance * pair.distance;
       for (int i = g.first; i < g.last; ++i) {
-        const auto& c = f.facets[list.facets[i].facet];
-        const Node* const corner[3] = {&at(c[0]), &at(c[1]), &at(c[f.corners() - 1])};
-        const Closest q = closest_on_facet(f.corners(), at(g.vertex), *corner[0], *corner[1], *corner[f.corners() - 1]);
-        if (q.squared <= pair.near * pair.near) near.push_back(list.facets[i].facet);
-        if (q.squared > pair.distance * pair.distance) continue;
-        // At a rim the sides of what lies below are as near as its top: of facets that are as near the one that the vertex looks at.
-        const Node normal = f.facet_outward[list.facets[i].facet] * facet_normal(f.dimension, *corner[0], *corner[1], *corner[f.corners() - 1]);
-        const double along = -dot3(out[g.vertex], normal) / std::sqrt(normal.squaredNorm()), across = f.rigid(c[0]) ? std::abs(along) : along;  // either side of a tool may be its outside
-        const double slack = kAsNear * pair.distance, apart = std::sqrt(q.squared) - std::sqrt(nearest.squared);
-        if (facet >= 0 && (apart > slack || (apart > -slack && across <= facing))) continue;
+        const double squared = closest(list.facets[i].facet).squared;
+        if (squared <= pair.near * pair.near) near.push_back(list.facets[i].facet);
+        least = std::min(least, squared);
+      }
+      // At a rim the sides of what lies below are as near as its top: of the facets that are as near the one that the vertex looks at.
+      const double as_near = std::min(std::sqrt(least) + kAsNear * pair.distance, pair.distance);
+      double facing = 0;
+      for (int i = g.first; i < g.last; ++i) {
+        const int of = list.facets[i].facet;
+        const Closest q = closest(of);
+        if (q.squared > as_near * as_near) continue;
+        const auto& c = f.facets[of];
+        const Node normal = f.facet_outward[of] * facet_normal(f.dimension, at(c[0]), at(c[1]), at(c[f.corners() - 1]));
+        const double lengths = std::sqrt(normal.squaredNorm() * out[g.vertex].squaredNorm()), along = lengths > 0 ? -dot3(out[g.vertex], normal) / lengths : 0;
+        const double across = f.rigid(c[0]) ? std::abs(along) : along;  // either side of a tool may be its outside
+        if (facet >= 0 && (across < facing - kAsNear || (across < facing + kAsNear && q.squared >= nearest.squared))) continue;
         nearest = q;
-        facet = list.facets[i].facet;
+        facet = of;
         facing = across;
       }
       if (facet < 0) continue;

@@ -38,7 +38,7 @@ PressureMode mode_of(const BodyModel& body, CellKind kind) {
 /// their own would use what it leaves free: the thick sphere is 8 to 20 % too soft with it alone. There a small share theta of each
 /// simplex' own pressure holds them too,
 ///   U = V0 [(1-theta) K/2 (J_cell - 1)^2 + theta K/2 (J - 1)^2].
-/// .02 is enough (without the guard the Taylor bar collapses with none and runs with .01, and cubes that meet a wall at 850 m/s collapse with .02) and costs
+/// With the guard .02 is enough; without it the Taylor bar collapses with 0 and runs with .01, and cubes that meet a wall at 850 m/s collapse even with .02. It costs
 /// .1 to .7 % of the bending moment at 4 cells through the thickness. It is one of what resists shear: where K > 3 mu
 /// (nu > .35), theta K = .06 mu. On 2 triangles
 /// or 6 tetrahedra it would lock (face radius of the Taylor bar 6.86 instead of

@@ -60,12 +60,14 @@ KickedAndMoved kick_and_move_nodes(Team& team, const Kick& kick, const NodeField
   std::atomic<long> resting{0};
   const double apart = team.largest(static_cast<long>(x.size()), kNodesOfAThread, [&](long first, long last) {
     double most = 0;
+    long here = 0;
     for (long begin = first; begin < last; begin += kPart) {
       const long end = std::min(last, begin + kPart);
-      resting += kernels().kick(kick.keep, kick.push, kick.still, numbers(v_before), forces, mass.data(), begin, end, numbers(v));
+      here += kernels().kick(kick.keep, kick.push, kick.still, numbers(v_before), forces, mass.data(), begin, end, numbers(v));
       hold(begin, end);
       most = std::max(most, kernels().move(dt, numbers(v), numbers(then), begin, end, numbers(x)));
     }
+    resting += here;
     return most;
   });
   return {apart, resting};

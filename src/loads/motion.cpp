@@ -70,7 +70,6 @@ Curve shaped(const std::string& profile, bool trajectory, const std::vector<doub
 }  // namespace
 
 RigidMotion::RigidMotion(const MotionConfig& config, int dimension) {
-  constexpr double kMostSteps = 1e6;
   const bool trajectory = config.kind == "trajectory";
   if (!trajectory && config.kind != "velocity")
     refuse("kind", "\"" + config.kind + "\"", "give trajectory or velocity");
@@ -109,10 +108,11 @@ RigidMotion::RigidMotion(const MotionConfig& config, int dimension) {
     if (to <= from) continue;
     double fastest = 0;
     for (const Vec3& turn : turns) fastest = std::max(fastest, turn.norm());
-    const double degrees = std::ceil(fastest * (to - from) / kRadiansPerDegree), steps = std::max(64.0, degrees);
-    if (!(reached.times.size() + steps <= kMostSteps))
-      refuse("spins_deg_s", "spins about a changing axis by up to " + number_text(degrees) + " degrees until " + number_text(to) + " s",
-             "orientations are found degree by degree, at most 1e6 of them: end the times nearer to the end of the stages, or spin about one axis");
+    constexpr double kMostSteps = 1e6;
+    const double steps = std::max(64.0, std::ceil(fastest * (to - from) / kRadiansPerDegree)), all = reached.times.size() + steps;
+    if (!(all <= kMostSteps))
+      refuse("spins_deg_s", "spins about a changing axis by " + number_text(all) + " degrees until " + number_text(to) + " s",
+             "orientations are found at most a degree apart, " + number_text(kMostSteps) + " of them at most: give times that end with the stages, smaller spins, or spins about one axis");
     for (int j = 1; j <= steps; ++j) reached.times.push_back(from + (to - from) * j / steps);
   }
   reached.rotations.push_back(Mat3::Identity());
@@ -171,6 +171,7 @@ ToolPose tool_pose(const ToolModel& tool, const RigidMotion& motion, double t) {
   frame.position = centre + pose.translation + arm;
   frame.rotation = pose.rotation * rotation_matrix(kRadiansPerDegree * tool.rotation_deg);
   frame.velocity = pose.velocity + pose.spin.cross(arm);
+  frame.travel = pose.velocity;
   frame.spin = pose.spin;
   return frame;
 }

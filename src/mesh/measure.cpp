@@ -84,7 +84,7 @@ std::vector<char> cut_facets(const Mesh& mesh, const std::vector<SymmetryPlane>&
 }
 
 double thickness_of(const Mesh& mesh, bool axisymmetric, const std::vector<char>& cut) {
-  double volume = 0, area[2] = {0, 0};  // m2, of what is not cut and what is
+  double volume = 0, free = 0, of_cuts = 0;
   const auto& X = mesh.nodes;
   for (const auto& s : mesh.simplices()) {
     Mat3 edges = Mat3::Identity();
@@ -95,9 +95,9 @@ double thickness_of(const Mesh& mesh, bool axisymmetric, const std::vector<char>
   for (std::size_t i = 0; i < mesh.surface.size(); ++i) {
     const Facet& f = mesh.surface[i];
     const double radius = axisymmetric ? (X[f.nodes[0]].x() + X[f.nodes[1]].x()) / 2 : 1;
-    area[cut[i]] += radius * area_vector(mesh, f).norm();
+    (cut[i] ? of_cuts : free) += radius * area_vector(mesh, f).norm();
   }
-  return 2 * volume / (area[0] > 0 ? area[0] : area[1]);
+  return 2 * volume / (free > 0 ? free : of_cuts);
 }
 
 bool is_sheet(const Mesh& mesh, double thickness) {

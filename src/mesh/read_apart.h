@@ -1,5 +1,5 @@
 #pragma once
-// The libraries that read meshes may crash, hang or take all memory over a damaged file. They do it in a process of their own.
+// The libraries that read meshes and result files may crash, hang or take all memory over a damaged file. They do it in a process of their own.
 #include <functional>
 #include <string>
 #include <vector>

@@ -198,7 +198,7 @@ void check_springback_nodes(const Scene& scene, const std::vector<Mesh>& bodies,
   check(scene.output.springback->reference_from, scene.output.springback->reference_to, "reference_to");
 }
 
-/// What a boundary holds across alone is taken for a plane of symmetry.
+/// A boundary that holds one direction and nothing else counts as a plane of symmetry across that direction.
 std::vector<SymmetryPlane> symmetry_planes(const BodyConfig& config) {
   std::vector<SymmetryPlane> planes;
   for (const BoundaryConfig& boundary : config.boundaries) {

@@ -24,7 +24,9 @@ std::vector<std::size_t> marks_of(const Model& model, const NodeField& X) {
     std::vector<int> numbers;
     for (const std::array<int, 4>& corners : body.mesh.simplices()) numbers.insert(numbers.end(), corners.begin(), corners.end());
     for (const auto& [name, nodes] : body.mesh.sets) {
+      numbers.push_back(static_cast<int>(name.size()));
       numbers.insert(numbers.end(), name.begin(), name.end());
+      numbers.push_back(static_cast<int>(nodes.size()));
       numbers.insert(numbers.end(), nodes.begin(), nodes.end());
     }
     marks.push_back(mark_of(X.data() + body.first_node, static_cast<std::size_t>(body.node_count)) ^ mark_of(numbers.data(), numbers.size()));

@@ -118,10 +118,10 @@ const Energies& Simulation::energies() const {
 }
 
 double Simulation::Impl::place_rounding() const {
-  return first_element_dt > 0 ? 0.5 * std::numeric_limits<double>::epsilon() * farthest / (elements.slowest_wave() * first_element_dt) : 0;
+  return 0.5 * std::numeric_limits<double>::epsilon() * farthest / (elements.slowest_wave() * first_element_dt);
 }
 
-// A strain of 1e-13 in them, and ten times what rounding of the places may be taken for.
+// c^2 strain/h, h = c dt: what a strain of 1e-13 in the smallest cells, and ten times the rounding of their places, accelerates a node by.
 double Simulation::Impl::rounding() const { return (1e-13 + 10 * place_rounding()) * elements.fastest_wave() / first_element_dt; }
 
 // What positions cannot tell: the energy of a strain of 1e-11, and far from the origin of what rounding of the places is for the smallest cell, c dt high, a thousand times:

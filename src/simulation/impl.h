@@ -70,8 +70,6 @@ struct Simulation::Impl {
   double first_dt = 0;
   double first_element_dt = 0;  ///< stable step of the limiting element at the start, s
   double farthest = 0;          ///< coordinate of a node at the start, m
-  double place_rounding() const;  ///< of places, as a strain of the smallest cells
-  double rounding() const;        ///< m/s2 by which cells that rest may accelerate a node
   Settle settle;                    ///< of the running stage
   std::string unsettled;            ///< why the last settle stage that ran into its limit did; empty: none has
   NodeField f_before;               ///< forces of the step before an estimate of the settling frequency
@@ -119,6 +117,8 @@ struct Simulation::Impl {
   /// Steps that are taken from more than the cells, of what keeps its energy.
   bool watches_ledger() const { return !by_cells() && plan.contact.method == "implicit" && !model.without_tangent(); }
   void look_at_ledger(double residual);
+  double place_rounding() const;    ///< of places, as a strain of the smallest cells
+  double rounding() const;          ///< by which cells that rest may accelerate a node, m/s2
   double full_dt() const;           ///< what the coming step could be at most, whatever the steps before it were
   void find_stable_step();
   /// The step is the fastest cell's own: neither nodes nor the whole mesh bound it.

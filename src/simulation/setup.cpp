@@ -172,12 +172,12 @@ void Simulation::Impl::set_up_contact() {
         setup.wave_speed, std::sqrt((m.K() + 4. / 3 * m.mu()) / density));
   }
   if (plan.contact.layer > setup.thinnest)
-    throw SceneError({{Code::invalid_scene, "contact.layer", number_text(plan.contact.layer), "give less than twice the volume of the thinnest body over its surface, " + three_digits(setup.thinnest) + " m, or leave it out"}});
+    throw SceneError({{Code::invalid_scene, "contact.layer", number_text(plan.contact.layer), "give less than the thickness of the thinnest body, " + three_digits(setup.thinnest) + " m (twice its volume over its surface, planes of symmetry left out), or leave it out"}});
   for (std::size_t i = 0; i < plan.contact.pairs.size(); ++i) {
     const PairConfig& pair = plan.contact.pairs[i];
     for (const BodyModel& body : model.bodies)
       if ((body.name == pair.first || body.name == pair.second) && pair.tie_distance > 0.5 * body.thickness)
-        throw SceneError({{Code::invalid_scene, "contact.pairs[" + std::to_string(i) + "].tie_distance", number_text(pair.tie_distance), "give less than half the thickness of body " + body.name + ", which is " + three_digits(body.thickness) + " m, so that its other side is not tied too"}});
+        throw SceneError({{Code::invalid_scene, "contact.pairs[" + std::to_string(i) + "].tie_distance", number_text(pair.tie_distance), "give at most " + three_digits(0.5 * body.thickness) + " m, half the thickness of body " + body.name + ", so that its other side is not tied too"}});
   }
   for (const ToolModel& tool : model.tools) {
     ContactSurface s;
@@ -290,7 +290,7 @@ void Simulation::Impl::place_tools() {
     tools[k].position = pose.position;
     tools[k].rotation = pose.rotation;
     tools[k].velocity = pose.velocity;
-    if (!pose.velocity.isZero(0)) tools[k].way = pose.velocity.stableNormalized();
+    if (!pose.travel.isZero(0)) tools[k].way = pose.travel.stableNormalized();
     tools[k].present = stages.present(static_cast<int>(k));
     if (const double stop = stages.stops()[k]; !std::isnan(stop)) tools[k].stopped = stop;
   }

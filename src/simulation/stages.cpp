@@ -67,7 +67,7 @@ ToolPose StageRunner::pose(int tool, double t) const {
   if (const ForceDrive* by = drive(tool)) {
     ToolPose pose = tool_pose(model_->tools[tool], RigidMotion(), t);
     pose.position += by->way();
-    pose.velocity = by->velocity();
+    pose.velocity = pose.travel = by->velocity();
     return pose;
   }
   std::array<KnownPose, 2>& known = known_[tool];

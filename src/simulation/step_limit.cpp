@@ -15,8 +15,8 @@ namespace {
 constexpr double kCollapse = 1e-3;  ///< an element whose stable step falls to this part of the first is no element any more
 /// A step is at most this many times the last one. Steps of L and b L by turns, kicks between them of (1 + b) L/2, take a
 /// swing of frequency omega over both by a map of trace 2 - (1 + b)^2 z + (1 + b)^2 b z^2/4, z = (omega L)^2, below -2 where
-/// 4/(1 + b) < z < 4/(b (1 + b)): it grows, although each step alone is stable. So does one whose own swing makes the
-/// limit swing. Steps that fall at once and rise slowly feed neither: halved steps, and limits that come and go.
+/// 4/(1 + b) < z < 4/(b (1 + b)): it grows, although each step alone is stable.
+/// Steps that fall at once and rise slowly do not feed it: halved steps, and those that time_step.maximum or the end of a stage made short. Limits that come and go: simulation/steady_step.h.
 constexpr double kRise = 1.01;
 /// The last steps of a stage are of one length that meets its end. One that is cut short there changes the energy of a swing of
 /// frequency omega by up to (omega dt)^2/8 of it, and what is read in it, such as a reaction, is not that of the steps before.
@@ -29,7 +29,7 @@ void Simulation::Impl::choose_dt() {
   if (control.due()) find_stable_step();
   const TimeStepConfig& config = plan.time_step;
   watch.follow();
-  dt = steady.follow(config.safety * watch.factor() * control.stable_dt);
+  dt = std::min(steady.follow(config.safety * watch.factor() * control.stable_dt), control.stable_dt);
   if (previous_dt > 0) dt = std::min(dt, kRise * previous_dt);
   limit.dt = dt;
   limit.element = control.element;
@@ -52,7 +52,8 @@ void Simulation::Impl::look_at_ledger(double residual) {
 }
 
 double Simulation::Impl::full_dt() const {
-  const double stable = plan.time_step.safety * watch.factor() * control.stable_dt;
+  double stable = plan.time_step.safety * watch.factor() * control.stable_dt;
+  if (steps > 0) stable = std::min(stable, steady.dt());
   return plan.time_step.maximum > 0 ? std::min(stable, plan.time_step.maximum) : stable;
 }
 

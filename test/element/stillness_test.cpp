@@ -67,7 +67,7 @@ TEST(Stillness, LooksThatGainNothingAreRare) {
   EXPECT_LE(looks, 11);
 }
 
-// Nothing acts on it: what the rounding of its cells pulls moves no node, at the place where it is either.
+// Nothing acts on it: what the rounding of its cells pulls moves no node, far from the origin neither.
 TEST(Stillness, ABodyThatNothingTouchesRests) {
   for (CellKind kind : {CellKind::quad2, CellKind::crossed, CellKind::quad1, CellKind::hex6, CellKind::hex24, CellKind::hex1})
     for (double away : {0., 1e3}) {

@@ -105,7 +105,7 @@ TEST(MeshProfile, NonsenseIsRefusedByItsPiece) {
   p.chord_error = 1e-30;
   EXPECT_TRUE(has(error_of([&] { mesh_profile(p); }), "more than 100000 segments; give at least 1e-09 m"));
   p = way({0, 0, 0}, {{{1e40, 0, 0}, 1e40}});
-  EXPECT_TRUE(has(error_of([&] { mesh_profile(p, 1e-3); }), "beside cells of 0.001 m"));
+  EXPECT_TRUE(has(error_of([&] { mesh_profile(p, 1e-3); }), "more than 100000 segments of at most 0.001 m"));
 }
 
 }  // namespace

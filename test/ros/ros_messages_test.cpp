@@ -23,7 +23,7 @@ std::map<std::string, std::vector<MessageField>> messages_of_a_scene() {
   std::istringstream text(ros::message_traits::Definition<SceneSpec>::value());
   std::string line, message = "SceneSpec", comment;
   while (std::getline(text, line)) {
-    if (line.rfind("MSG: forming_sim/", 0) == 0) {
+    if (line.rfind("MSG: ", 0) == 0) {  // and its package
       message = line.substr(line.find('/') + 1);
       comment.clear();
     } else if (line.rfind("# ", 0) == 0) {
@@ -43,7 +43,7 @@ std::string comment_of(const FieldText& field) {
   std::string text = (field.unit.empty() ? "" : "[" + field.unit + "] ") + field.doc;
   if (!field.range.empty()) text += (field.type == "text" ? "; one of " : "; ") + field.range;
   if (!field.when.empty()) text += "; " + field.when;
-  if (field.required) return text + "; required";
+  if (field.required) return text + "; required" + (field.name == "from" ? ". In Python its name is from_, since from is a word of the language" : "");
   for (const char* nothing : {"none", "[]", "[0, 0, 0]", "0", "false"})
     if (field.standard == nothing) return text;
   return text + "; default: " + field.standard;
@@ -72,9 +72,11 @@ TEST(RosMessages, SayWhatTheSchemaSays) {
       const auto& of = messages.at(message);
       const auto found = std::find_if(of.begin(), of.end(), [&](const MessageField& f) { return f.name == field.name; });
       ASSERT_NE(found, of.end()) << message << " has no " << field.name;
-      EXPECT_EQ(found->comment.rfind(comment_of(field), 0), 0u) << "msg/" << message << ".msg, above " << field.name << ":\n# " << comment_of(field) << "\nnot\n# " << found->comment;
+      EXPECT_EQ(found->comment, comment_of(field)) << "msg/" << message << ".msg, above " << field.name << ":\n# " << comment_of(field) << "\nnot\n# " << found->comment;
       ++fields;
     }
+    const std::size_t others = message == "MeshSpec" ? 1 : 0;  // shape, the ROS spelling of an inline mesh
+    EXPECT_EQ(messages.at(message).size(), group.fields.size() + others) << "msg/" << message << ".msg has fields that the schema has not";
   }
   EXPECT_GT(fields, 150u);
 }

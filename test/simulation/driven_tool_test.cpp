@@ -94,6 +94,27 @@ TEST(DrivenTool, ARamStopsUnderItsForce) {
   EXPECT_EQ(vec3(resumed->positions()[5]), vec3(sim->positions()[5]));
 }
 
+// A flap on a hinge far from the origin of its frame: what moves there is no way of the flap, and its whole force stops it.
+TEST(DrivenTool, AFlapStopsUnderItsWholeForce) {
+  const double force = 2e5;
+  OneBody run = held_strip(20, 2, 0, 5e-4);
+  ToolModel& flap = holder_of(run);
+  flap.motion = MotionConfig();
+  flap.motion->kind = "trajectory";
+  flap.motion->times = {0, 5e-4};
+  flap.motion->positions = {Vec3::Zero(), Vec3::Zero()};
+  flap.motion->rotations_deg = {Vec3::Zero(), Vec3(0, 0, .5)};
+  flap.motion->centre = Vec3(kLength + 1e-3, kThickness, 0);
+  flap.motion->stop_force = force;
+  run.plan.time_step.damping = 2e4;
+  run.plan.stages[0].until_stopped = "holder";
+  auto sim = run.start();
+  while (sim->step()) {}
+  const ToolStatus& told = sim->tools()[1];
+  ASSERT_TRUE(told.stopped.has_value()) << told.force.transpose();
+  EXPECT_NEAR(told.force.norm(), force, .02 * force);
+}
+
 // Half a block pushes its ram aside by friction, which the other half would balance: a press feels neither.
 TEST(DrivenTool, ARamOnHalfABlockStopsWhereItDoesOnTheWhole) {
   const double height = 10e-3, force = 4e6;

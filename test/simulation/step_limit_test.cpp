@@ -296,7 +296,7 @@ TEST(StepLimit, FollowsABodyThatIsSqueezedFast) {
 // level in the strain while the mesh already gains on them.
 TEST(StepLimit, FollowsABodyThatIsStretchedFast) {
   const Case cases[] = {{CellKind::quad2, "cell"}, {CellKind::crossed, "cell"}, {CellKind::quad1, "cell"}, {CellKind::triangle, "node"},
-                        {CellKind::hex6, "cell"}, {CellKind::hex1, "cell"}, {CellKind::tetrahedron, "node"}};
+                        {CellKind::hex6, "cell"}, {CellKind::hex24, "cell"}, {CellKind::hex1, "cell"}, {CellKind::tetrahedron, "node"}};
   const double stretch = 3, length = 1, width = 0.8;  // the last two of block_of()
   for (const Case& c : cases) {
     const int D = shape_of(c.kind).dimension, pulled = D - 1;
@@ -325,7 +325,7 @@ TEST(StepLimit, FollowsABodyThatIsStretchedFast) {
     const StepLimitCost cost = sim->step_limit_cost();
     std::printf("  %s, pressure per %s: limit over the true one %.3f to %.3f; %ld steps, %ld runs of %ld products\n", shape_of(c.kind).name, c.average,
                 shares.least, shares.most, sim->steps(), cost.estimates, cost.products);
-    EXPECT_LE(shares.most, 1.05) << shape_of(c.kind).name;  // with a safety of .9 a tenth is left
+    EXPECT_LE(shares.most, 1.05) << shape_of(c.kind).name;  // with a safety of .9 a tenth is left; a hundredth is what a step may be over a limit that falls fast
     EXPECT_LT(sim->balance_error(), 1e-6) << shape_of(c.kind).name;
   }
 }

@@ -21,7 +21,7 @@ struct PairConfig {
     visit(FORMING_SIM_FIELD(kind), Field().choices({"sliding", "frictionless", "sticking", "tied", "none"}).doc("sliding: with Coulomb friction; frictionless; sticking: no slip while pressed together, free to part; tied: what touches at the start stays together, the rest slides; none: they do not see each other"));
     visit(FORMING_SIM_FIELD(friction), Field().at_least(0).at_most(10).when("kind", {"sliding", "tied"}).doc("Coulomb friction of the pair, in place of that of the tool or of contact.friction"));
     visit(FORMING_SIM_FIELD(friction_limit), Field().unit("Pa").at_least(0).when("kind", {"sliding", "sticking", "tied"}).computed("no limit").doc("largest shear stress of the pair's friction, in place of that of the tool or of contact.friction_limit; with kind sticking surfaces stay together up to it and slide under it, whatever presses them"));
-    visit(FORMING_SIM_FIELD(tie_distance), Field().unit("m").at_least(0).when("kind", {"tied"}).computed("a tenth of the smallest edge of the two surfaces, of a tool's those of the body alone").doc("vertices of one surface up to so far from the other are tied to it"));
+    visit(FORMING_SIM_FIELD(tie_distance), Field().unit("m").at_least(0).when("kind", {"tied"}).computed("a tenth of the smallest edge of the two surfaces, of a tool's those of the body alone").doc("vertices of one surface up to so far from the other are tied to it; at most half the thickness of a body"));
   }
 };
 

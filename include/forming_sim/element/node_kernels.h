@@ -9,7 +9,7 @@ namespace forming_sim {
 struct NodeKernels {
   /// f of element/nodal_forces.h
   void (*sum)(const NodalForces& forces, long first, long last, double* f);
-  /// to = keep v + push/m f, and 0 where v and the load are and the rest is at most `still` in size (element/nodes.h): of how many nodes it is; mass: one number a node.
+  /// to = keep v + push/m f. With still > 0: 0 instead where v and the load are 0 and |push/m f| <= still (element/nodes.h). Returns of how many nodes that is so; mass: one number a node.
   long (*kick)(double keep, double push, double still, const double* v, const NodalForces& forces, const double* mass, long first, long last, double* to);
   /// x += dt v; the largest |v - then|^2, 0 without `then`.
   double (*move)(double dt, const double* v, const double* then, long first, long last, double* x);

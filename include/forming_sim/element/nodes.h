@@ -21,7 +21,7 @@ struct Kick {
     const double a = 0.5 * damping * time;
     keep = (1 - a) / (1 + a);
     push = time / (1 + a);
-    still = time * rounding;
+    still = push * rounding;
   }
 };
 

@@ -25,7 +25,7 @@ struct BoundaryConfig {
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(set), Field().required().doc("name of a set of this body"));
-    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"fixed", "symmetric", "velocity"}).doc("fixed: no motion along the axes; symmetric: no motion along the normal; velocity: the set moves and turns as a rigid body would, along the axes"));
+    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"fixed", "symmetric", "velocity"}).doc("fixed: no motion along the axes; symmetric: no motion along the normal, a plane of symmetry, which is no surface of the body (nor is one that fixed holds along its normal alone); velocity: the set moves and turns as a rigid body would, along the axes"));
     visit(FORMING_SIM_FIELD(axes), Field().choices({"x", "y", "z"}).when("kind", {"fixed", "velocity"}).computed("all").doc("axes that are held or driven; the others stay free"));
     visit(FORMING_SIM_FIELD(normal), Field().required().when("kind", {"symmetric"}).doc("normal of the plane of symmetry, any direction"));
     visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().when("kind", {"velocity"}).doc("times of the knots, increasing; before the first and after the last the velocity stays"));

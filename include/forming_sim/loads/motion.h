@@ -77,6 +77,7 @@ struct ToolPose {
   Vec3 position = Vec3::Zero();
   Mat3 rotation = Mat3::Identity();
   Vec3 velocity = Vec3::Zero();  ///< of `position`, m/s
+  Vec3 travel = Vec3::Zero();    ///< of the centre of rotation: without what it turns by, m/s
   Vec3 spin = Vec3::Zero();      ///< rad/s
 };
 

@@ -31,15 +31,16 @@ double size_of(const Mesh& mesh);
 double flatness(const Mesh& mesh);
 /// Mean length of the edges of the tetrahedra that no hexahedron was split into, m; 0 where there are none.
 double edge_of_tetrahedra(const Mesh& mesh);
-/// A plane of symmetry, of this normal, which the nodes of a set lie in or move along.
+/// A plane of symmetry in which the nodes of a set lie, or along which they move; the normal of any length.
 struct SymmetryPlane {
   std::string set;
   Vec3 normal;
 };
-/// Of every facet of the surface, 1: it lies in one of the planes, where the body goes on.
+/// Of every facet of the surface, 1: it lies in one of the planes, where the body goes on: all its nodes are in the set and its normal is within 8 degrees of the
+/// plane's. Sets that the mesh does not have cut nothing.
 std::vector<char> cut_facets(const Mesh& mesh, const std::vector<SymmetryPlane>& planes);
 /// Twice the volume over the surface that is not cut (cut_facets): the thickness of a thin sheet, m, also where the mesh is a
-/// half or a slice of it. Axisymmetric: both turned, by the radii of their middles.
+/// half or a slice of it. Axisymmetric: both turned, by the radii of their middles. cut: one a facet of mesh.surface; where all of it is, over all of it.
 double thickness_of(const Mesh& mesh, bool axisymmetric, const std::vector<char>& cut);
 
 /// Whether it is a sheet of this thickness: 8 times as long and, in space, 3 times as wide as thick (of a bar the middle one of its sizes is 2 times).

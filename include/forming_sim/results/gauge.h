@@ -13,7 +13,7 @@ namespace forming_sim {
 
 struct Measures {
   Peak plastic_strain;                ///< greatest equivalent plastic strain, now
-  Peak surface_strain;                ///< greatest principal log strain on the surface, now
+  Peak surface_strain;                ///< greatest principal log strain on the surface, but for faces in planes of symmetry, now
   std::vector<double> thickness_of_nodes, thinning_of_nodes;  ///< results/thickness.h; empty without a sheet
   std::optional<double> thickness;    ///< smallest of the sheets, m
   Peak thinning;                      ///< greatest of the sheets, now

@@ -91,19 +91,21 @@ struct ToolStatus {
   Vec3 position = Vec3::Zero();            ///< of the tool's frame, m
   Mat3 rotation = Mat3::Identity();        ///< tool frame to world
   Vec3 velocity = Vec3::Zero();
-  Vec3 way = Vec3::Zero();                 ///< direction of its velocity, or of the last that it had; 0: its frame has not moved
+  Vec3 way = Vec3::Zero();                 ///< direction in which its centre of rotation moves, or last moved; 0: it has not moved
   Vec3 force = Vec3::Zero();               ///< on the tool by the bodies, running mean over about 50 steps; N (N/m in plane strain); axisymmetric: along the axis
   Vec3 moment = Vec3::Zero();              ///< about `position`
-  double against() const { return way.isZero(0) ? force.norm() : -force.dot(way); }  ///< what a press has to bring up; of a tool that only turns the whole force
   double radial_force = 0;                 ///< axisymmetric: likewise outward, summed around the circle, N: what bursts a ring or clamps a punch
   Reaction felt;                           ///< of all contact so far: differences give the mean force of an interval
   Vec3 peak_force = Vec3::Zero();          ///< `force` of greatest magnitude so far
-  double most_against = 0;                 ///< the most that was against its way so far
+  double most_against = 0;                 ///< greatest against() so far, N
   double peak_radial_force = 0;
   bool touched = false;                    ///< contact has acted on it, in whatever direction
   bool pressed = false;                    ///< in the last step too
   bool present = true;                     ///< false once withdrawn
   std::optional<double> stopped;           ///< when it stopped under the force that its motion was to stop under, s
+
+  /// What a press has to bring up, N (N/m in plane strain): the force against its way; all of it where its centre has not moved.
+  double against() const { return way.isZero(0) ? force.norm() : -force.dot(way); }
 };
 
 class Observer {

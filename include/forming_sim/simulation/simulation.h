@@ -88,7 +88,7 @@ class Simulation {
   std::vector<Sym> stress() const;              ///< Cauchy, Pa
   std::vector<Sym> stress(const std::vector<int>& elements) const;  ///< of these alone, in their order
   std::vector<double> volume_ratio() const;     ///< V / V0
-  /// Of each surface facet (same order as surface()): the stretch of the facet itself, hence on the surface.
+  /// Of each surface facet (same order as surface()): the stretch of the facet itself, hence on the surface; also of those in planes of symmetry.
   std::vector<SurfaceStrain> surface_strain() const;
 
   /// Normal contact pressure on the surface per node, Pa: the force, a running mean as the tool forces are, over what the node has now
