@@ -1,6 +1,7 @@
 // What bounds the time step, and forces with plastic flow held.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "element/group.h"
 #include "forming_sim/element/nodes.h"
@@ -72,6 +73,19 @@ CellLimit Elements::slowest_cell(const CellRates& rates) const {
   return limit;
 }
 
+double Elements::smallest_step(const CellRates& rates, const BodyModel& body) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < groups_.size(); ++k) {
+    const Group& g = groups_[k];
+    if (g.at_edges || g.body != body.name) continue;
+    for (int cell = 0; cell < g.cells; ++cell) {
+      const BlockRates& block = rates[k][cell / kLanes];
+      least = std::min(least, forming_sim::stable_step(block.omega2[cell % kLanes], block.damping[cell % kLanes]));
+    }
+  }
+  return least;
+}
+
 void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const {
   StageClock clock(times_);
   CellRates rates;
@@ -133,12 +147,6 @@ NodalRates Elements::sum_rates(const CellRates& rates) const {
 double Elements::slowest_wave() const {
   double speed = 1e300;
   for (const Group& g : groups_) speed = std::min(speed, std::sqrt((g.solid.K + 4.0 / 3 * g.solid.mu) / g.density));
-  return speed;
-}
-
-double Elements::fastest_wave() const {
-  double speed = 0;
-  for (const Group& g : groups_) speed = std::max(speed, std::sqrt((g.solid.K + 4.0 / 3 * g.solid.mu) / g.density));
   return speed;
 }
 

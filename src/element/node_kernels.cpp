@@ -58,14 +58,14 @@ template <bool may_rest> long kick(double keep, double push, double still, const
   long resting = 0;
   with_kind_of(forces, [&](auto D, auto loaded) {
     const auto node = [&](long n, double over_mass) {
-      const Quad f = force<D, loaded>(forces, n), du = over_mass * f;
-      record(to, n) = keep * record(v, n) + du;
+      const Quad f = force<D, loaded>(forces, n);
+      record(to, n) = keep * record(v, n) + over_mass * f;
       if constexpr (may_rest) {
         if (!is_zero(v + 4 * n)) return;
         if constexpr (loaded)
           if (!is_zero(forces.load + 4 * n)) return;
-        const Quad squares = du * du;
-        if ((squares[0] + squares[2]) + (squares[1] + squares[3]) > still * still) return;
+        const Quad squares = f * f;
+        if (over_mass * over_mass * ((squares[0] + squares[2]) + (squares[1] + squares[3])) > still * still) return;
         record(to, n) = Quad{0, 0, 0, 0};
         ++resting;
       }

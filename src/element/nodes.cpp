@@ -23,6 +23,18 @@ const NodeKernels& kernels() {
 const double* numbers(const NodeField& field) { return field.data()->data(); }
 const double* numbers(const NodeField* field) { return field ? numbers(*field) : nullptr; }
 double* numbers(NodeField& field) { return field.data()->data(); }
+
+/// v after the kick of the nodes [first, last), body by body; how many go on to rest.
+long kick_part(const Kick& kick, const NodeField& v, const NodalForces& forces, const std::vector<double>& mass, long first, long last, NodeField& to) {
+  const auto part = [&](long begin, long end, double still) { return kernels().kick(kick.keep, kick.push, still, numbers(v), forces, mass.data(), begin, end, numbers(to)); };
+  if (!kick.resting) return part(first, last, 0);
+  long resting = 0;
+  for (const RestingBody& body : *kick.resting) {
+    const long begin = std::max<long>(first, body.first_node), end = std::min<long>(last, body.first_node + body.nodes);
+    if (begin < end) resting += part(begin, end, kick.push * body.rounding);
+  }
+  return resting;
+}
 }  // namespace
 
 void sum_nodes(Team& team, const NodalForces& forces, NodeField& f) {
@@ -45,7 +57,7 @@ Node force_on(long node, const NodalForces& forces) {
 long kick_nodes(Team& team, const Kick& kick, const NodeField& v, const NodalForces& forces, const std::vector<double>& mass, NodeField& to) {
   std::atomic<long> resting{0};
   team.share(static_cast<long>(v.size()), kNodesOfAThread, [&](long first, long last) {
-    resting += kernels().kick(kick.keep, kick.push, kick.still, numbers(v), forces, mass.data(), first, last, numbers(to));
+    resting += kick_part(kick, v, forces, mass, first, last, to);
   });
   return resting;
 }
@@ -63,7 +75,7 @@ KickedAndMoved kick_and_move_nodes(Team& team, const Kick& kick, const NodeField
     long here = 0;
     for (long begin = first; begin < last; begin += kPart) {
       const long end = std::min(last, begin + kPart);
-      here += kernels().kick(kick.keep, kick.push, kick.still, numbers(v_before), forces, mass.data(), begin, end, numbers(v));
+      here += kick_part(kick, v_before, forces, mass, begin, end, v);
       hold(begin, end);
       most = std::max(most, kernels().move(dt, numbers(v), numbers(then), begin, end, numbers(x)));
     }

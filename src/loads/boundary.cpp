@@ -69,6 +69,18 @@ ResolvedBoundary resolve(const BoundaryConfig& config, const std::string& body, 
   return resolved;
 }
 
+std::vector<SymmetryPlane> symmetry_planes(const std::vector<BoundaryConfig>& boundaries, bool axisymmetric) {
+  std::vector<SymmetryPlane> planes;
+  for (const BoundaryConfig& boundary : boundaries) {
+    if (!boundary.until.empty()) continue;
+    if (boundary.kind == "symmetric") planes.push_back({boundary.set, boundary.normal});
+    else if (boundary.kind == "fixed" && boundary.axes.size() == 1) planes.push_back({boundary.set, Vec3::Unit(boundary.axes[0][0] - 'x')});
+  }
+  const auto radial = [](const SymmetryPlane& plane) { return plane.normal.x() != 0; };
+  if (axisymmetric) planes.erase(std::remove_if(planes.begin(), planes.end(), radial), planes.end());
+  return planes;
+}
+
 BoundarySet::BoundarySet(const std::vector<ResolvedBoundary>& boundaries, int dimension) {
   std::map<int, std::vector<int>> members;  // boundaries of each node
   std::map<int, Vec3> places;               // of nodes that turn

@@ -68,16 +68,26 @@ double edge_of_tetrahedra(const Mesh& mesh) {
 }
 
 std::vector<char> cut_facets(const Mesh& mesh, const std::vector<SymmetryPlane>& planes) {
-  constexpr double kParallel = 0.99;  // cosine
+  constexpr double kParallel = 0.99, kSamePlane = 1e-6;  // cosine; of the size of the mesh
   std::vector<char> cut(mesh.surface.size(), 0);
   for (const SymmetryPlane& plane : planes) {
     const auto set = mesh.sets.find(plane.set);
     if (set == mesh.sets.end()) continue;
     const auto in_set = [&](int n) { return std::binary_search(set->second.begin(), set->second.end(), n); };
-    for (std::size_t i = 0; i < cut.size(); ++i) {
-      const Facet& facet = mesh.surface[i];
-      const Vec3 area = area_vector(mesh, facet);
-      if (std::abs(area.dot(plane.normal)) >= kParallel * area.norm() * plane.normal.norm() && std::all_of(facet.nodes.begin(), facet.nodes.begin() + mesh.dimension, in_set)) cut[i] = 1;
+    // Of the facets across the normal, how far along it they lie.
+    const Vec3 normal = plane.normal.normalized();
+    std::vector<std::pair<double, std::size_t>> across;
+    for (std::size_t i = 0; i < cut.size(); ++i)
+      if (const Vec3 area = area_vector(mesh, mesh.surface[i]); std::abs(area.dot(normal)) >= kParallel * area.norm()) across.emplace_back(mesh.nodes[mesh.surface[i].nodes[0]].dot(normal), i);
+    std::sort(across.begin(), across.end());
+    const double same = kSamePlane * size_of(mesh);
+    for (std::size_t first = 0, last = 0; first < across.size(); first = last) {
+      bool whole = true;
+      for (; last < across.size() && across[last].first <= across[first].first + same; ++last) {
+        const auto& corners = mesh.surface[across[last].second].nodes;
+        whole = whole && std::all_of(corners.begin(), corners.begin() + mesh.dimension, in_set);
+      }
+      for (std::size_t i = first; whole && i < last; ++i) cut[across[i].second] = 1;
     }
   }
   return cut;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "forming_sim/config/words.h"
+#include "forming_sim/loads/boundary.h"
 #include "forming_sim/mesh/measure.h"
 #include "forming_sim/mesh/seams.h"
 #include "geometry.h"
@@ -49,23 +50,22 @@ void note_polygonal_bar(const BodyConfig& config, const Mesh& mesh, Model& model
 }
 
 /// A sheet of free tetrahedra with hardly more than one of them through its thickness.
-void note_coarse_sheet(const BodyModel& body, Model& model) {
-  const Mesh& mesh = body.mesh;
+void note_coarse_sheet(const BodyConfig& config, const Mesh& mesh, Model& model) {
   constexpr double kCoarse = 0.8;  // edges over the thickness
   constexpr int kFew = 100;        // elements, which are no mesh of a sheet
   const double edge = edge_of_tetrahedra(mesh);
   if (edge == 0 || mesh.simplex_count() < kFew) return;
-  const double thickness = body.thickness;
+  const double thickness = thickness_of(mesh, false, cut_facets(mesh, symmetry_planes(config.boundaries, false)));
   if (!(edge > kCoarse * thickness) || !is_sheet(mesh, thickness)) return;
-  model.notes.push_back("the tetrahedra of body " + body.name + " have edges " + three_digits(edge / thickness) + " times as long as the body is thick: with one of them through its thickness a sheet bends a fourth too stiffly, "
+  model.notes.push_back("the tetrahedra of body " + config.name + " have edges " + three_digits(edge / thickness) + " times as long as the body is thick: with one of them through its thickness a sheet bends a fourth too stiffly, "
                         "with two by 4 % (docs/elements.md); give shorter edges, or hexahedra with pattern one_point");
 }
 
 /// The classical law keeps its pressure in the simplices, and where these are no parts of cells nothing takes the mean.
-void note_classical_simplices(const BodyModel& body, Model& model) {
+void note_classical_simplices(const BodyConfig& config, const Mesh& mesh, Model& model) {
   const auto free = [](const Cells& cells) { return cells.kind == CellKind::triangle || cells.kind == CellKind::tetrahedron; };
-  if (body.material.law != "classical" || body.pressure_average == "element" || std::none_of(body.mesh.cells.begin(), body.mesh.cells.end(), free)) return;
-  model.notes.push_back("the law of body " + body.name + " is classical, which keeps a pressure in every one of its free " + (body.mesh.dimension == 2 ? "triangles" : "tetrahedra") +
+  if (config.material.law != "classical" || config.pressure_average == "element" || std::none_of(mesh.cells.begin(), mesh.cells.end(), free)) return;
+  model.notes.push_back("the law of body " + config.name + " is classical, which keeps a pressure in every one of its free " + (mesh.dimension == 2 ? "triangles" : "tetrahedra") +
                         ": they lock in plastic flow and bend too stiffly, with forces up to twice as large; give quadrilaterals or hexahedra, or the law green_elastic");
 }
 
@@ -90,16 +90,15 @@ void note_standing_strip(const BodyConfig& config, Model& model) {
 
 }  // namespace
 
-void tell_odd_body(const BodyConfig& config, const BodyModel& body, Model& model) {
-  const Mesh& mesh = body.mesh;
+void tell_odd_body(const BodyConfig& config, const Mesh& mesh, Model& model) {
   if (const int parts = config.self_contact ? 1 : count_parts(mesh); parts > 1)
     model.notes.push_back("body " + config.name + " consists of " + std::to_string(parts) +
                           " parts that share no node, and they pass through each other: set its self_contact to true, or give them as bodies of their own");
   note_soft_strip(config, model);
   note_stiff_strip(config, model);
   note_polygonal_bar(config, mesh, model);
-  note_coarse_sheet(body, model);
-  note_classical_simplices(body, model);
+  note_coarse_sheet(config, mesh, model);
+  note_classical_simplices(config, mesh, model);
   constexpr double kFlat = 1.5;
   if (const double flat = flatness(mesh); flat > kFlat)
     model.notes.push_back("the cells of body " + config.name + " are " + three_digits(flat) +

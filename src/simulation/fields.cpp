@@ -121,9 +121,6 @@ double Simulation::Impl::place_rounding() const {
   return 0.5 * std::numeric_limits<double>::epsilon() * farthest / (elements.slowest_wave() * first_element_dt);
 }
 
-// c^2 strain/h, h = c dt: what a strain of 1e-13 in the smallest cells, and ten times the rounding of their places, accelerates a node by.
-double Simulation::Impl::rounding() const { return (1e-13 + 10 * place_rounding()) * elements.fastest_wave() / first_element_dt; }
-
 // What positions cannot tell: the energy of a strain of 1e-11, and far from the origin of what rounding of the places is for the smallest cell, c dt high, a thousand times:
 // it gathers over the steps.
 double Simulation::Impl::least_energy() const {

@@ -65,6 +65,7 @@ struct Simulation::Impl {
   CellRates rates;                  ///< when the stable step was last asked for
   StepLimit limit, smallest;
   AddedMass added;
+  std::vector<RestingBody> resting_bodies;
   long resting = 1;                 ///< nodes that the last kick left at rest; 1 before the first, which looks for them
   long longer_steps = 0;            ///< than time_step.limit node allows
   double first_dt = 0;
@@ -117,8 +118,8 @@ struct Simulation::Impl {
   /// Steps that are taken from more than the cells, of what keeps its energy.
   bool watches_ledger() const { return !by_cells() && plan.contact.method == "implicit" && !model.without_tangent(); }
   void look_at_ledger(double residual);
+  RestingBody resting_body(const BodyModel& body) const;
   double place_rounding() const;    ///< of places, as a strain of the smallest cells
-  double rounding() const;          ///< by which cells that rest may accelerate a node, m/s2
   double full_dt() const;           ///< what the coming step could be at most, whatever the steps before it were
   void find_stable_step();
   /// The step is the fastest cell's own: neither nodes nor the whole mesh bound it.

@@ -9,6 +9,7 @@
 #include "forming_sim/config/words.h"
 #include "forming_sim/loads/velocity_field.h"
 #include "forming_sim/mesh/axis.h"
+#include "forming_sim/mesh/measure.h"
 #include "forming_sim/simulation/release.h"
 #include "simulation/impl.h"
 
@@ -70,6 +71,11 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
                 !by_cells(), model.axisymmetric}, n),
       stages(plan.stages, model), contact_force(X.size(), 0.0), node_impulse(contact_force) {
   set_up_loads();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    BodyModel& body = model.bodies[b];
+    body.cut = cut_facets(body.mesh, symmetry_planes(plan.bodies[b].boundaries, model.axisymmetric));
+    body.thickness = thickness_of(body.mesh, model.axisymmetric, body.cut);
+  }
   raise_step();
   give_tools_mass();
   set_up_contact();
@@ -79,9 +85,19 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
   for (const Node& n : x) farthest = std::max(farthest, n.cwiseAbs().maxCoeff());
   elements.find_rates(x, v, rates);
   first_element_dt = elements.slowest_cell(rates).dt;
+  for (const BodyModel& body : model.bodies) resting_bodies.push_back(resting_body(body));
   begin_stage();
   choose_dt();
   told_at_start = warnings.size();
+}
+
+// Cells of a strain pull a node by c^2 strain/h, h = c dt: of a strain of 1e-14, and of four times what rounding of their places is for the smallest.
+RestingBody Simulation::Impl::resting_body(const BodyModel& body) const {
+  const MaterialConfig& m = body.material;
+  const double c = std::sqrt((m.K() + 4. / 3 * m.mu()) / (m.density * plan.time_step.mass_scaling)), h = c * elements.smallest_step(rates, body);
+  double far = 0;
+  for (int n = body.first_node; n < body.first_node + body.node_count; ++n) far = std::max(far, x[n].cwiseAbs().maxCoeff());
+  return {body.first_node, body.node_count, (1e-14 + 4 * std::numeric_limits<double>::epsilon() * far / h) * c * c / h};
 }
 
 void Simulation::Impl::set_up_loads() {

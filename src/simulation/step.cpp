@@ -20,7 +20,7 @@ NodalForces Simulation::Impl::forces() const {
   return f;
 }
 
-Kick Simulation::Impl::kick_of(double step_dt) const { return Kick(0.5 * (previous_dt + step_dt), damping_rate(), resting > 0 ? rounding() : 0); }
+Kick Simulation::Impl::kick_of(double step_dt) const { return Kick(0.5 * (previous_dt + step_dt), damping_rate(), resting > 0 ? &resting_bodies : nullptr); }
 
 void Simulation::Impl::predict(double step_dt, NodeField& v_star) {
   resting = kick_nodes(elements.team(), kick_of(step_dt), v, forces(), elements.nodal_mass(), v_star);

@@ -81,6 +81,36 @@ TEST(Stillness, ABodyThatNothingTouchesRests) {
     }
 }
 
+// A soft body is pulled, and beside it lies a stiff one of far smaller cells that nothing touches: what rounding is for that one is much for the other, and nothing of it is felt.
+TEST(Stillness, ANeighbourAtRestHasNoInfluence) {
+  MaterialConfig foam;
+  foam.density = 50;
+  foam.youngs_modulus = 1e4;
+  foam.poissons_ratio = .3;
+  MaterialConfig steel;
+  steel.density = 7850;
+  steel.youngs_modulus = 210e9;
+  steel.poissons_ratio = .3;
+  NodeField alone;
+  for (const bool beside : {false, true}) {
+    OneBody run(body_of(generate_blank(strip_of(.1, .05, 10, 5)), foam), 1);
+    pull_right(run, {0}, {Vec3(.01, 0, 0)});
+    if (beside) {
+      BlankConfig sheet = strip_of(1e-3, 1e-4, 40, 4);
+      sheet.origin = Vec3(0, .2, 0);
+      add_flying(run.model, run.plan, body_of(generate_blank(sheet), steel), "sheet", Vec3::Zero());
+    }
+    run.plan.time_step.limit = "element";
+    run.plan.time_step.maximum = 1e-9;
+    auto sim = run.start();
+    for (int step = 0; step < 2000; ++step) sim->step();
+    NodeField x(sim->positions().begin(), sim->positions().begin() + run.model.bodies[0].node_count);
+    if (!beside) alone = x;
+    EXPECT_EQ(x, alone);
+    EXPECT_GT((x.back() - sim->initial_positions()[x.size() - 1]).norm() , 1e-9);
+  }
+}
+
 // Gravity that is far less than what rounding could pull is still felt.
 TEST(Stillness, ALoadIsNoRounding) {
   OneBody run(body_of(block_of(CellKind::crossed, 4), aluminium()), 1);

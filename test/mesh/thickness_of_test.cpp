@@ -1,6 +1,9 @@
 // The thickness of a body does not depend on how much of it is meshed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "forming_sim/loads/boundary.h"
 #include "forming_sim/mesh/axis.h"
 #include "forming_sim/mesh/generate.h"
 #include "forming_sim/mesh/measure.h"
@@ -54,6 +57,31 @@ TEST(ThicknessOf, WhatIsHeldAlongItselfIsNoPlaneOfSymmetry) {
   const Mesh mesh = with_set(sheet(2), 1, 0);
   EXPECT_NEAR(thickness(mesh, {{"plane", Vec3::UnitX()}}), of_whole_section(), 1e-12);
   EXPECT_NEAR(thickness(mesh, {{"a missing set", Vec3::UnitY()}}), of_whole_section(), 1e-12);
+}
+
+// What carries a sheet in its middle holds a part of its lower face, and is no plane of symmetry.
+TEST(ThicknessOf, APatchOfAFaceIsNoPlaneOfSymmetry) {
+  Mesh mesh = with_set(sheet(2), 1, 0);
+  std::vector<int>& held = mesh.sets["plane"];
+  held.erase(std::remove_if(held.begin(), held.end(), [&](int n) { return std::abs(mesh.nodes[n].x() - kLength / 2) > kLength / 8; }), held.end());
+  ASSERT_GT(held.size(), 2u);
+  EXPECT_NEAR(thickness(mesh, {{"plane", Vec3::UnitY()}}), of_whole_section(), 1e-12);
+}
+
+TEST(ThicknessOf, PlanesOfSymmetryHoldOneDirectionToTheEnd) {
+  BoundaryConfig fixed;
+  fixed.set = "bottom";
+  fixed.kind = "fixed";
+  fixed.axes = {"y"};
+  EXPECT_EQ(symmetry_planes({fixed}, false).size(), 1u);
+  EXPECT_EQ(symmetry_planes({fixed}, true).size(), 1u);
+  fixed.axes = {"x"};
+  EXPECT_EQ(symmetry_planes({fixed}, true).size(), 0u) << "a wall that is held in x is a mandrel's";
+  fixed.axes = {"x", "y"};
+  EXPECT_EQ(symmetry_planes({fixed}, false).size(), 0u);
+  BoundaryConfig let_go = symmetric("bottom", Vec3::UnitY());
+  let_go.until = "springback";
+  EXPECT_EQ(symmetry_planes({let_go}, false).size(), 0u);
 }
 
 TEST(ThicknessOf, ABodyBetweenPlanesOfSymmetryAloneHasItsOwnSurface) {

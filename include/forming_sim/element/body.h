@@ -16,8 +16,9 @@ struct BodyModel {
   std::string pressure_average = "cell";     ///< cell | node | element
   bool self_contact = false;                 ///< it meets itself where it folds
   Mesh mesh;                     ///< its own mesh, nodes numbered from 0; sets hold the named sets of the scene too
+  // Found by the simulation, which knows the boundaries
   std::vector<char> cut;         ///< cut_facets() of the mesh, by the planes of symmetry that its boundaries make
-  double thickness = 0;          ///< m, thickness_of() at the start
+  double thickness = 0;          ///< thickness_of() it at the start, m
 };
 
 }  // namespace forming_sim

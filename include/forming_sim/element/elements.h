@@ -86,6 +86,7 @@ class Elements {
   // element/step_bounds.h
   void find_rates(const NodeField& x, const NodeField& v, CellRates& rates) const;
   CellLimit slowest_cell(const CellRates& rates) const;
+  double smallest_step(const CellRates& rates, const BodyModel& body) const;  ///< of the cells of a body, s
   /// Sums over the cells at each node; only with ElementOptions::shares.
   NodalRates sum_rates(const CellRates& rates) const;
   /// The weights of crossed triangles follow shapes that have left theirs (element/crossed.h), at x: to be asked now and then. Energies stay what they are.
@@ -94,7 +95,6 @@ class Elements {
   void add_mass(const std::vector<double>& kg);
 
   double slowest_wave() const;  ///< sqrt((K + 4 mu/3)/rho) of the slowest material, masses scaled, m/s
-  double fastest_wave() const;  ///< likewise of the fastest
 
   /// f = internal forces at x as if nothing yielded on the way from the last positions: a change of
   /// x gives the elastic tangent. Without viscosity; no memory changes, what nodal_forces() gave is lost. Not of Law::classical.

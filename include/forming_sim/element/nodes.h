@@ -11,17 +11,20 @@ namespace forming_sim {
 
 /// The kick in a time of `time` s with damping (1/s) at the mean of the two velocities:
 /// v <- keep v + push f/m = ((1 - a) v + time f/m) / (1 + a), a = damping time/2.
-/// A node that rests, bears no load and would be accelerated by at most `rounding`, m/s2, goes on to rest: cells that are as they were at the start pull by what their
-/// rounding leaves, and would set going in a few steps what nothing has touched (element/stillness.h). With 0 nothing is looked at.
+/// A node that rests, bears no load and would be accelerated by at most `rounding` of its body goes on to rest: cells that are as they were at the start pull by what
+/// their rounding leaves, and would set going in a few steps what nothing has touched (element/stillness.h). Without `resting` nothing is looked at.
+struct RestingBody {
+  int first_node = 0, nodes = 0;
+  double rounding = 0;  ///< m/s2
+};
 struct Kick {
   double keep, push;
-  double still;  ///< m/s: push f/m up to which it rests
+  const std::vector<RestingBody>* resting;  ///< all bodies, or null
 
-  Kick(double time, double damping, double rounding = 0) {
+  Kick(double time, double damping, const std::vector<RestingBody>* bodies = nullptr) : resting(bodies) {
     const double a = 0.5 * damping * time;
     keep = (1 - a) / (1 + a);
     push = time / (1 + a);
-    still = push * rounding;
   }
 };
 

@@ -5,6 +5,7 @@
 
 #include "forming_sim/loads/config.h"
 #include "forming_sim/loads/rigid_velocity.h"
+#include "forming_sim/mesh/measure.h"
 #include "forming_sim/mesh/mesh.h"
 #include "forming_sim/tensor/vec.h"
 
@@ -22,6 +23,9 @@ struct ResolvedBoundary {
 /// Throws Error(invalid_scene) naming a set that is missing or empty.
 ResolvedBoundary resolve(const BoundaryConfig& config, const std::string& body, const Mesh& mesh,
                          int first_node);
+
+/// A boundary that holds one direction and nothing else, to the end, counts as a plane of symmetry across that direction; of an axisymmetric body along the axis alone.
+std::vector<SymmetryPlane> symmetry_planes(const std::vector<BoundaryConfig>& boundaries, bool axisymmetric);
 
 /// All held or driven nodes of a model. A node may be in several boundaries:
 /// their directions are orthonormalised into one space of fixed directions.

@@ -36,8 +36,8 @@ struct SymmetryPlane {
   std::string set;
   Vec3 normal;
 };
-/// Of every facet of the surface, 1: it lies in one of the planes, where the body goes on: all its nodes are in the set and its normal is within 8 degrees of the
-/// plane's. Sets that the mesh does not have cut nothing.
+/// Of every facet of the surface, 1: it lies in one of the planes, where the body goes on: its normal is within 8 degrees of the plane's, and all its nodes are in the set,
+/// as those of all facets that lie in one plane with it are (a patch that holds a part of a face is a support). Sets that the mesh does not have cut nothing.
 std::vector<char> cut_facets(const Mesh& mesh, const std::vector<SymmetryPlane>& planes);
 /// Twice the volume over the surface that is not cut (cut_facets): the thickness of a thin sheet, m, also where the mesh is a
 /// half or a slice of it. Axisymmetric: both turned, by the radii of their middles. cut: one a facet of mesh.surface; where all of it is, over all of it.

@@ -19,7 +19,7 @@ class SteadyStep {
     if (dt_ == 0) dt_ = limit;
     rises_ = limit > (rises_ ? 1 : kBand) * dt_;
     if (limit < dt_) dt_ = std::min(std::max(limit, (1 - kPart) * dt_), kOver * limit);
-    else if (rises_) dt_ = std::min(limit, (1 + kPart) * dt_);
+    else if (rises_) dt_ = std::min(limit, (1 + (limit > kFar * dt_ ? kLargePart : kPart)) * dt_);
     return dt_;
   }
 
@@ -32,6 +32,7 @@ class SteadyStep {
 
  private:
   static constexpr double kPart = 2e-4;  ///< of a step, by which it changes at most from one to the next
+  static constexpr double kLargePart = 1e-3, kFar = 1.2;  ///< likewise while the limit is so many times the step: after a squeeze, say, that is over
   static constexpr double kOver = 1.01;  ///< of its limit where that falls faster: what the safety has room for (choose_dt() keeps it below the stable step)
   static constexpr double kBand = 1.02;  ///< of the step: limits that come and go within that change nothing
   double dt_ = 0;
