@@ -18,6 +18,22 @@ constexpr double kSqueezed = 0.1;    ///< of the forces of tools that are let go
 constexpr double kNext = 0.01;       ///< to nothing, of the energy that a squeezed body had: what is left to fade may do as much in any case
 constexpr double kMoving = 0.3;      ///< of the forces that are let go: more than this sets the body in motion as a whole
 
+/// Extents, m: twice that of the mesh along an axis where a plane of symmetry ends it on one side.
+Vec3 size_of_whole(const BodyModel& body) {
+  constexpr double kAlong = 0.99;  // cosine
+  bool ends[3][2] = {};
+  for (std::size_t i = 0; i < body.cut.size(); ++i)
+    if (body.cut[i]) {
+      const Vec3 area = area_vector(body.mesh, body.mesh.surface[i]);
+      for (int k = 0; k < 3; ++k)
+        if (std::abs(area[k]) > kAlong * area.norm()) ends[k][area[k] > 0] = true;
+    }
+  Vec3 sizes = bounds(body.mesh).sizes();
+  for (int k = 0; k < 3; ++k)
+    if (ends[k][0] != ends[k][1]) sizes[k] *= 2;
+  return sizes;
+}
+
 bool any(const std::vector<char>& of) { return std::find(of.begin(), of.end(), 1) != of.end(); }
 
 /// Of the stages from the one at `begin` to the next settle stage, and at most until the next form stage begins, s.
@@ -33,7 +49,7 @@ double time_to_rest(const std::vector<StageConfig>& stages, int begin) {
 }  // namespace
 
 double Simulation::Impl::slowness(const BodyModel& body) const {
-  const double size = bounds(body.mesh).diagonal().norm(), speed = std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling);
+  const double size = size_of_whole(body).norm(), speed = std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling);
   return size * size / (body.thickness * speed);
 }
 

@@ -134,7 +134,9 @@ TEST(DrivenTool, ARamOnHalfABlockStopsWhereItDoesOnTheWhole) {
     ASSERT_TRUE(ram.stopped.has_value());
     way[half] = -ram.position.y();
     std::printf("  %s: stopped after %.4g mm under (%.4g, %.4g) N/m\n", half ? "half" : "whole", 1e3 * way[half], ram.force.x(), ram.force.y());
-    EXPECT_NEAR(ram.force.y(), run.model.tools[1].motion->stop_force, 1e-3 * force);
+    const double stop = run.model.tools[1].motion->stop_force;
+    EXPECT_GE(ram.force.y(), stop);
+    EXPECT_LT(ram.force.y(), 1.01 * stop);
     EXPECT_EQ(std::abs(ram.force.x()) > .1 * ram.force.y(), half);
   }
   EXPECT_NEAR(way[1], way[0], .01 * way[0]);
