@@ -18,9 +18,11 @@ constexpr double kSqueezed = 0.1;    ///< of the forces of tools that are let go
 constexpr double kNext = 0.01;       ///< to nothing, of the energy that a squeezed body had: what is left to fade may do as much in any case
 constexpr double kMoving = 0.3;      ///< of the forces that are let go: more than this sets the body in motion as a whole
 
-/// Extents, m: twice that of the mesh along an axis where a plane of symmetry ends it on one side.
-Vec3 size_of_whole(const BodyModel& body) {
+/// Extents, m, of what swings: of a sheet those of its mesh, which a plane of symmetry holds at one end; of a compact body twice as much along an axis where a plane of
+/// symmetry ends it on one side.
+Vec3 swinging_size(const BodyModel& body) {
   constexpr double kAlong = 0.99;  // cosine
+  if (is_sheet(body.mesh, body.thickness)) return bounds(body.mesh).sizes();
   bool ends[3][2] = {};
   for (std::size_t i = 0; i < body.cut.size(); ++i)
     if (body.cut[i]) {
@@ -49,7 +51,7 @@ double time_to_rest(const std::vector<StageConfig>& stages, int begin) {
 }  // namespace
 
 double Simulation::Impl::slowness(const BodyModel& body) const {
-  const double size = size_of_whole(body).norm(), speed = std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling);
+  const double size = swinging_size(body).norm(), speed = std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling);
   return size * size / (body.thickness * speed);
 }
 
