@@ -1,7 +1,6 @@
 // What bounds the time step, and forces with plastic flow held.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "element/group.h"
 #include "forming_sim/element/nodes.h"
@@ -59,11 +58,11 @@ void Elements::find_rates(const NodeField& x, const NodeField& v, CellRates& rat
   }
 }
 
-CellLimit Elements::slowest_cell(const CellRates& rates) const {
+CellLimit Elements::slowest_cell(const CellRates& rates, const BodyModel* of) const {
   CellLimit limit;
   for (std::size_t k = 0; k < groups_.size(); ++k) {
     const Group& g = groups_[k];
-    if (g.at_edges) continue;
+    if (g.at_edges || (of && g.body != of->name)) continue;
     for (int cell = 0; cell < g.cells; ++cell) {
       const BlockRates& block = rates[k][cell / kLanes];
       const double dt = forming_sim::stable_step(block.omega2[cell % kLanes], block.damping[cell % kLanes]);
@@ -71,19 +70,6 @@ CellLimit Elements::slowest_cell(const CellRates& rates) const {
     }
   }
   return limit;
-}
-
-double Elements::smallest_step(const CellRates& rates, const BodyModel& body) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < groups_.size(); ++k) {
-    const Group& g = groups_[k];
-    if (g.at_edges || g.body != body.name) continue;
-    for (int cell = 0; cell < g.cells; ++cell) {
-      const BlockRates& block = rates[k][cell / kLanes];
-      least = std::min(least, forming_sim::stable_step(block.omega2[cell % kLanes], block.damping[cell % kLanes]));
-    }
-  }
-  return least;
 }
 
 void Elements::stable_step(const NodeField& x, const NodeField& v, double& dt, int& element) const {

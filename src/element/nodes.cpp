@@ -68,7 +68,7 @@ double move_nodes(Team& team, double dt, const NodeField& v, const NodeField* th
 }
 
 KickedAndMoved kick_and_move_nodes(Team& team, const Kick& kick, const NodeField& v_before, const NodalForces& forces, const std::vector<double>& mass,
-                           const std::function<void(long first, long last)>& hold, double dt, const NodeField* then, NodeField& v, NodeField& x) {
+                                   const std::function<void(long first, long last)>& hold, double dt, const NodeField* then, NodeField& v, NodeField& x) {
   std::atomic<long> resting{0};
   const double apart = team.largest(static_cast<long>(x.size()), kNodesOfAThread, [&](long first, long last) {
     double most = 0;

@@ -72,12 +72,12 @@ ResolvedBoundary resolve(const BoundaryConfig& config, const std::string& body, 
 std::vector<SymmetryPlane> symmetry_planes(const std::vector<BoundaryConfig>& boundaries, bool axisymmetric) {
   std::vector<SymmetryPlane> planes;
   for (const BoundaryConfig& boundary : boundaries) {
-    if (!boundary.until.empty()) continue;
-    if (boundary.kind == "symmetric") planes.push_back({boundary.set, boundary.normal});
-    else if (boundary.kind == "fixed" && boundary.axes.size() == 1) planes.push_back({boundary.set, Vec3::Unit(boundary.axes[0][0] - 'x')});
+    Vec3 normal;
+    if (boundary.kind == "symmetric") normal = boundary.normal;
+    else if (boundary.kind == "fixed" && boundary.axes.size() == 1) normal = Vec3::Unit(boundary.axes[0][0] - 'x');
+    else continue;
+    if (boundary.until.empty() && !(axisymmetric && normal.x() != 0)) planes.push_back({boundary.set, normal});
   }
-  const auto radial = [](const SymmetryPlane& plane) { return plane.normal.x() != 0; };
-  if (axisymmetric) planes.erase(std::remove_if(planes.begin(), planes.end(), radial), planes.end());
   return planes;
 }
 

@@ -117,14 +117,11 @@ const Energies& Simulation::energies() const {
   return e;
 }
 
-double Simulation::Impl::place_rounding() const {
-  return 0.5 * std::numeric_limits<double>::epsilon() * farthest / (elements.slowest_wave() * first_element_dt);
-}
-
 // What positions cannot tell: the energy of a strain of 1e-11, and far from the origin of what rounding of the places is for the smallest cell, c dt high, a thousand times:
 // it gathers over the steps.
 double Simulation::Impl::least_energy() const {
-  const double mass = std::accumulate(physical_mass.begin(), physical_mass.end(), 0.0), c = elements.slowest_wave(), strain = 1e-11 + 1e3 * place_rounding();
+  const double mass = std::accumulate(physical_mass.begin(), physical_mass.end(), 0.0), c = elements.slowest_wave();
+  const double rounding = 0.5 * std::numeric_limits<double>::epsilon() * farthest / (c * first_element_dt), strain = 1e-11 + 1e3 * rounding;
   return strain * strain * mass * c * c;
 }
 

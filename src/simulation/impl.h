@@ -86,7 +86,6 @@ struct Simulation::Impl {
   std::size_t told_at_start = 0;    ///< of the warnings
   bool overstepped = false;         ///< a step was longer than the explicit contact is stable, and it has been told
   bool fall_told = false;           ///< a tool that a force drives had lost what it pressed on
-  double thinnest = 0;              ///< m, of the bodies at the start; 0: nobody has asked
   long active_pairs = 0;
   long crossings = 0;
   double next_crossing_check = 0;
@@ -119,7 +118,6 @@ struct Simulation::Impl {
   bool watches_ledger() const { return !by_cells() && plan.contact.method == "implicit" && !model.without_tangent(); }
   void look_at_ledger(double residual);
   RestingBody resting_body(const BodyModel& body) const;
-  double place_rounding() const;    ///< of places, as a strain of the smallest cells
   double full_dt() const;           ///< what the coming step could be at most, whatever the steps before it were
   void find_stable_step();
   /// The step is the fastest cell's own: neither nodes nor the whole mesh bound it.

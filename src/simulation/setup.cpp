@@ -94,7 +94,7 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
 // Cells of a strain pull a node by c^2 strain/h, h = c dt: of a strain of 1e-14, and of four times what rounding of their places is for the smallest.
 RestingBody Simulation::Impl::resting_body(const BodyModel& body) const {
   const MaterialConfig& m = body.material;
-  const double c = std::sqrt((m.K() + 4. / 3 * m.mu()) / (m.density * plan.time_step.mass_scaling)), h = c * elements.smallest_step(rates, body);
+  const double c = std::sqrt((m.K() + 4. / 3 * m.mu()) / (m.density * plan.time_step.mass_scaling)), h = c * elements.slowest_cell(rates, &body).dt;
   double far = 0;
   for (int n = body.first_node; n < body.first_node + body.node_count; ++n) far = std::max(far, x[n].cwiseAbs().maxCoeff());
   return {body.first_node, body.node_count, (1e-14 + 4 * std::numeric_limits<double>::epsilon() * far / h) * c * c / h};

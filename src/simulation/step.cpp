@@ -141,10 +141,8 @@ void Simulation::Impl::tell_fall(int tool) {
   if (!drive || fall_told) return;
   const double fallen = drive->fallen(time);
   if (!(fallen > 0)) return;
-  if (thinnest == 0) {
-    thinnest = std::numeric_limits<double>::max();
-    for (const BodyModel& body : model.bodies) thinnest = std::min(thinnest, body.thickness);
-  }
+  double thinnest = std::numeric_limits<double>::max();
+  for (const BodyModel& body : model.bodies) thinnest = std::min(thinnest, body.thickness);
   if (fallen < thinnest) return;
   fall_told = true;
   std::ostringstream text;

@@ -85,8 +85,7 @@ class Elements {
 
   // element/step_bounds.h
   void find_rates(const NodeField& x, const NodeField& v, CellRates& rates) const;
-  CellLimit slowest_cell(const CellRates& rates) const;
-  double smallest_step(const CellRates& rates, const BodyModel& body) const;  ///< of the cells of a body, s
+  CellLimit slowest_cell(const CellRates& rates, const BodyModel* of = nullptr) const;  ///< of one body; null: of all
   /// Sums over the cells at each node; only with ElementOptions::shares.
   NodalRates sum_rates(const CellRates& rates) const;
   /// The weights of crossed triangles follow shapes that have left theirs (element/crossed.h), at x: to be asked now and then. Energies stay what they are.

@@ -9,14 +9,16 @@
 
 namespace forming_sim {
 
-/// The kick in a time of `time` s with damping (1/s) at the mean of the two velocities:
-/// v <- keep v + push f/m = ((1 - a) v + time f/m) / (1 + a), a = damping time/2.
-/// A node that rests, bears no load and would be accelerated by at most `rounding` of its body goes on to rest: cells that are as they were at the start pull by what
-/// their rounding leaves, and would set going in a few steps what nothing has touched (element/stillness.h). Without `resting` nothing is looked at.
+/// A body, and what the rounding of its cells may accelerate a node by.
 struct RestingBody {
   int first_node = 0, nodes = 0;
   double rounding = 0;  ///< m/s2
 };
+
+/// The kick in a time of `time` s with damping (1/s) at the mean of the two velocities:
+/// v <- keep v + push f/m = ((1 - a) v + time f/m) / (1 + a), a = damping time/2.
+/// A node that rests, bears no load and would be accelerated by at most `rounding` of its body goes on to rest: cells that are as they were at the start pull by what
+/// their rounding leaves, and would set going in a few steps what nothing has touched (element/stillness.h). Without `resting` nothing is looked at.
 struct Kick {
   double keep, push;
   const std::vector<RestingBody>* resting;  ///< all bodies, or null
@@ -47,7 +49,7 @@ struct KickedAndMoved {
 /// Both, a part of the nodes at a time, which a core's cache holds meanwhile: v = v_before after the kick, then hold(first, last)
 /// for what else acts on the velocities of the nodes [first, last), then x += dt v.
 KickedAndMoved kick_and_move_nodes(Team& team, const Kick& kick, const NodeField& v_before, const NodalForces& forces, const std::vector<double>& mass,
-                           const std::function<void(long first, long last)>& hold, double dt, const NodeField* then, NodeField& v, NodeField& x);
+                                   const std::function<void(long first, long last)>& hold, double dt, const NodeField* then, NodeField& v, NodeField& x);
 
 /// moved = does x differ from seen, node by node; seen = x. Returns how many do.
 long compare_nodes(Team& team, const NodeField& x, NodeField& seen, std::vector<char>& moved);
