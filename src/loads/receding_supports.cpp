@@ -34,7 +34,7 @@ std::vector<Vec3> parts_by_face(const Vec3& F, const std::vector<Vec3>& areas) {
   return {F};
 }
 
-double RecedingSupports::squeeze(const std::vector<Held>& held) {
+double RecedingSupports::squeeze(const std::vector<Held>& held, const Mat3& alone) {
   double all = 0;
   Node together = Node::Zero();
   for (const Held& h : held) {
@@ -42,10 +42,10 @@ double RecedingSupports::squeeze(const std::vector<Held>& held) {
     all += h.by.force.norm();
     together += h.by.force;
   }
-  return all > 0 ? 1 - together.norm() / all : 0;
+  return all > 0 ? 1 - (alone * vec3(together)).norm() / all : 0;
 }
 
-void RecedingSupports::begin(const OfBody& body, double dt, const std::vector<double>& mass, const NodeField& x, const std::vector<Held>& held) {
+void RecedingSupports::begin(const OfBody& body, double squeeze, double dt, const std::vector<double>& mass, const NodeField& x, const std::vector<Held>& held) {
   Set set;
   set.of = body;
   set.added = body.start;
@@ -66,7 +66,7 @@ void RecedingSupports::begin(const OfBody& body, double dt, const std::vector<do
     }
     set.supports.push_back(support);
   }
-  set.depth = area > 0 ? kDepth * squeeze(held) * pressed / area * body.t / body.E + 2 * pressed / stiffness : 0;
+  set.depth = area > 0 ? kDepth * squeeze * pressed / area * body.t / body.E + 2 * pressed / stiffness : 0;
   sets_.push_back(std::move(set));
 }
 

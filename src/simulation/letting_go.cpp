@@ -36,6 +36,20 @@ Vec3 swinging_size(const BodyModel& body) {
   return sizes;
 }
 
+/// Projector of the directions along which a body goes on beyond no plane of symmetry, nor round an axis.
+Mat3 alone(const BodyModel& body, bool axisymmetric) {
+  constexpr double kOther = 0.2;  // of a normal, across those before it
+  Mat3 P = Mat3::Identity();
+  const auto take_out = [&P](const Vec3& normal) {
+    const Vec3 beyond = P * normal;
+    if (beyond.norm() > kOther) P -= beyond.normalized() * beyond.normalized().transpose();
+  };
+  if (axisymmetric) take_out(Vec3::UnitX());
+  for (std::size_t i = 0; i < body.cut.size(); ++i)
+    if (body.cut[i]) take_out(area_vector(body.mesh, body.mesh.surface[i]).normalized());
+  return P;
+}
+
 bool any(const std::vector<char>& of) { return std::find(of.begin(), of.end(), 1) != of.end(); }
 
 /// Of the stages from the one at `begin` to the next settle stage, and at most until the next form stage begins, s.
@@ -123,8 +137,8 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
     const BodyModel& body = model.bodies[b];
     const std::vector<Held>& forces = forces_on[b];
     if (forces.empty()) continue;
-    if (RecedingSupports::squeeze(forces) > kSqueezed) {
-      supports.begin({static_cast<int>(b), body.thickness, body.material.E(), elements.stored_energy_of(body, x), time, duration}, std::max(previous_dt, full_dt()), elements.nodal_mass(), x, forces);
+    if (const double squeeze = RecedingSupports::squeeze(forces, alone(body, model.axisymmetric)); squeeze > kSqueezed) {
+      supports.begin({static_cast<int>(b), body.thickness, body.material.E(), elements.stored_energy_of(body, x), time, duration}, squeeze, std::max(previous_dt, full_dt()), elements.nodal_mass(), x, forces);
     } else {
       std::vector<HoldingForce> to_fade;
       for (const Held& held : forces) to_fade.push_back(held.by);

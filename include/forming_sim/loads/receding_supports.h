@@ -20,10 +20,9 @@ std::vector<Vec3> parts_by_face(const Vec3& F, const std::vector<Vec3>& areas);
 /// Two tools that close on a sheet squeeze it by far more than its bending asks for. Forces that kept that would squeeze on while the sheet springs back, where it no
 /// longer is as it was: they bend it on, or make it buckle. Tools that open let go of the squeeze in a few thousandths of the thickness, and then bear just what bends. So do these:
 ///   f = F max(0, 1 - (s + d)/give),  s = (x - place).F/|F|,  d = (kDepth p t/E + 2 sum |F|/sum k) (3 u^2 - 2 u^3),  u = (t - start)/opening,
-/// p = squeeze() sum |F|/sum area, the mean pressure that balances itself: all recede as far, as tools do.
+/// p = squeeze sum |F|/sum area, the mean pressure that balances itself: all recede as far, as tools do.
 /// A node that moves against its support meets more, one that moves along it leaves it behind, as it would the tool. With d as it is, it is the force of an energy, convex in x.
 /// give = F/k with k = m (kStiffness/dt)^2: as stiff as the time step bears, m the mass of the node, or its share of it. What a boundary held stays F.
-/// (A block that is squeezed against a boundary, a plane of symmetry say, is pressed on from one side: there forces fade as they are.)
 class RecedingSupports {
  public:
   static constexpr double kStiffness = 0.3;    ///< the fastest swing is one of 2/dt: it becomes faster by 1 %
@@ -35,10 +34,11 @@ class RecedingSupports {
     int body = 0;
     double t = 0, E = 0, stored = 0, start = 0, fade = 0;
   };
-  /// Of what holds a body, the part of the forces of tools that balances itself, (sum |F| - |sum F|)/sum |F|; 0 where none presses.
-  static double squeeze(const std::vector<Held>& held);
-  /// Nodes have these masses, kg, are at x, and move on by steps of dt, s.
-  void begin(const OfBody& body, double dt, const std::vector<double>& mass, const NodeField& x, const std::vector<Held>& held);
+  /// Of what holds a body, the part of the forces of tools that balances itself, (sum |F| - |P sum F|)/sum |F|; 0 where none presses.
+  /// P, `alone`: projector of the directions along which the body is all there is; what presses across a plane of symmetry is balanced beyond it.
+  static double squeeze(const std::vector<Held>& held, const Mat3& alone = Mat3::Identity());
+  /// Nodes have these masses, kg, are at x, and move on by steps of dt, s. squeeze: squeeze() of what held them.
+  void begin(const OfBody& body, double squeeze, double dt, const std::vector<double>& mass, const NodeField& x, const std::vector<Held>& held);
   /// f += what they bear at time t, of nodes at x.
   void add(double t, const NodeField& x, NodeField& f);
   /// What they could still do if d stayed as it is at time t, J; but for what boundaries held. Their gradient, for tests.
