@@ -21,7 +21,6 @@ std::string name_of(const char* what, const Family& family) { return std::string
 
 void count_steps(std::vector<Row>& rows, const std::string& name, const Simulation& sim) {
   rows.push_back(just(name, "steps", static_cast<double>(sim.steps()), sim.wall_time()));
-  rows.push_back(at_most(name, "looks at which the ledger made the steps shorter", static_cast<double>(sim.step_limit_cost().shortened), 0, sim.wall_time()));
 }
 
 }  // namespace

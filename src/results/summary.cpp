@@ -82,7 +82,7 @@ Json options(const Simulation& simulation, const Scene& scene) {
           {"damping", {{"rate_1_s", number(c.damping)}, {"dissipated_J", number(e.damping - e.viscosity - e.settling)}}},
           {"settling", {{"dissipated_J", number(e.settling)}}},
           {"mass_scaling", {{"factor", number(c.mass_scaling)}, {"added_mass_kg", number(mass * (1 - 1 / c.mass_scaling))}}},
-          {"time_step", {{"limit", simulation.plan().time_step.limit}, {"estimates", cost.estimates}, {"products", cost.products}, {"share_of_longer_steps", number(cost.share)}, {"shortened", cost.shortened}}},
+          {"time_step", {{"limit", simulation.plan().time_step.limit}, {"estimates", cost.estimates}, {"products", cost.products}, {"share_of_longer_steps", number(cost.share)}}},
           {"raised_step", raised}};
 }
 

@@ -11,7 +11,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f6600000014u;
+constexpr std::uint64_t kLayout = 0x6d726f6600000015u;
 
 template <class T> std::size_t mark_of(const T* values, std::size_t count) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(values), count * sizeof(T)});
@@ -55,7 +55,6 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
     a.number(*value);
   for (long* value : {&steps, &halvings, &sweeps, &swept_steps, &unsettled_steps, &active_pairs, &crossings, &longer_steps, &resting}) a.number(*value);
   control.exchange(a);
-  watch.exchange(a);
   steady.exchange(a);
   if (plan.time_step.limit == "global") global.exchange(a, static_cast<std::size_t>(elements.blocks()) * kLanes);
   if (!by_cells()) departure.exchange(a, x.size());

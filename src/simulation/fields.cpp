@@ -76,7 +76,7 @@ StepLimit Simulation::smallest_step() const { return described(impl_->smallest, 
 const AddedMass& Simulation::added_mass() const { return impl_->added; }
 StepLimitCost Simulation::step_limit_cost() const {
   const Impl& s = *impl_;
-  return {s.global.estimates, s.global.products, s.steps > 0 ? static_cast<double>(s.longer_steps) / static_cast<double>(s.steps) : 0, s.watch.shortened()};
+  return {s.global.estimates, s.global.products, s.steps > 0 ? static_cast<double>(s.longer_steps) / static_cast<double>(s.steps) : 0};
 }
 
 // The leapfrog keeps 1/2 v.(M - dt^2/4 K) v + U at the middle of a step, not 1/2 v.M v + U: of a swing of frequency omega the kinetic

@@ -10,7 +10,6 @@
 #include "forming_sim/loads/fading_forces.h"
 #include "forming_sim/loads/pressure.h"
 #include "forming_sim/loads/receding_supports.h"
-#include "forming_sim/simulation/ledger_watch.h"
 #include "forming_sim/simulation/simulation.h"
 #include "forming_sim/simulation/steady_step.h"
 #include "simulation/departure.h"
@@ -59,7 +58,6 @@ struct Simulation::Impl {
   long steps = 0;
   StepControl control;
   SteadyStep steady;
-  LedgerWatch watch;
   GlobalLimit global;
   Departure departure;              ///< watched where a step may come near the true limit
   CellRates rates;                  ///< when the stable step was last asked for
@@ -114,9 +112,6 @@ struct Simulation::Impl {
   // step_limit.cpp
   /// dt of the coming step: what the mesh bears, the user's limit, the stage's end.
   void choose_dt();
-  /// Steps that are taken from more than the cells, of what keeps its energy.
-  bool watches_ledger() const { return !by_cells() && plan.contact.method == "implicit" && !model.without_tangent(); }
-  void look_at_ledger(double residual);
   RestingBody resting_body(const BodyModel& body) const;
   double full_dt() const;           ///< what the coming step could be at most, whatever the steps before it were
   void find_stable_step();

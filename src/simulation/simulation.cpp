@@ -98,7 +98,6 @@ bool Simulation::step() {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   s.take_step();
-  if (s.watches_ledger() && s.watch.due(s.steps)) s.look_at_ledger(energies().residual());
   const bool over = s.stage_over();
   if (over || s.stages.progress(s.time) >= s.next_crossing_check) s.check_crossings();
   if (over) {

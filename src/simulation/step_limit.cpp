@@ -21,15 +21,13 @@ constexpr double kRise = 1.01;
 /// The last steps of a stage are of one length that meets its end. One that is cut short there changes the energy of a swing of
 /// frequency omega by up to (omega dt)^2/8 of it, and what is read in it, such as a reaction, is not that of the steps before.
 constexpr double kToEnd = 50;
-constexpr long kTold = 3;  ///< steps that the ledger has made shorter so often are told of; summary.json has them all
 }  // namespace
 
 void Simulation::Impl::choose_dt() {
   if (departure.sudden() || elements.corners_pressed()) control.hurry();
   if (control.due()) find_stable_step();
   const TimeStepConfig& config = plan.time_step;
-  watch.follow();
-  dt = std::min(steady.follow(config.safety * watch.factor() * control.stable_dt), control.stable_dt);
+  dt = std::min(steady.follow(config.safety * control.stable_dt), control.stable_dt);
   if (previous_dt > 0) dt = std::min(dt, kRise * previous_dt);
   limit.dt = dt;
   limit.element = control.element;
@@ -42,17 +40,8 @@ void Simulation::Impl::choose_dt() {
   if (count <= kToEnd) dt = left / std::max(1.0, count);
 }
 
-void Simulation::Impl::look_at_ledger(double residual) {
-  if (!watch.look(steps, residual, std::max(most, least_energy())) || watch.shortened() != kTold) return;
-  std::ostringstream text;
-  text.precision(3);
-  text << "energy comes from nowhere again and again, as in fast swings of large amplitude: the steps from " << time << " s on are " << 100 * watch.factor()
-       << " % of what the mesh bears, shorter still if that goes on, and longer while it does not; time_step.limit element or time_step.linear_viscosity .06 keep the ledger closed from the start";
-  warnings.push_back(text.str());
-}
-
 double Simulation::Impl::full_dt() const {
-  double stable = plan.time_step.safety * watch.factor() * control.stable_dt;
+  double stable = plan.time_step.safety * control.stable_dt;
   if (steps > 0) stable = std::min(stable, steady.dt());
   return plan.time_step.maximum > 0 ? std::min(stable, plan.time_step.maximum) : stable;
 }

@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "forming_sim/simulation/ledger_watch.h"
 #include "support/runs.h"
 
 namespace forming_sim {
@@ -98,47 +97,8 @@ TEST(Ledger, OfCellsThatFlowByMuchInAStep) {
       }
 }
 
-TEST(LedgerWatch, ShortensStepsWhileEnergyComesFromNowhere) {
-  LedgerWatch watch;
-  long step = 0;
-  double residual = 0, put_in = 1;
-  const auto look = [&](double more) {
-    while (!watch.due(step)) ++step;
-    const bool shorter = watch.look(step, residual += more, put_in);
-    const double before = watch.factor();
-    watch.follow();
-    EXPECT_GT(watch.factor(), .98 * before);  // little by little
-    for (int i = 0; i < 200; ++i) watch.follow();
-    return shorter;
-  };
-  EXPECT_FALSE(watch.due(step));
-  EXPECT_FALSE(look(.0009));
-  EXPECT_FALSE(look(-.5));  // lost
-  for (int i = 0; i < 5; ++i) {
-    put_in += .2;
-    EXPECT_FALSE(look(.0011));  // half a hundredth of what was put in meanwhile
-  }
-  put_in = 1;
-  EXPECT_FALSE(look(0));
-  EXPECT_DOUBLE_EQ(watch.factor(), 1);
-  EXPECT_FALSE(look(.0011));  // once: something has struck
-  EXPECT_FALSE(look(0));
-  EXPECT_FALSE(look(.0011));
-  EXPECT_DOUBLE_EQ(watch.factor(), 1);
-  EXPECT_TRUE(look(.0011));
-  EXPECT_LT(watch.factor(), .81);
-  const double once = watch.factor();
-  EXPECT_FALSE(look(0));
-  EXPECT_GT(watch.factor(), once);
-  for (int i = 0; i < 21; ++i) EXPECT_EQ(look(.01), i > 0);
-  EXPECT_GT(watch.factor(), .3);
-  for (int i = 0; i < 400; ++i) look(0);
-  EXPECT_DOUBLE_EQ(watch.factor(), 1);
-  EXPECT_EQ(watch.shortened(), 21);
-}
-
-// Places far from the origin are rounded more coarsely: what that does to a plate on which nothing acts is no energy from nowhere, and shortens no step.
-TEST(LedgerWatch, LeavesWhatWaitsFarFromTheOriginAlone) {
+// Places far from the origin are rounded more coarsely: what that does to a plate on which nothing acts is no energy from nowhere.
+TEST(Ledger, LeavesWhatWaitsFarFromTheOriginAlone) {
   int steps[2];
   for (const bool far : {false, true}) {
     BlankConfig blank = strip_of(10e-3, 1e-3, 20, 2);
@@ -172,7 +132,7 @@ TEST(Ledger, OfATubeThatSnapsThrough) {
   auto sim = run.start();
   while (sim->step()) {
   }
-  std::printf("  ledger open by %.2g, steps made shorter %ld times\n", sim->balance_error(), sim->step_limit_cost().shortened);
+  std::printf("  ledger open by %.2g\n", sim->balance_error());
   EXPECT_LT(sim->balance_error(), 1e-3);
   EXPECT_EQ(sim->contact_status().crossings, 0);
 }

@@ -11,7 +11,7 @@
 //                   formed: at the end of forming, where the tools may rest already; forming: the
 //                   largest of the form stages' peaks, which judges mass scaling and tool speed
 //   options {bulk_viscosity, damping, settling, mass_scaling,
-//            time_step {limit, estimates, products, share_of_longer_steps, shortened},
+//            time_step {limit, estimates, products, share_of_longer_steps},
 //            raised_step {to_s, added_mass_kg, fraction, bodies [{name, added_mass_kg}],
 //                         most {node, added_mass_kg, position}}}   null without time_step.raise_to
 //   contact {crossings, halvings, min_gap_over_h0, h0_m, sweeps_per_step, share_at_max_sweeps, explicit_stable_dt_s}

@@ -61,11 +61,10 @@ struct AddedMass {
   double most = 0;             ///< kg on it
 };
 
-/// What the step cost: the runs that look for the fastest swing of the mesh (time_step.limit global), and what watches over the ledger.
+/// What the step cost: the runs that look for the fastest swing of the mesh (time_step.limit global).
 struct StepLimitCost {
   long estimates = 0, products = 0;  ///< a product costs one evaluation of the forces
   double share = 0;                  ///< of the steps, those that were longer than time_step.limit node allows
-  long shortened = 0;                ///< how often steps were made shorter because energy came from nowhere (time_step.limit node, too)
 };
 
 /// Principal logarithmic strains in the surface, of one of its facets. Plane strain: the one along the section and 0;
