@@ -14,22 +14,21 @@ Books::Books(const Workspace& work, const std::vector<Rub>& rubs, int bodies, in
   step.tool_angular_impulse.assign(tools, Vec3::Zero());
 }
 
-Node Books::book(const Link& link, int tool, const Node& impulse) {
-  Node mean = Node::Zero();
+template <class AnyLink> Node Books::book(const AnyLink& link, int tool, const Node& impulse) {
   for (int k = 0; k < link.nodes; ++k) {
     const int n = link.node[k];
     const Node& v = work_.mean[n];
-    mean += link.weight[k] * v;
     if (n >= work_.body_entries) {
-      const Node on_tool = link.weight[k] * impulse;
+      const Node on_tool = on_node(link, k, impulse);
       step_.tool_work -= dot3(on_tool, v);
       step_.tool_impulse[tool] += vec3(on_tool);
       step_.tool_angular_impulse[tool] += vec3(work_.x[n]).cross(vec3(on_tool));
     } else if (const Mat3* projector = work_.projector[n]) {
-      step_.held_work += link.weight[k] * dot3(impulse - project(*projector, impulse), v);
+      const Node j = on_node(link, k, impulse);
+      step_.held_work += dot3(j - project(*projector, j), v);
     }
   }
-  return mean;
+  return relative(link, work_.mean);
 }
 
 void Books::add(const TiePair& tie) { normal_ += dot3(tie.impulse, book(tie, tie.tool, tie.impulse)); }

@@ -182,7 +182,7 @@ std::vector<Contact::ActedOn> Contact::acted_on(const std::vector<char>& tools) 
   for (const ContactPair& pair : m.near.pairs)
     if (const int tool = pair.tool(bodies); tool >= 0 && pair.impulse > 0) act[tool] = 1;
   std::vector<ActedOn> of(m.features.area.size());
-  const auto see = [&](const Link& link, int tool, bool acts, const Node& impulse) {
+  const auto see = [&](const auto& link, int tool, bool acts, const Node& impulse) {
     const bool asked = tool >= 0 && tools[tool] && (act[tool] || acts);
     for (int k = 0; k < link.nodes; ++k) {
       if (link.node[k] >= m.work.body_entries) continue;
@@ -191,7 +191,7 @@ std::vector<Contact::ActedOn> Contact::acted_on(const std::vector<char>& tools) 
       on.node = n;
       on.asked = on.asked || asked;
       on.others = on.others || (acts && !asked);
-      if (asked) on.impulse += link.weight[k] * impulse;
+      if (asked) on.impulse += on_node(link, k, impulse);
     }
   };
   for (const ContactPair& pair : m.near.pairs) see(pair, pair.tool(bodies), pair.impulse > 0, m.impulse_of(pair));
@@ -204,12 +204,12 @@ bool Contact::ties() const { return !impl_->ties.empty(); }
 
 void Contact::add_held_impulses(std::vector<Vec3>& sum) const {
   const Workspace& work = impl_->work;
-  const auto add = [&](const Link& link, const Node& impulse) {
+  const auto add = [&](const auto& link, const Node& impulse) {
     for (int k = 0; k < link.nodes; ++k) {
       const int n = link.node[k];
       if (n >= work.body_entries || !work.projector[n]) continue;
-      const Node on_node = link.weight[k] * impulse;
-      sum[impl_->held_of[work.vertex[n]]] += vec3(on_node - project(*work.projector[n], on_node));
+      const Node j = on_node(link, k, impulse);
+      sum[impl_->held_of[work.vertex[n]]] += vec3(j - project(*work.projector[n], j));
     }
   };
   for (const TiePair& tie : impl_->tie_pairs) add(tie, tie.impulse);

@@ -15,6 +15,7 @@ namespace forming_sim {
 namespace {
 
 constexpr double kOwn = 0.1;  ///< least weight with which a tie holds a vertex of its own
+constexpr double kTouches = 1e-9;  ///< of its feature: nearer is rounding
 constexpr double kAsNear = 1e-3;  ///< of the distance of a tie, and of 1, a cosine: facets that differ by less are as near, and face as well
 
 struct EdgeLengths {
@@ -55,6 +56,35 @@ template <class Place> Mat3 frame_of(const Tie& tie, Place&& place) {
   frame.col(1) = normal.cross(along);
   frame.col(2) = normal;
   return frame;
+}
+
+// By which the frame turns with its nodes: W_k, where it turns by the sum of W_k dx_k. Its first axis a goes with one edge of length L, from p to q; in space its third, n, is across that
+// and d = u a + H b, the way from s to t.
+template <class Place> std::array<Mat3, 4> turning(const Tie& tie, const Mat3& frame, Place&& place) {
+  std::array<Mat3, 4> W;
+  W.fill(Mat3::Zero());
+  const bool edges = tie.weight[1] > 0;
+  const int p = edges ? 2 : 1, q = p + 1, s = edges ? 0 : 1, t = edges ? 1 : 3;
+  const Vec3 a = frame.col(0), b = frame.col(1), n = frame.col(2);
+  const double L = (vec3(place(q)) - vec3(place(p))).norm();
+  const Mat3 around_n = n * b.transpose() / L;
+  W[q] += around_n;
+  W[p] -= around_n;
+  if (tie.nodes < 4) return W;
+  const Vec3 d = vec3(place(t)) - vec3(place(s));
+  const double u = d.dot(a), H = d.dot(b);
+  const Mat3 around_b = -b * n.transpose() / L, around_a = a * n.transpose() / H;
+  W[q] += around_b - around_a * (u / L);
+  W[p] -= around_b - around_a * (u / L);
+  W[t] += around_a;
+  W[s] -= around_a;
+  return W;
+}
+
+Mat3 cross_with(const Vec3& r) {
+  Mat3 m;
+  m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
+  return m;
 }
 
 Tie tie_to_facet(const Features& f, int vertex, int facet, const Closest& closest) {
@@ -299,34 +329,49 @@ TiePair link_tie(const Tie& tie, int index, const int* entries) {
   return pair;
 }
 
-void prepare_tie(const Workspace& work, TiePair& pair) {
+namespace {
+// Inverse of sum G P/m G^T over the directions that can move.
+Mat3 mass_of(const Workspace& work, const TiePair& pair) {
   Mat3 w = Mat3::Zero();
-  double total = 0;
   for (int k = 0; k < pair.nodes; ++k) {
     const int n = pair.node[k];
-    const double b2m = pair.weight[k] * pair.weight[k] * work.share[n].inverse_mass;
-    total += b2m;
-    w += work.projector[n] ? Mat3(b2m * *work.projector[n]) : Mat3(b2m * Mat3::Identity());
+    Mat3 G = pair.weight[k] * Mat3::Identity();
+    if (pair.apart) G += pair.turn[k];
+    w += work.share[n].inverse_mass * (work.projector[n] ? Mat3(G * *work.projector[n] * G.transpose()) : Mat3(G * G.transpose()));
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(w);
-  pair.undamped.setZero();
+  Mat3 mass = Mat3::Zero();
   for (int k = 0; k < 3; ++k) {
     const double value = solver.eigenvalues()[k];
-    if (value > 1e-12 * total) pair.undamped += solver.eigenvectors().col(k) * solver.eigenvectors().col(k).transpose() / value;
+    if (value > 1e-12 * w.trace()) mass += solver.eigenvectors().col(k) * solver.eigenvectors().col(k).transpose() / value;
   }
-  pair.mass = pair.undamped;
+  return mass;
+}
+}  // namespace
+
+void prepare_tie(const Workspace& work, TiePair& pair) {
+  pair.apart = false;
+  pair.mass = pair.undamped = mass_of(work, pair);
 }
 
 void aim_tie(const Tie& tie, const Workspace& work, const std::vector<ToolMotion>& motion, TiePair& pair) {
   pair.impulse.setZero();
-  pair.missing = -relative(pair, work.x);
+  pair.missing = -relative(static_cast<const Link&>(pair), work.x);
   if (pair.to_tool) {
     pair.press = node(motion[tie.tool].rotation0 * tie.press);
     return;
   }
-  const Mat3 frame = frame_of(tie, [&](int k) -> const Node& { return work.x[pair.node[k]]; });
-  pair.missing += node(frame * tie.kept);
+  const auto at = [&](int k) -> const Node& { return work.x[pair.node[k]]; };
+  const Mat3 frame = frame_of(tie, at);
+  const Vec3 kept = frame * tie.kept;
+  pair.missing += node(kept);
   pair.press = node(frame * tie.press);
+  const int last = tie.nodes - 1;
+  pair.apart = tie.kept.norm() > kTouches * (at(last) - at(last - 1)).norm();
+  if (!pair.apart) return;
+  pair.turn = turning(tie, frame, at);
+  for (Mat3& turn : pair.turn) turn = cross_with(kept) * turn;
+  pair.mass = mass_of(work, pair);  // of the workspace's inertia
 }
 
 double sweep_tie(double dt, Workspace& work, TiePair& pair) {

@@ -51,7 +51,7 @@ struct Simulation::Impl {
   bool pressed = false;                                ///< some contact pressure is not zero
   std::vector<ToolStatus> tools;
   std::vector<std::string> warnings;
-  bool ledger_told = false;
+  bool ledger_told = false, contact_told = false;
   std::vector<Observer*> observers;
 
   double time = 0, dt = 0, previous_dt = 0, previous_kick = 0;
@@ -180,6 +180,7 @@ struct Simulation::Impl {
   void check_passages();  ///< of bodies through themselves
   /// Warns, once, of energies that do not add up at the end of a stage; residual, J, and error: of Simulation.
   void check_ledger(double residual, double error);
+  void check_contact_energy(double taken);
   /// Warns where the running stage, which ends, was to end when a tool stops, and that has not.
   void tell_unstopped();
   double least_energy() const;  ///< J

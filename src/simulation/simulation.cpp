@@ -44,6 +44,17 @@ void Simulation::Impl::check_ledger(double residual, double error) {
   warnings.push_back(text.str());
 }
 
+// What contact and ties took is what layers store and impacts lose: it cannot be less than nothing.
+void Simulation::Impl::check_contact_energy(double taken) {
+  if (contact_told || !(-taken > kOpenLedger * std::max(most, least_energy()))) return;
+  contact_told = true;
+  std::ostringstream text;
+  text.precision(3);
+  text << "energy comes from nowhere in contact: at the end of stage " << stages.stage().title() << ", " << time << " s, its forces and ties have given " << -taken << (model.per_width() ? " J/m, " : " J, ")
+       << 100 * -taken / std::max(most, least_energy()) << " % of what was put in. Forces and strains may be wrong by as much. Shorter steps (time_step.safety) and more contact.max_sweeps make it less";
+  warnings.push_back(text.str());
+}
+
 void Simulation::Impl::tell_unstopped() {
   const StageConfig& stage = stages.stage();
   if (stage.until_stopped.empty() || stages.stopped(stage.until_stopped)) return;
@@ -103,6 +114,7 @@ bool Simulation::step() {
   if (over) {
     s.elements.check_upright(s.x);
     s.check_ledger(energies().residual(), balance_error());
+    s.check_contact_energy(energies().contact);
     s.check_passages();
     s.tell_unstopped();
   }

@@ -19,7 +19,7 @@ class Books {
 
  private:
   /// Books the impulse of a link; returns the relative velocity, mean of before and after.
-  Node book(const Link& link, int tool, const Node& impulse);
+  template <class AnyLink> Node book(const AnyLink& link, int tool, const Node& impulse);
 
   const Workspace& work_;
   const std::vector<Rub>& rubs_;

@@ -16,19 +16,22 @@ inline Node relative(const Link& pair, const NodeField& v) {
 
 inline Node project(const Mat3& p, const Node& j) { return node(p * vec3(j)); }
 
-/// Adds to `field` of every node of the pair its weight over its mass times the
-/// impulse, held directions removed: to velocities an impulse, to places one
+/// What an impulse on the pair is on its k-th node.
+inline Node on_node(const Link& pair, int k, const Node& impulse) { return pair.weight[k] * impulse; }
+
+/// Adds to `field` of every node of the pair what the impulse is on it over its mass, held directions removed: to velocities an impulse, to places one
 /// times a time.
-inline void push(const Link& pair, const Node& impulse, const Workspace& work, NodeField& field) {
+template <class AnyLink> void push_nodes(const AnyLink& pair, const Node& impulse, const Workspace& work, NodeField& field) {
   for (int k = 0; k < pair.nodes; ++k) {
     const int n = pair.node[k];
-    const double factor = pair.weight[k] * work.share[n].inverse_mass;
+    const Node j = work.share[n].inverse_mass * on_node(pair, k, impulse);
     if (const Mat3* projector = work.projector[n])
-      field[n] += factor * project(*projector, impulse);
+      field[n] += project(*projector, j);
     else
-      field[n] += factor * impulse;
+      field[n] += j;
   }
 }
+inline void push(const Link& pair, const Node& impulse, const Workspace& work, NodeField& field) { push_nodes(pair, impulse, work, field); }
 
 /// Of every node of bodies the normal impulses of its pairs that rub, by their weights, N s.
 inline void sum_impulses(const Workspace& work, const LargeArray<ContactPair>& pairs, std::vector<double>& sum) {

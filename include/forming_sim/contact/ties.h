@@ -11,10 +11,14 @@
 //   r + dt (v_vertex - sum w_k v_k) = r_kept,
 // in the sweeps of contact, all others held. Nothing drifts, the stable step is
 // not changed (a constraint only removes motion), and no work is done but that
-// of a tool.
+// of a tool. Where what is tied does not touch (a chord beside a chord, glue), r_kept turns with the facet and so with its nodes:
+//   d(r - r_kept) = sum G_k dx_k,   G_k = w_k I + [r_kept]x W_k,   the frame turns by sum W_k dx_k,
+// and an impulse j acts on node k by G_k^T j, which has no moment on the whole. By the weights alone it has |r_kept| |j|: such ties feed swings without bound.
+#include <array>
 #include <string>
 #include <vector>
 
+#include "forming_sim/contact/impulse.h"
 #include "forming_sim/contact/list.h"
 
 namespace forming_sim {
@@ -29,7 +33,23 @@ struct TiePair : Link {
   Mat3 undamped = Mat3::Zero();    ///< inverse of sum b^2 P/m over the directions that can move, kg
   Mat3 mass = Mat3::Zero();        ///< the same with the workspace's inertia
   Node impulse = Node::Zero();     ///< N s
+  bool apart = false;              ///< r_kept is not 0
+  std::array<Mat3, 4> turn;        ///< [r_kept]x W_k at the start of the step; where apart
 };
+
+/// As of pairs (impulse.h), by G_k.
+inline Node relative(const TiePair& tie, const NodeField& v) {
+  Node u = relative(static_cast<const Link&>(tie), v);
+  if (tie.apart)
+    for (int k = 0; k < tie.nodes; ++k) u += node(tie.turn[k] * vec3(v[tie.node[k]]));
+  return u;
+}
+inline Node on_node(const TiePair& tie, int k, const Node& impulse) {
+  Node j = on_node(static_cast<const Link&>(tie), k, impulse);
+  if (tie.apart) j += node(tie.turn[k].transpose() * vec3(impulse));
+  return j;
+}
+inline void push(const TiePair& tie, const Node& impulse, const Workspace& work, NodeField& field) { push_nodes(tie, impulse, work, field); }
 
 /// Finds what the pairs of kind tied tie, with the bodies at x and the tools'
 /// vertices at `place`, as the user gave them; sets `tie` of the relations and
@@ -47,7 +67,7 @@ void keep_ties(const Features& features, const NodeField& x, const NodeField& pl
 TiePair link_tie(const Tie& tie, int index, const int* entries);
 void prepare_tie(const Workspace& work, TiePair& pair);
 
-/// Sets `missing` and `press` for a step that starts at work.x; motion: of the tools.
+/// Sets `missing` and `press`, and what turns, for a step that starts at work.x; motion: of the tools.
 void aim_tie(const Tie& tie, const Workspace& work, const std::vector<ToolMotion>& motion, TiePair& pair);
 
 /// One visit; changes work.v. Returns the largest change of a place, m.
