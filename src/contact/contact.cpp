@@ -200,6 +200,20 @@ std::vector<Contact::ActedOn> Contact::acted_on(const std::vector<char>& tools) 
   return of;
 }
 
+std::set<std::pair<int, int>> Contact::bodies_that_hold_each_other() const {
+  const Features& f = impl_->features;
+  std::set<std::pair<int, int>> all;
+  const auto hold = [&](int a, int b) {
+    if (a != b && std::max(a, b) < f.bodies) all.emplace(std::min(a, b), std::max(a, b));
+  };
+  for (int a = 0; a < f.bodies; ++a)
+    for (int b = a + 1; b < f.bodies; ++b)
+      if (f.relation(a, b).tie >= 0) hold(a, b);
+  for (const ContactPair& pair : impl_->near.pairs)
+    if (pair.impulse > 0) hold(pair.own, pair.surface);
+  return all;
+}
+
 bool Contact::ties() const { return !impl_->ties.empty(); }
 
 void Contact::add_held_impulses(std::vector<Vec3>& sum) const {

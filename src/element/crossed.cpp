@@ -93,12 +93,12 @@ std::array<double, kCrossedItems> crossed_weights(const Vec3* corners, bool ring
   for (int s = 0; s < 4; ++s) items[kCrossedGuard + s] = kFreeOfGuard;
   if (!by_shape) return items;
   const Eigen::Vector4d w = affine.transpose() * (affine * affine.transpose()).inverse().col(0);
-  const double q = near_axis(corners, ring);
+  const double q = near_axis(corners, ring), first = crossed_ratio(corners);  // what is free at the start stays so: else renewed weights would make energy
   Eigen::Vector4d beta;
   for (int s = 0; s < 4; ++s) {
-    const double own = s % 2 == 0 ? ratio : 1 / ratio;
-    beta[s] = (1 - tau_of(own)) * (1 - q * q);
-    items[kCrossedGuard + s] = free_of(own);
+    const auto own = [s](double r) { return s % 2 == 0 ? r : 1 / r; };
+    beta[s] = (1 - tau_of(own(ratio))) * (1 - q * q);
+    items[kCrossedGuard + s] = free_of(own(first));
   }
   beta -= shift.transpose() * (shift * shift.transpose()).inverse() * (shift * beta);
   for (int b = 0; b < 4; ++b) {

@@ -23,6 +23,24 @@ void Elements::Group::set_weights(int block) {
   }
 }
 
+double Elements::Group::least_seen(int block, int l, const Vec3* corners) const {
+  const auto areas = [&](const Vec3* at) {
+    Eigen::Vector2d way[4];
+    for (int b = 0; b < 4; ++b) way[b] = (at[b] - at[4]).head<2>();
+    std::array<double, 5> area{};  // by the law's edges; the last: of the cell
+    for (int s = 0; s < 4; ++s) {
+      const auto y = crossed_edges([&](int i) { return constant(block, i, l); }, way, s);
+      area[s] = y[0].x() * y[1].y() - y[0].y() * y[1].x();
+      area[4] += area[s];
+    }
+    return area;
+  };
+  const auto first = areas(first_corners_of(block, l).data()), now = areas(corners);
+  double least = 1;
+  for (int s = 0; s < 4; ++s) least = std::min(least, now[s] / first[s] * (first[4] / now[4]));
+  return least;
+}
+
 void Elements::renew_weights(const NodeField& x) {
   constexpr int triangles = 4;
   for (Group& g : groups_) {
@@ -37,6 +55,7 @@ void Elements::renew_weights(const NodeField& x) {
         for (int a = 0; a < 5; ++a) corners[a] = vec3(x[g.node(cell, a)]);
         const double ratio = crossed_ratio(corners);
         if (std::isfinite(ratio)) now[l] = renewed_ratio(crossed_ratio(g.first_corners_of(block, l).data()), before[l], ratio);
+        if (g.least_seen(block, l, corners) < kSeen) now[l] = 1;
         any = any || now[l] != before[l];
       }
       if (!any) continue;

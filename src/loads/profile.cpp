@@ -1,5 +1,7 @@
 #include "forming_sim/loads/profile.h"
 
+#include <algorithm>
+
 #include "forming_sim/config/fault.h"
 
 namespace forming_sim {
@@ -26,6 +28,11 @@ VelocityProfile::VelocityProfile(const std::vector<double>& times, const std::ve
                                  const std::string& shape)
     : velocity_(curve_of(times, velocities, shape, "velocity")) {
   path_ = velocity_.integral(0);
+}
+
+Vec3 VelocityProfile::mean(double t, double dt) const {
+  const auto knot = std::upper_bound(times().begin(), times().end(), t);
+  return knot != times().end() && *knot < t + dt ? Vec3(displacement(t, t + dt) / dt) : at(t + 0.5 * dt);
 }
 
 }  // namespace forming_sim

@@ -52,11 +52,7 @@ void RecedingSupports::begin(const OfBody& body, double squeeze, double dt, cons
   double pressed = 0, area = 0, stiffness = 0;  // N, m2, N/m
   for (const Held& h : held) {
     if (h.by.force.isZero(0)) continue;
-    Support support;
-    support.node = h.by.node;
-    support.force = h.by.force.norm();
-    support.way = h.by.force / support.force;
-    support.start = x[h.by.node].dot(support.way);
+    Support support = RecedingSupports::support(h, x);
     if (h.area > 0) {
       const double k = h.share * mass[h.by.node] * (kStiffness / dt) * (kStiffness / dt);
       support.give = support.force / k;
@@ -68,6 +64,25 @@ void RecedingSupports::begin(const OfBody& body, double squeeze, double dt, cons
   }
   set.depth = area > 0 ? kDepth * squeeze * pressed / area * body.t / body.E + 2 * pressed / stiffness : 0;
   sets_.push_back(std::move(set));
+}
+
+RecedingSupports::Support RecedingSupports::support(const Held& held, const NodeField& x) {
+  Support made;
+  made.node = held.by.node;
+  made.force = held.by.force.norm();
+  made.way = held.by.force / made.force;
+  made.start = x[held.by.node].dot(made.way);
+  return made;
+}
+
+bool RecedingSupports::hold(int body) const {
+  return std::any_of(sets_.begin(), sets_.end(), [body](const Set& set) { return set.of.body == body; });
+}
+
+void RecedingSupports::join(int body, const NodeField& x, const std::vector<Held>& held) {
+  const auto set = std::find_if(sets_.rbegin(), sets_.rend(), [body](const Set& one) { return one.of.body == body; });
+  for (const Held& h : held)
+    if (!h.by.force.isZero(0)) set->supports.push_back(support(h, x));
 }
 
 double RecedingSupports::Set::receded(double t) const {
@@ -85,13 +100,23 @@ void RecedingSupports::add(double t, const NodeField& x, NodeField& f) {
   for (Set& set : sets_) {
     const double from = set.of.start + kNearlyOpen * (set.open() - set.of.start), d = set.receded(t), time = std::max(t - std::max(set.added, from), 0.0);
     for (Support& support : set.supports) {
-      const double force = bears(support, d, x[support.node]);
-      support.impulse += time * force;
-      f[support.node] += force * support.way;
+      support.bore = bears(support, d, x[support.node]);
+      support.impulse += time * support.bore;
+      f[support.node] += support.bore * support.way;
     }
     set.meant += time;
     set.added = t;
   }
+}
+
+std::vector<RecedingSupports::Done> RecedingSupports::work(double kick, const NodeField& v_before, const NodeField& v) const {
+  std::vector<Done> all;
+  for (const Set& set : sets_) {
+    double done = 0;
+    for (const Support& support : set.supports) done += support.bore * support.way.dot(v_before[support.node] + v[support.node]);
+    all.push_back({set.of.body, 0.5 * kick * done});
+  }
+  return all;
 }
 
 double RecedingSupports::energy(double t, const NodeField& x) const {

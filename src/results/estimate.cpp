@@ -60,7 +60,7 @@ Estimate estimate_run(Simulation& simulation) {
 std::string estimate_text(const Estimate& estimate) {
   char text[512];
   std::snprintf(text, sizeof text,
-                "nodes        %ld\nelements     %ld\ntime step    %.3g s at the start; it falls where cells are squeezed\nsteps        about %ld%s\n"
+                "nodes        %ld\nelements     %ld\ntime step    %.3g s in the first steps; it falls where cells are squeezed\nsteps        about %ld%s\n"
                 "wall time    about %.3g s on this machine (of the solver, without contact that comes later)\nmemory       about %.3g MB for the solver's data\n",
                 estimate.nodes, estimate.elements, estimate.time_step_s, estimate.steps, estimate.settles ? " (settling by its limit)" : "",
                 estimate.wall_time_s, estimate.memory_bytes / 1e6);

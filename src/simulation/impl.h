@@ -164,8 +164,11 @@ struct Simulation::Impl {
   double slowness(const BodyModel& body) const;
   /// Whether what lets go at the beginning of the running stage fades, or is gone at once.
   bool lets_go_slowly() const;
-  /// The time in which it fades, s; slowest: slowness of the bodies that are let go.
-  double release_time(double slowest) const;
+  /// The time in which it fades, s; slowest: slowness of the bodies that are let go; of_boundaries: some of it is.
+  double release_time(double slowest, bool of_boundaries) const;
+  using Together = std::vector<std::vector<int>>;
+  Together together() const;  ///< of every body those that it hangs together with, tied or pressed on each other, itself among them
+  double stored_in(const std::vector<int>& bodies) const;  ///< elastic energy, J
   /// Keeps what held the bodies until the running stage began, and no longer does, by supports that recede and forces that fade; held_before: the boundaries until then, of which some may have ended.
   void let_go(const BoundarySet& held_before, bool boundaries_ended);
   void go_on_letting_go();  ///< what supports that have receded still bear begins to fade

@@ -14,6 +14,7 @@ namespace forming_sim {
 namespace {
 constexpr double kCantilever = 6.2;  ///< 2 pi sqrt(12)/1.875^2: period of the first swing of a beam held at one end, over L^2/(t c)
 constexpr double kRoom = 0.25;       ///< of the time until the bodies have to rest or are formed on: for more of it nothing fades
+constexpr double kBeforeTools = 0.05;  ///< of a stage in which tools move away, by .1 % of their way until then: what boundaries held is balanced by what the tools bear, and goes before they do
 constexpr double kSqueezed = 0.1;    ///< of the forces of tools that are let go: less that balances itself does not squeeze
 constexpr double kNext = 0.01;       ///< to nothing, of the energy that a squeezed body had: what is left to fade may do as much in any case
 constexpr double kMoving = 0.3;      ///< of the forces that are let go: more than this sets the body in motion as a whole
@@ -64,6 +65,25 @@ double time_to_rest(const std::vector<StageConfig>& stages, int begin) {
 }
 }  // namespace
 
+Simulation::Impl::Together Simulation::Impl::together() const {
+  Together found(model.bodies.size());
+  for (std::size_t b = 0; b < found.size(); ++b) found[b] = {static_cast<int>(b)};
+  if (!contact) return found;
+  for (const auto& [a, b] : contact->bodies_that_hold_each_other()) {
+    if (std::find(found[a].begin(), found[a].end(), b) != found[a].end()) continue;
+    std::vector<int> all = found[a];
+    all.insert(all.end(), found[b].begin(), found[b].end());
+    for (int body : all) found[body] = all;
+  }
+  return found;
+}
+
+double Simulation::Impl::stored_in(const std::vector<int>& bodies) const {
+  double sum = 0;
+  for (int b : bodies) sum += elements.stored_energy_of(model.bodies[b], x);
+  return sum;
+}
+
 double Simulation::Impl::slowness(const BodyModel& body) const {
   const double size = swinging_size(body).norm(), speed = std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling);
   return size * size / (body.thickness * speed);
@@ -76,9 +96,12 @@ bool Simulation::Impl::lets_go_slowly() const {
   return stage.release_time > 0 || std::any_of(model.bodies.begin(), model.bodies.end(), flows);  // what is elastic ends where it would anyhow
 }
 
-double Simulation::Impl::release_time(double slowest) const {
+double Simulation::Impl::release_time(double slowest, bool of_boundaries) const {
   const StageConfig& stage = stages.stage();
-  return stage.release_time > 0 ? stage.release_time : std::min(kCantilever * slowest, kRoom * time_to_rest(plan.stages, stages.index()));
+  if (stage.release_time > 0) return stage.release_time;
+  const double time = std::min(kCantilever * slowest, kRoom * time_to_rest(plan.stages, stages.index()));
+  const bool tools_leave = stage.kind == "withdraw" && !stage.displacement.isZero(0);
+  return of_boundaries && tools_leave ? std::min(time, kBeforeTools * stage.duration) : time;
 }
 
 // What holds a node of a body at rest balances all other forces on it, f: so it is -f where tools pressed, and along the directions in
@@ -132,26 +155,37 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
     }
     if (!forces.empty()) slowest = std::max(slowest, slowness(body));
   }
-  const double duration = release_time(slowest);
+  const double duration = release_time(slowest, boundaries_ended);
+  const Together with = together();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     const std::vector<Held>& forces = forces_on[b];
     if (forces.empty()) continue;
+    const bool of_tools = std::any_of(forces.begin(), forces.end(), [](const Held& held) { return held.area > 0; });
+    const bool by_itself = of_tools || stages.stage().release_time > 0;  // and not with what lets go of the body already
+    if (!by_itself && supports.hold(static_cast<int>(b))) {
+      supports.join(static_cast<int>(b), x, forces);
+      continue;
+    }
     if (const double squeeze = RecedingSupports::squeeze(forces, alone(body, model.axisymmetric)); squeeze > kSqueezed) {
       supports.begin({static_cast<int>(b), body.thickness, body.material.E(), elements.stored_energy_of(body, x), time, duration}, squeeze, std::max(previous_dt, full_dt()), elements.nodal_mass(), x, forces);
     } else {
       std::vector<HoldingForce> to_fade;
       for (const Held& held : forces) to_fade.push_back(held.by);
-      fading.begin(time, duration, elements.stored_energy_of(body, x), std::move(to_fade));
+      const double stored = stored_in(with[b]);
+      if (by_itself || !fading.join(with[b], stored, to_fade)) fading.begin(time, duration, with[b], stored, std::move(to_fade));
     }
   }
 }
 
 void Simulation::Impl::go_on_letting_go() {
   fading.forget(time);
-  for (RecedingSupports::Receded& receded : supports.take(time))
+  std::vector<RecedingSupports::Receded> all = supports.take(time);
+  if (all.empty()) return;
+  const Together with = together();
+  for (RecedingSupports::Receded& receded : all)
     if (!receded.forces.empty())
-      fading.begin(time, receded.of.fade, std::max(elements.stored_energy_of(model.bodies[receded.of.body], x), kNext * receded.of.stored), std::move(receded.forces));
+      fading.begin(time, receded.of.fade, with[receded.of.body], std::max(stored_in(with[receded.of.body]), kNext * receded.of.stored), std::move(receded.forces));
 }
 
 }  // namespace forming_sim

@@ -155,6 +155,8 @@ void Simulation::Impl::book_loads() {
   const double kick = 0.5 * (previous_dt + dt), alpha = damping_rate();
   const std::vector<double>& mass = elements.nodal_mass();
   for (std::size_t i = 0; i < external.size(); ++i) work += 0.5 * kick * external[i].dot(v_before[i] + v[i]);
+  if (!fading.empty())
+    for (const RecedingSupports::Done& by : supports.work(kick, v_before, v)) fading.count(by.body, by.work);
   if (!fading.empty() && fading.work(kick, v_before, v)) {
     std::ostringstream text;
     text << "what had let go of the bodies was to fade, but drove them on by more than the elastic energy that they could spring back by: they gave way. At " << time

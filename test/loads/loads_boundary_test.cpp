@@ -88,6 +88,26 @@ TEST(BoundarySet, prescribes_velocity_along_its_axes_only) {
   EXPECT_EQ(set.prescribed(1, 5, 0, Vec3::Zero()), Vec3(4, 0, 0));
 }
 
+// A step over a knot that is as steep as a jump goes as far as the table says, and turns as far.
+TEST(BoundarySet, goes_as_far_as_its_table) {
+  ResolvedBoundary jump = driven({8, 0, 0}, {8, 0, 0}, {"x", "y"}, {0});
+  jump.config.times = {0, 1, 1 + 1e-6, 2};
+  jump.config.velocities = {Vec3(8, 0, 0), Vec3(8, 0, 0), Vec3(0, 3, 0), Vec3(0, 3, 0)};
+  ResolvedBoundary turn = jump;
+  turn.config.velocities.clear();
+  turn.places = {Vec3(1, 0, 0)};
+  turn.config.spins_deg_s = {Vec3(0, 0, 50), Vec3(0, 0, 50), Vec3::Zero(), Vec3::Zero()};
+  const BoundarySet moved({jump}, 2), turned({turn}, 2);
+  Vec3 way = Vec3::Zero(), x(1, 0, 0);
+  for (int k = 0; k < 7; ++k) {
+    way += 0.3 * moved.prescribed(0, 0.3 * k, 0.3, Vec3::Zero());
+    x += 0.3 * turned.prescribed(0, 0.3 * k, 0.3, x);
+  }
+  EXPECT_LT((way - Vec3(8 + 4e-6, 3 * 1.1 - 1.5e-6, 0)).norm(), 1e-12);
+  EXPECT_NEAR(std::atan2(x.y(), x.x()) * 180 / M_PI, 50 + 25e-6, 1e-9);
+  EXPECT_NEAR(x.norm(), 1, 1e-12);
+}
+
 TEST(BoundarySet, a_part_of_the_nodes_at_a_time_is_all_of_them) {
   const BoundarySet set({driven({2, 7, 0}, {4, 7, 0}, {"x"}, {0, 2, 3, 7}), symmetric(Vec3(1, 1, 0), {4, 8})}, 3);
   const NodeField at_random{{1, 2, 3, 0}, {4, 5, 6, 0}, {7, 8, 9, 0}, {1, 4, 7, 0}, {2, 5, 8, 0}, {3, 6, 9, 0}, {9, 7, 5, 0}, {8, 6, 4, 0}, {7, 5, 3, 0}};

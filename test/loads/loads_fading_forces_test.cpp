@@ -15,8 +15,8 @@ Vec3 on(FadingForces& forces, int n, double t) {
 TEST(FadingForces, FadeFromAllToNothing) {
   FadingForces forces;
   EXPECT_TRUE(forces.empty());
-  forces.begin(2, 4, 1e9, {{1, node(Vec3(8, 0, -16))}, {3, node(Vec3(0, 1, 0))}});
-  forces.begin(3, 2, 1e9, {{1, node(Vec3(0, 10, 0))}});
+  forces.begin(2, 4, {0}, 1e9, {{1, node(Vec3(8, 0, -16))}, {3, node(Vec3(0, 1, 0))}});
+  forces.begin(3, 2, {0}, 1e9, {{1, node(Vec3(0, 10, 0))}});
   EXPECT_EQ(on(forces, 1, 2), Vec3(8, 10, -16));
   EXPECT_EQ(on(forces, 3, 4), Vec3(0, 0.5, 0));
   EXPECT_EQ(on(forces, 1, 4), Vec3(4, 5, -8));
@@ -33,7 +33,7 @@ TEST(FadingForces, FadeFromAllToNothing) {
 
 TEST(FadingForces, DriveNothingOnByMoreThanTheyMay) {
   FadingForces forces;
-  forces.begin(2, 4, 10, {{1, node(Vec3(0, 5, 0))}});  // 5 N that may do 10 J
+  forces.begin(2, 4, {0}, 10, {{1, node(Vec3(0, 5, 0))}});  // 5 N that may do 10 J
   const NodeField along(4, node(Vec3(7, 1, 0))), against(4, node(Vec3(7, -1, 0)));
   on(forces, 1, 2);
   EXPECT_FALSE(forces.work(0.9, along, along)) << "4.5 J";
@@ -45,6 +45,24 @@ TEST(FadingForces, DriveNothingOnByMoreThanTheyMay) {
   EXPECT_TRUE(forces.work(0.9, along, along)) << "6.5 J, and the next such step would do 4.5 more";
   EXPECT_TRUE(forces.empty());
   EXPECT_FALSE(forces.work(1, along, along));
+}
+
+// One layer of two is driven on by what the other takes; a body that hangs on neither has what it may for itself.
+TEST(FadingForces, OfWhatHangsTogetherMayDoItTogether) {
+  FadingForces forces;
+  const NodeField along(4, node(Vec3(0, 1, 0)));
+  forces.begin(2, 4, {2, 0}, 3, {{1, node(Vec3(0, 5, 0))}});
+  forces.begin(2, 4, {0, 2}, 3, {{2, node(Vec3(0, -4, 0))}});
+  forces.begin(2, 4, {1}, 3, {{3, node(Vec3(0, 5, 0))}});
+  EXPECT_EQ(on(forces, 1, 2), Vec3(0, 5, 0));
+  EXPECT_TRUE(forces.work(1, along, along)) << "5 J on the third";
+  EXPECT_EQ(on(forces, 3, 2), Vec3::Zero());
+  EXPECT_EQ(on(forces, 2, 2), Vec3(0, -4, 0));
+  EXPECT_FALSE(forces.work(1, along, along)) << "2 J in all";
+  forces.begin(2, 4, {2, 3}, 2, {{0, node(Vec3(0, 1, 0))}});  // what lets go of them later hangs together with what did before
+  on(forces, 0, 2);
+  EXPECT_TRUE(forces.work(1, along, along)) << "2 of 2 J";
+  EXPECT_TRUE(forces.empty());
 }
 
 }  // namespace

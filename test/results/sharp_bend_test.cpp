@@ -44,6 +44,24 @@ TEST(SharpBend, IsWhatASheetTurnsByFromCellToCell) {
     }
 }
 
+// The end of a rolled sheet bulges by tens of degrees from cell to cell.
+TEST(SharpBend, TheShapeOfAnEdgeIsNone) {
+  for (int dimension : {2, 3}) {
+    BlankConfig blank = strip_of(40e-3, 4e-3, 40, 8);
+    blank.pattern = "coarse";
+    if (dimension == 3) blank.shape = "plate", blank.width = 30e-3, blank.cells_across = 30;
+    const BodyModel body = body_of(generate_blank(blank), aluminium());
+    NodeField x;
+    for (const Vec3& X : body.mesh.nodes) {
+      const double z = X[dimension - 1] / 4e-3 - 0.5;
+      Vec3 place = X;
+      if (X.x() > 39.9e-3) place.x() += 2e-3 * (1 - 4 * z * z);
+      x.push_back(node(place));
+    }
+    EXPECT_NEAR(sharpest_bend(body, x).degrees, 0, 1e-9);
+  }
+}
+
 TEST(SharpBend, OfWhatIsNoSheetIsNotAsked) {
   const BodyModel block = body_of(generate_blank(strip_of(4e-3, 4e-3, 8, 8)), aluminium());
   NodeField x;

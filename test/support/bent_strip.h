@@ -11,12 +11,12 @@ constexpr double kBentThickness = 0.93e-3;  // m
 /// k_after/k of k t = .02 (VERIFICATION 7): perfectly plastic, and with the hardening of aluminium().
 constexpr double kKeptPerfect = 0.59401, kKeptVoce = 0.57531;
 
-/// Turned from the upright, rad: the section at the right end of a strip.
-inline double turned(const Simulation& sim) {
+/// Turned from the upright, rad: the section at an end of a strip.
+inline double turned(const Simulation& sim, const char* at = "right") {
   const auto& X = sim.initial_positions();
-  const std::vector<int>& right = sim.model().bodies[0].mesh.sets.at("right");
+  const std::vector<int>& end = sim.model().bodies[0].mesh.sets.at(at);
   const auto by_height = [&](int a, int b) { return X[a][1] < X[b][1]; };
-  const auto [low, high] = std::minmax_element(right.begin(), right.end(), by_height);
+  const auto [low, high] = std::minmax_element(end.begin(), end.end(), by_height);
   const Vec3 section = vec3(sim.positions()[*high] - sim.positions()[*low]);
   return std::atan2(-section.x(), section.y());
 }

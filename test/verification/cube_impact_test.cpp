@@ -28,4 +28,27 @@ TEST(CubeImpact, NoCellOfAnyFamilyCollapsesAt1000MetresPerSecond) {
     }
 }
 
+// Sections of soft aluminium, of crossed cells 2 to 4 times as high as wide. The law saw triangles flat of which three fifths were there, and their cells collapsed within 2 us.
+TEST(CubeImpact, HighCellsOfASectionBearIt) {
+  MaterialConfig soft = aluminium_by("linear");
+  soft.hardening->yield_stress = soft.hardening->modulus = 50e6;
+  for (const double speed : {300., 500.})
+    for (const auto& [along, through] : {std::pair(8, 6), {12, 6}, {16, 12}, {8, 8}}) {
+      BlankConfig blank = strip_of(6e-3, 12e-3, along, through);
+      blank.origin = Vec3(0, 1e-5, 0);
+      OneBody run(body_of(generate_blank(blank), soft), 20e-6);
+      run.plan.bodies[0].initial_velocity = Vec3(0, -speed, 0);
+      run.plan.bodies[0].boundaries = {symmetric("left", Vec3::UnitX())};
+      run.model.tools = {plane_at("wall", 2, Vec3::Zero(), Vec3::UnitY())};
+      auto sim = run.start();
+      const Outcome outcome = sim->run(std::atomic<bool>(false));
+      const Energies& e = sim->energies();
+      std::printf("  %d x %d cells at %g m/s: %ld steps, plastic work %.2f of the kinetic energy, ledger open by %.2g\n", along, through, speed, sim->steps(), e.plastic / e.initial, sim->balance_error());
+      EXPECT_EQ(outcome.code, Code::success) << along << " x " << through << " at " << speed << ": " << outcome.message;
+      EXPECT_GT(e.plastic, .1 * e.initial);
+      EXPECT_LT(sim->balance_error(), .01);
+      EXPECT_EQ(sim->contact_status().crossings, 0);
+    }
+}
+
 }  // namespace forming_sim

@@ -14,7 +14,9 @@
 // set-up, h0 but for what closes fast (src/contact/layers.cpp); weights and normals are those of the start of the step.
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "forming_sim/config/fault.h"
@@ -155,6 +157,8 @@ class Contact {
   /// Of a body that does not meet itself (self_contact false): a node of its surface that lies where it has passed through itself; -1: it has not.
   int passed_through_itself(int body, const NodeField& x) const;
 
+  /// Bodies that are tied, or pressed on each other in the last step.
+  std::set<std::pair<int, int>> bodies_that_hold_each_other() const;
   /// Is anything tied?
   bool ties() const;
   /// Adds the normal impulses that the last step put on the bodies' nodes, N s, below 0 where ties pull; sum: one per node.

@@ -39,10 +39,21 @@ class RecedingSupports {
   static double squeeze(const std::vector<Held>& held, const Mat3& alone = Mat3::Identity());
   /// Nodes have these masses, kg, are at x, and move on by steps of dt, s. squeeze: squeeze() of what held them.
   void begin(const OfBody& body, double squeeze, double dt, const std::vector<double>& mass, const NodeField& x, const std::vector<Held>& held);
+  /// Supports of this body recede.
+  bool hold(int body) const;
+  /// What a boundary held that lets go of such a body meanwhile: it balances what the supports bear, and so goes with them.
+  void join(int body, const NodeField& x, const std::vector<Held>& held);
   /// f += what they bear at time t, of nodes at x.
   void add(double t, const NodeField& x, NodeField& f);
   /// What they could still do if d stayed as it is at time t, J; but for what boundaries held. Their gradient, for tests.
   double energy(double t, const NodeField& x) const;
+  /// Of those of a body that were added.
+  struct Done {
+    int body;
+    double work;  ///< J
+  };
+  /// What they do for `kick` s at the mean of two velocities.
+  std::vector<Done> work(double kick, const NodeField& v_before, const NodeField& v) const;
   bool empty() const { return sets_.empty(); }
   double end() const;  ///< when what the last still bear has faded, s
 
@@ -74,6 +85,7 @@ class RecedingSupports {
     double start = 0;             ///< place.way, m
     double give = 0;              ///< m; 0: a boundary's
     double impulse = 0;           ///< in the time over which they are meant, N s
+    double bore = 0;              ///< by the last add(), N
   };
   struct Set {
     OfBody of;
@@ -84,6 +96,7 @@ class RecedingSupports {
     double receded(double t) const;                                ///< d, m
   };
   std::vector<Set> sets_;
+  static Support support(const Held& held, const NodeField& x);  ///< of what a boundary held
   static double bears(const Support& support, double d, const Node& x);  ///< N
 };
 
