@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kOwn = 0.1;  ///< least weight with which a tie holds a vertex of its own
 constexpr double kTouches = 1e-9;  ///< of its feature: nearer is rounding
+constexpr double kAcross = 0.1;  ///< sine between edges that are tied apart from each other
 constexpr double kAsNear = 1e-3;  ///< of the distance of a tie, and of 1, a cosine: facets that differ by less are as near, and face as well
 
 struct EdgeLengths {
@@ -272,6 +273,9 @@ std::vector<Tie> find_ties(const ContactSetup& setup, const NodeField& x, const 
       touching_edges.push_back(Features::key(std::min(e.first, e.second), std::max(e.first, e.second)));
       for (int k = 0; k < 2; ++k) zone[p[k]] = zone[q[k]] = true;
       if ((tied[p[0]] && tied[p[1]]) || !c.crossing || c.squared > pair.distance * pair.distance) continue;
+      const Vec3 along = vec3(at(p[1])) - vec3(at(p[0])), other = vec3(at(q[1])) - vec3(at(q[0]));
+      const double lengths = along.norm() * other.norm();
+      if (c.squared > kTouches * kTouches * lengths && along.cross(other).norm() < kAcross * lengths) continue;  // the frame of such a tie would turn by far more than its edges
       rim.push_back(tie_edges(p, q, c));
     }
     for (Tie& tie : those_with_a_vertex(f, ties, rim)) {

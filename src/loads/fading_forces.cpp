@@ -10,17 +10,19 @@ void FadingForces::begin(double start, double duration, const std::vector<int>& 
   group.bodies = together;
   group.may_do = may_do;
   std::sort(group.bodies.begin(), group.bodies.end());
-  const auto merge = [&](Group& other) {
+  for (auto other = groups_.begin(); other != groups_.end();) {
     std::vector<int> shared, all;
-    std::set_intersection(group.bodies.begin(), group.bodies.end(), other.bodies.begin(), other.bodies.end(), std::back_inserter(shared));
-    if (shared.empty()) return false;
-    std::set_union(group.bodies.begin(), group.bodies.end(), other.bodies.begin(), other.bodies.end(), std::back_inserter(all));
-    if (all.size() > together.size()) group.may_do = std::max(group.may_do, other.may_do);
+    std::set_intersection(group.bodies.begin(), group.bodies.end(), other->bodies.begin(), other->bodies.end(), std::back_inserter(shared));
+    if (shared.empty()) {
+      ++other;
+      continue;
+    }
+    std::set_union(group.bodies.begin(), group.bodies.end(), other->bodies.begin(), other->bodies.end(), std::back_inserter(all));
+    if (all.size() > together.size()) group.may_do = std::max(group.may_do, other->may_do);
     group.bodies = std::move(all);
-    std::move(other.sets.begin(), other.sets.end(), std::back_inserter(group.sets));
-    return true;
-  };
-  groups_.erase(std::remove_if(groups_.begin(), groups_.end(), merge), groups_.end());
+    std::move(other->sets.begin(), other->sets.end(), std::back_inserter(group.sets));
+    other = groups_.erase(other);
+  }
   Set set;
   set.start = start;
   set.duration = duration;
@@ -34,10 +36,9 @@ bool FadingForces::join(const std::vector<int>& together, double may_do, const s
     if (std::none_of(together.begin(), together.end(), [&](int body) { return std::binary_search(group.bodies.begin(), group.bodies.end(), body); })) continue;
     const auto last = std::max_element(group.sets.begin(), group.sets.end(), [](const Set& a, const Set& b) { return a.left < b.left; });
     if (last->left < kLeft) continue;
-    const Set of = *last;
     std::vector<HoldingForce> whole = forces;
-    for (HoldingForce& held : whole) held.force /= of.left;
-    begin(of.start, of.duration, together, may_do, std::move(whole));
+    for (HoldingForce& held : whole) held.force /= last->left;
+    begin(last->start, last->duration, together, may_do, std::move(whole));
     return true;
   }
   return false;

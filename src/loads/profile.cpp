@@ -30,7 +30,7 @@ VelocityProfile::VelocityProfile(const std::vector<double>& times, const std::ve
   path_ = velocity_.integral(0);
 }
 
-Vec3 VelocityProfile::mean(double t, double dt) const {
+Vec3 VelocityProfile::of_step(double t, double dt) const {
   const auto knot = std::upper_bound(times().begin(), times().end(), t);
   return knot != times().end() && *knot < t + dt ? Vec3(displacement(t, t + dt) / dt) : at(t + 0.5 * dt);
 }

@@ -52,7 +52,7 @@ void RecedingSupports::begin(const OfBody& body, double squeeze, double dt, cons
   double pressed = 0, area = 0, stiffness = 0;  // N, m2, N/m
   for (const Held& h : held) {
     if (h.by.force.isZero(0)) continue;
-    Support support = RecedingSupports::support(h, x);
+    Support support = support_of(h, x);
     if (h.area > 0) {
       const double k = h.share * mass[h.by.node] * (kStiffness / dt) * (kStiffness / dt);
       support.give = support.force / k;
@@ -66,7 +66,7 @@ void RecedingSupports::begin(const OfBody& body, double squeeze, double dt, cons
   sets_.push_back(std::move(set));
 }
 
-RecedingSupports::Support RecedingSupports::support(const Held& held, const NodeField& x) {
+RecedingSupports::Support RecedingSupports::support_of(const Held& held, const NodeField& x) {
   Support made;
   made.node = held.by.node;
   made.force = held.by.force.norm();
@@ -75,14 +75,12 @@ RecedingSupports::Support RecedingSupports::support(const Held& held, const Node
   return made;
 }
 
-bool RecedingSupports::hold(int body) const {
-  return std::any_of(sets_.begin(), sets_.end(), [body](const Set& set) { return set.of.body == body; });
-}
-
-void RecedingSupports::join(int body, const NodeField& x, const std::vector<Held>& held) {
-  const auto set = std::find_if(sets_.rbegin(), sets_.rend(), [body](const Set& one) { return one.of.body == body; });
+bool RecedingSupports::join(const std::vector<int>& together, const NodeField& x, const std::vector<Held>& held) {
+  const auto set = std::find_if(sets_.rbegin(), sets_.rend(), [&](const Set& one) { return std::find(together.begin(), together.end(), one.of.body) != together.end(); });
+  if (set == sets_.rend()) return false;
   for (const Held& h : held)
-    if (!h.by.force.isZero(0)) set->supports.push_back(support(h, x));
+    if (!h.by.force.isZero(0)) set->supports.push_back(support_of(h, x));
+  return true;
 }
 
 double RecedingSupports::Set::receded(double t) const {
@@ -142,7 +140,8 @@ std::vector<RecedingSupports::Receded> RecedingSupports::take(double t) {
     if (t < set.open()) continue;
     Receded one{set.of, {}};
     for (const Support& support : set.supports) {
-      const double bore = set.meant > 0 ? support.impulse / set.meant : support.force;  // no step has come in so short a time: they fade from where they were
+      // What a boundary held is as it was; and where no step has come in so short a time they fade from where they were.
+      const double bore = support.give > 0 && set.meant > 0 ? support.impulse / set.meant : support.force;
       if (bore > 0) one.forces.push_back({support.node, bore * support.way});
     }
     all.push_back(std::move(one));

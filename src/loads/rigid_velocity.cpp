@@ -16,9 +16,9 @@ RigidVelocity::RigidVelocity(const BoundaryConfig& config) : centre_(config.cent
 }
 
 Vec3 RigidVelocity::at(double t, double dt, const Vec3& x) const {
-  const Vec3 v = velocity_.mean(t, dt);
+  const Vec3 v = velocity_.of_step(t, dt);
   if (!turns()) return v;
-  const Vec3 w = spin_.mean(t, dt), turn = w.cross(x - centre_ - velocity_.displacement(0, t));
+  const Vec3 w = spin_.of_step(t, dt), turn = w.cross(x - centre_ - velocity_.displacement(0, t));
   const double a = w.norm() * dt;
   if (a < 1e-4) return v + (1 - a * a / 6) * turn + 0.5 * dt * w.cross(turn);  // next terms: a^4/120, a^2/24
   const double half = std::sin(0.5 * a) / a;

@@ -1,7 +1,6 @@
 #include "forming_sim/results/sharp_bend.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -24,9 +23,13 @@ Vec3 centre_of(const Face& face, const NodeField& x) {
   for (int n : face) sum += vec3(x[n]);
   return sum / face.corners;
 }
+/// An edge (in a section: a node) between two faces that are level at the start.
+struct Shared {
+  int a, b, face, other;
+};
 /// Of every face whether it belongs to a cut edge of the sheet: faces that are level with their neighbours at the start make one patch, and one of an edge is
 /// about as wide as the sheet is thick. X: at the start; thickness, m.
-std::vector<char> on_edges(const std::vector<Face>& faces, const std::vector<std::array<int, 2>>& neighbours, const NodeField& X, int dimension, double thickness) {
+std::vector<char> on_cut_edges(const std::vector<Face>& faces, const std::vector<Shared>& shared, const NodeField& X, int dimension, double thickness) {
   constexpr double kWide = 1.5;  // thicknesses
   std::vector<int> patch(faces.size());
   std::iota(patch.begin(), patch.end(), 0);
@@ -35,8 +38,7 @@ std::vector<char> on_edges(const std::vector<Face>& faces, const std::vector<std
     return i;
   };
   std::vector<double> area(faces.size(), 0), rim(faces.size(), 0);
-  for (const auto& [i, j] : neighbours)
-    if (normal_of(faces[i], X).dot(normal_of(faces[j], X)) >= kLevel) patch[root(i)] = root(j);
+  for (const Shared& at : shared) patch[root(at.face)] = root(at.other);
   std::vector<std::map<std::pair<int, int>, int>> sides(dimension == 3 ? faces.size() : 0);  // of a patch, how often it has an edge
   for (int i = 0; i < static_cast<int>(faces.size()); ++i) {
     Vec3 sum = Vec3::Zero();
@@ -49,13 +51,13 @@ std::vector<char> on_edges(const std::vector<Face>& faces, const std::vector<std
   for (std::size_t p = 0; p < sides.size(); ++p)
     for (const auto& [edge, times] : sides[p])
       if (times == 1) rim[p] += (X[edge.first] - X[edge.second]).norm();
-  std::vector<char> edge(faces.size());
+  std::vector<char> cut(faces.size());
   for (int i = 0; i < static_cast<int>(faces.size()); ++i) {
     const int p = root(i);
     const double width = dimension == 2 ? area[p] : rim[p] > 0 ? 2 * area[p] / rim[p] : 1e300;
-    edge[i] = width < kWide * thickness;
+    cut[i] = width < kWide * thickness;
   }
-  return edge;
+  return cut;
 }
 double degrees_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / M_PI; }
 }  // namespace
@@ -70,11 +72,7 @@ SharpBend sharpest_bend(const BodyModel& body, const NodeField& x) {
     now.push_back(x[body.first_node + n]);
   }
   // Faces by the edges (in a section: the nodes) that they share; each with the first that has it.
-  struct Shared {
-    int a, b, face, other;
-  };
   std::vector<Shared> shared;
-  std::vector<std::array<int, 2>> neighbours;
   std::map<std::pair<int, int>, int> one_at;
   const std::vector<Face> faces = faces_of(mesh);
   for (int i = 0; i < static_cast<int>(faces.size()); ++i)
@@ -82,14 +80,12 @@ SharpBend sharpest_bend(const BodyModel& body, const NodeField& x) {
       const int a = faces[i].nodes[k], b = mesh.dimension == 2 ? a : faces[i].nodes[(k + 1) % faces[i].corners];
       const auto [at, first] = one_at.try_emplace(std::minmax(a, b), i);
       if (first) continue;
-      shared.push_back({a, b, i, at->second});
-      neighbours.push_back({i, at->second});
+      if (normal_of(faces[i], X).dot(normal_of(faces[at->second], X)) >= kLevel) shared.push_back({a, b, i, at->second});
     }
-  const std::vector<char> edge = on_edges(faces, neighbours, X, mesh.dimension, body.thickness);
+  const std::vector<char> cut = on_cut_edges(faces, shared, X, mesh.dimension, body.thickness);
   for (const auto& [a, b, i, j] : shared) {
-    if (edge[i] || edge[j]) continue;  // it bulges or tapers, and is no bend
+    if (cut[i] || cut[j]) continue;  // it bulges or tapers, and is no bend
     const Vec3 before = normal_of(faces[i], X), before_other = normal_of(faces[j], X);
-    if (before.dot(before_other) < kLevel) continue;
     const Vec3 after = normal_of(faces[i], now), after_other = normal_of(faces[j], now);
     if ((after - after_other).dot(centre_of(faces[i], now) - centre_of(faces[j], now)) <= 0) continue;  // the inside of a fold has creases of its own
     const double turned = degrees_between(after, after_other) - degrees_between(before, before_other);

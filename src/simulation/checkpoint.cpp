@@ -72,7 +72,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.number(told);
   warnings.resize(told_at_start + told);
   for (std::size_t k = told_at_start; k < warnings.size(); ++k) a.text(warnings[k]);
-  for (bool* told : {&ledger_told, &contact_told}) a.number(*told);
+  a.number(ledger_told);
   a.number(overstepped);
   a.number(fall_told);
   supports.exchange(a);

@@ -51,7 +51,7 @@ struct Simulation::Impl {
   bool pressed = false;                                ///< some contact pressure is not zero
   std::vector<ToolStatus> tools;
   std::vector<std::string> warnings;
-  bool ledger_told = false, contact_told = false;
+  bool ledger_told = false;
   std::vector<Observer*> observers;
 
   double time = 0, dt = 0, previous_dt = 0, previous_kick = 0;
@@ -164,13 +164,14 @@ struct Simulation::Impl {
   double slowness(const BodyModel& body) const;
   /// Whether what lets go at the beginning of the running stage fades, or is gone at once.
   bool lets_go_slowly() const;
-  /// The time in which it fades, s; slowest: slowness of the bodies that are let go; of_boundaries: some of it is.
-  double release_time(double slowest, bool of_boundaries) const;
+  /// The time in which it fades, s; slowest: slowness of the bodies that are let go; balanced: what boundaries held is, by tools that move away in this stage.
+  double release_time(double slowest, bool balanced) const;
+  std::vector<char> borne_by_leaving_tools() const;  ///< of every body: a tool that moves away in this stage presses on it
   using Together = std::vector<std::vector<int>>;
   Together together() const;  ///< of every body those that it hangs together with, tied or pressed on each other, itself among them
   double stored_in(const std::vector<int>& bodies) const;  ///< elastic energy, J
   /// Keeps what held the bodies until the running stage began, and no longer does, by supports that recede and forces that fade; held_before: the boundaries until then, of which some may have ended.
-  void let_go(const BoundarySet& held_before, bool boundaries_ended);
+  void let_go(const BoundarySet& held_before, const std::vector<Vec3>& impulses_on_held, bool boundaries_ended);
   void go_on_letting_go();  ///< what supports that have receded still bear begins to fade
   /// When what has let go is no more, s; 0: nothing has.
   double let_go_until() const { return std::max(supports.end(), fading.end()); }
@@ -183,7 +184,6 @@ struct Simulation::Impl {
   void check_passages();  ///< of bodies through themselves
   /// Warns, once, of energies that do not add up at the end of a stage; residual, J, and error: of Simulation.
   void check_ledger(double residual, double error);
-  void check_contact_energy(double taken);
   /// Warns where the running stage, which ends, was to end when a tool stops, and that has not.
   void tell_unstopped();
   double least_energy() const;  ///< J

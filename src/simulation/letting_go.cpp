@@ -96,17 +96,30 @@ bool Simulation::Impl::lets_go_slowly() const {
   return stage.release_time > 0 || std::any_of(model.bodies.begin(), model.bodies.end(), flows);  // what is elastic ends where it would anyhow
 }
 
-double Simulation::Impl::release_time(double slowest, bool of_boundaries) const {
+std::vector<char> Simulation::Impl::borne_by_leaving_tools() const {
+  std::vector<char> borne(model.bodies.size(), 0);
+  const StageConfig& stage = stages.stage();
+  if (!contact || stage.kind != "withdraw" || stage.displacement.isZero(0)) return borne;
+  std::vector<char> leaving;
+  for (int k = 0; k < static_cast<int>(model.tools.size()); ++k) leaving.push_back(stages.leaves(stage, k));
+  for (const Contact::ActedOn& on : contact->acted_on(leaving)) {
+    if (on.impulse.isZero(0)) continue;
+    for (std::size_t b = 0; b < borne.size(); ++b)
+      if (on.node >= model.bodies[b].first_node && on.node < model.bodies[b].first_node + model.bodies[b].node_count) borne[b] = 1;
+  }
+  return borne;
+}
+
+double Simulation::Impl::release_time(double slowest, bool balanced) const {
   const StageConfig& stage = stages.stage();
   if (stage.release_time > 0) return stage.release_time;
   const double time = std::min(kCantilever * slowest, kRoom * time_to_rest(plan.stages, stages.index()));
-  const bool tools_leave = stage.kind == "withdraw" && !stage.displacement.isZero(0);
-  return of_boundaries && tools_leave ? std::min(time, kBeforeTools * stage.duration) : time;
+  return balanced ? std::min(time, kBeforeTools * stage.duration) : time;
 }
 
 // What holds a node of a body at rest balances all other forces on it, f: so it is -f where tools pressed, and along the directions in
 // which a boundary lets go. Where something else acts on the node as well it is what the tools did in the last step.
-void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_ended) {
+void Simulation::Impl::let_go(const BoundarySet& held_before, const std::vector<Vec3>& impulses_on_held, bool boundaries_ended) {
   if (!any(stages.left()) && !boundaries_ended) return;
   if (!lets_go_slowly()) return;
   NodeField f(x.size());
@@ -118,7 +131,11 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
     return node(Vec3(set.projector(static_cast<int>(found - set.nodes().begin())) * vec3(force)));
   };
   if (boundaries_ended)
-    for (int n : held_before.nodes()) held_by[n] = free_part(held_before, n, f[n]) - free_part(boundaries, n, f[n]);
+    for (std::size_t k = 0; k < impulses_on_held.size(); ++k) {
+      const int n = held_before.nodes()[k];
+      const Node all = f[n] + node(Vec3(impulses_on_held[k] / previous_kick));
+      held_by[n] = free_part(held_before, n, all) - free_part(boundaries, n, all);
+    }
   std::vector<char> pressed_on(x.size(), 0);
   std::vector<double> pressed_area(x.size(), 0);  // m2
   if (contact) {
@@ -155,20 +172,18 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
     }
     if (!forces.empty()) slowest = std::max(slowest, slowness(body));
   }
-  const double duration = release_time(slowest, boundaries_ended);
   const Together with = together();
+  const std::vector<char> borne = borne_by_leaving_tools();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     const std::vector<Held>& forces = forces_on[b];
     if (forces.empty()) continue;
-    const bool of_tools = std::any_of(forces.begin(), forces.end(), [](const Held& held) { return held.area > 0; });
-    const bool by_itself = of_tools || stages.stage().release_time > 0;  // and not with what lets go of the body already
-    if (!by_itself && supports.hold(static_cast<int>(b))) {
-      supports.join(static_cast<int>(b), x, forces);
-      continue;
-    }
+    const long of_tools = std::count_if(forces.begin(), forces.end(), [](const Held& held) { return held.area > 0; });
+    const double duration = release_time(slowest, of_tools == 0 && borne[b]);
+    const bool by_itself = of_tools > 0 || stages.stage().release_time > 0;  // and not with what lets go of these bodies already
+    if (!by_itself && supports.join(with[b], x, forces)) continue;
     if (const double squeeze = RecedingSupports::squeeze(forces, alone(body, model.axisymmetric)); squeeze > kSqueezed) {
-      supports.begin({static_cast<int>(b), body.thickness, body.material.E(), elements.stored_energy_of(body, x), time, duration}, squeeze, std::max(previous_dt, full_dt()), elements.nodal_mass(), x, forces);
+      supports.begin({static_cast<int>(b), with[b], body.thickness, body.material.E(), elements.stored_energy_of(body, x), time, duration}, squeeze, std::max(previous_dt, full_dt()), elements.nodal_mass(), x, forces);
     } else {
       std::vector<HoldingForce> to_fade;
       for (const Held& held : forces) to_fade.push_back(held.by);
@@ -180,12 +195,9 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, bool boundaries_en
 
 void Simulation::Impl::go_on_letting_go() {
   fading.forget(time);
-  std::vector<RecedingSupports::Receded> all = supports.take(time);
-  if (all.empty()) return;
-  const Together with = together();
-  for (RecedingSupports::Receded& receded : all)
+  for (RecedingSupports::Receded& receded : supports.take(time))
     if (!receded.forces.empty())
-      fading.begin(time, receded.of.fade, with[receded.of.body], std::max(stored_in(with[receded.of.body]), kNext * receded.of.stored), std::move(receded.forces));
+      fading.begin(time, receded.of.fade, receded.of.together, std::max(stored_in(receded.of.together), kNext * receded.of.stored), std::move(receded.forces));
 }
 
 }  // namespace forming_sim

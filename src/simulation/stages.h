@@ -42,6 +42,8 @@ class StageRunner {
   /// It has been stopped.
   bool stopped(int tool) const;
   bool stopped(const std::string& tool) const;  ///< by its name; false: none has it
+  /// The stage takes this tool away.
+  bool leaves(const StageConfig& stage, int tool) const;
   /// 1: tools that were there until the running stage began.
   const std::vector<char>& left() const { return left_; }
 
@@ -58,7 +60,6 @@ class StageRunner {
 
  private:
   void begin(double t);
-  bool leaves(const StageConfig& stage, int tool) const;
   bool driven(int tool) const { return drives_[tool] && motions_[tool].rests(); }  ///< until it is withdrawn
 
   std::vector<StageConfig> stages_;

@@ -65,5 +65,34 @@ TEST(FadingForces, OfWhatHangsTogetherMayDoItTogether) {
   EXPECT_TRUE(forces.empty());
 }
 
+// What lets go of a body on which others fade balances these, and goes with them.
+TEST(FadingForces, JoinWhatFadesAlready) {
+  FadingForces forces;
+  forces.begin(2, 4, {0, 1}, 1e9, {{1, node(Vec3(0, 8, 0))}});
+  on(forces, 1, 4);
+  EXPECT_FALSE(forces.join({2}, 1e9, {{3, node(Vec3(3, 0, 0))}}));
+  EXPECT_TRUE(forces.join({1}, 1e9, {{3, node(Vec3(3, 0, 0))}}));
+  EXPECT_EQ(on(forces, 3, 4), Vec3(3, 0, 0)) << "now it is what it was";
+  EXPECT_EQ(on(forces, 1, 4), Vec3(0, 4, 0));
+  const Vec3 later = on(forces, 3, 5);
+  EXPECT_NEAR(later.x() / 3, on(forces, 1, 5).y() / 4, 1e-15);
+  on(forces, 1, 5.9);
+  EXPECT_FALSE(forces.join({1}, 1e9, {{2, node(Vec3(3, 0, 0))}})) << "too little is left";
+  EXPECT_EQ(forces.end(), 6);
+}
+
+TEST(FadingForces, CountWhatOthersDo) {
+  FadingForces forces;
+  const NodeField rest(4, Node::Zero());
+  forces.begin(2, 4, {0, 1}, 10, {{1, node(Vec3(0, 8, 0))}});
+  on(forces, 1, 2);
+  forces.count(2, 100);
+  EXPECT_FALSE(forces.work(1, rest, rest));
+  forces.count(1, 9);
+  EXPECT_FALSE(forces.work(1, rest, rest));
+  forces.count(0, 2);
+  EXPECT_TRUE(forces.work(1, rest, rest));
+}
+
 }  // namespace
 }  // namespace forming_sim

@@ -15,7 +15,7 @@ const NodeField kPlaces = {node(Vec3(1, 2, 3)), node(Vec3(4, 5, 6)), node(Vec3(7
 /// Tools pressed on nodes 0 and 1 by (0, 30, 40) N and its opposite on .5 m2 each, a boundary held node 2 by (1, 0, 0) N, let go from 2 s on; what is left fades in 7.5 s.
 RecedingSupports supports() {
   RecedingSupports made;
-  made.begin({7, 0.1, 1e6, 0, 2, 7.5}, 1, kDt, kMasses, kPlaces, {{{0, node(Vec3(0, 30, 40))}, 0.5}, {{1, node(Vec3(0, -30, -40))}, 0.5}, {{2, node(Vec3(1, 0, 0))}, 0}});
+  made.begin({7, {5, 7}, 0.1, 1e6, 0, 2, 7.5}, 1, kDt, kMasses, kPlaces, {{{0, node(Vec3(0, 30, 40))}, 0.5}, {{1, node(Vec3(0, -30, -40))}, 0.5}, {{2, node(Vec3(1, 0, 0))}, 0}});
   return made;
 }
 Vec3 on(RecedingSupports& s, int n, double t, const NodeField& x) {
@@ -73,10 +73,30 @@ TEST(RecedingSupports, RecedeByTheSqueezeAndHandOverWhatIsLeft) {
   EXPECT_NEAR(RecedingSupports::squeeze({{{0, node(F)}, 0.5}}, half), 1 - 30. / 50, 1e-15) << "across a plane of symmetry the other half presses back";
 }
 
+// A boundary that lets go while they recede is handed over whole, however late it came; and what they do is told.
+TEST(RecedingSupports, TakeInWhatLetsGoMeanwhile) {
+  RecedingSupports s = supports();
+  const HoldingForce clamp{2, node(Vec3(0, 7, 0))};
+  EXPECT_FALSE(s.join({6, 8}, kPlaces, {{clamp}})) << "another body";
+  on(s, 0, 4.4, kPlaces);
+  EXPECT_TRUE(s.join({6, 7}, kPlaces, {{clamp}, {{1, Node::Zero()}}}));
+  EXPECT_EQ(on(s, 2, 4.45, kPlaces), Vec3(1, 7, 0));
+  const NodeField v(3, node(Vec3(0, 2, 0)));
+  const auto done = s.work(0.5, v, v);
+  ASSERT_EQ(done.size(), 1u);
+  EXPECT_EQ(done[0].body, 7);
+  EXPECT_NEAR(done[0].work, 7, 1e-9) << "7 N by 1 m; all else has been left behind or goes across";
+  const auto left = s.take(4.5);
+  ASSERT_EQ(left.size(), 1u);
+  EXPECT_EQ(left[0].of.together, (std::vector<int>{5, 7}));
+  ASSERT_GE(left[0].forces.size(), 2u);
+  EXPECT_EQ(vec3(left[0].forces.back().force), Vec3(0, 7, 0));
+}
+
 // A release of less than a step fades from where it was; a force of nothing is nothing.
 TEST(RecedingSupports, ThatNoStepSawHandOverAll) {
   RecedingSupports s;
-  s.begin({0, 0.1, 1e6, 0, 2, 1e-4}, 1, kDt, kMasses, kPlaces, {{{0, node(Vec3(0, 30, 40))}, 0.5}, {{1, Node::Zero()}, 0.5}, {{2, node(Vec3(0, -30, -40))}, 0.5}});
+  s.begin({0, {0}, 0.1, 1e6, 0, 2, 1e-4}, 1, kDt, kMasses, kPlaces, {{{0, node(Vec3(0, 30, 40))}, 0.5}, {{1, Node::Zero()}, 0.5}, {{2, node(Vec3(0, -30, -40))}, 0.5}});
   EXPECT_NEAR(s.end(), 2 + 4e-4 / 3, 1e-12);
   const Vec3 nothing = on(s, 1, 2, kPlaces);
   EXPECT_EQ(nothing, Vec3::Zero());
@@ -104,7 +124,7 @@ TEST(RecedingSupports, ForcesOnEdgesAndCornersAreSplitByFaces) {
 
 TEST(RecedingSupports, AreTheGradientOfAnEnergyThatFallsAsTheyRecede) {
   RecedingSupports s;
-  s.begin({0, 0.1, 1e6, 0, 2, 7.5}, 0.4, kDt, kMasses, kPlaces, {{{0, node(Vec3(0, 30, 40))}, 0.5}, {{1, node(Vec3(-9, 2, 1))}, 0.1}, {{2, node(Vec3(5, 5, 5))}, 2}});
+  s.begin({0, {0}, 0.1, 1e6, 0, 2, 7.5}, 0.4, kDt, kMasses, kPlaces, {{{0, node(Vec3(0, 30, 40))}, 0.5}, {{1, node(Vec3(-9, 2, 1))}, 0.1}, {{2, node(Vec3(5, 5, 5))}, 2}});
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-3e-4, 3e-4);
   for (int trial = 0; trial < 50; ++trial) {

@@ -30,8 +30,8 @@ struct TiePair : Link {
   bool to_tool = false;            ///< a vertex, and its place on the tool
   Node missing = Node::Zero();     ///< r_kept - r at the start of the step, m
   Node press = Node::Zero();       ///< unit direction at the start of the step: an impulse along it presses
-  Mat3 undamped = Mat3::Zero();    ///< inverse of sum b^2 P/m over the directions that can move, kg
-  Mat3 mass = Mat3::Zero();        ///< the same with the workspace's inertia
+  Mat3 undamped = Mat3::Zero();    ///< inverse of sum b^2 P/m over the directions that can move, kg; where nothing is apart
+  Mat3 mass = Mat3::Zero();        ///< inverse of sum G P/m G^T, likewise, with the workspace's inertia
   Node impulse = Node::Zero();     ///< N s
   bool apart = false;              ///< r_kept is not 0
   std::array<Mat3, 4> turn;        ///< [r_kept]x W_k at the start of the step; where apart

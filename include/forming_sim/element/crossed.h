@@ -70,8 +70,8 @@ double crossed_ratio(const Vec3* corners);
 /// 1.7 to 2.2 at r = 2, 1.3 to 1.5 at 3, 1.2 to 1.3 at 5 where it is stretched both ways, 3.6, 2 and 1.6 one way; metals, which are softer along their flow alone, bear more. With the
 /// weights of r = 2 longer cells bear as much as those of 2, with those of 1.5 all that was tried. So from stretch_borne() on the weights are those of kLongest, and of what is not longer than that of a square cell:
 /// what has been stretched is a membrane first, and its own bending, 1/n^2 of that of n cells through, counts less.
-/// Where the middle node goes so far that by r of it a triangle at the short edges has less than kSeen of the cell's volume to the law, which an impact alone does, r is 1 likewise: at
-/// 2 lambda r z/H = 1 the law sees it flat while three fifths of it are there.
+/// Where the middle node goes so far that to the law a triangle has less than kSeen of what it had of its cell at the start, A~_s/A~ < kSeen A~_s0/A~_0 with A~ by the edges of the law, which an impact alone does, r is 1 likewise:
+/// at 2 lambda r z/H = 1 the law sees a triangle at the short edges flat while three fifths of it are there.
 constexpr double kSeen = 0.7;
 constexpr double kStale = 1.25, kFlowed = 2, kMildRatio = 1.2, kLongest = 2;
 inline double stretch_borne(double r) { return 1 + std::min(0.7 / r, 2.5 / (r * r)); }

@@ -17,7 +17,8 @@ struct HoldingForce {
 /// of them one after the other, one may do work that another takes: so all of it together may do no more than they had.
 class FadingForces {
  public:
-  /// From `start` for `duration`, s, on one of the bodies that hang together; at most until one more step would do more work than `may_do` in all, J, with all that still acts on any of them.
+  /// From `start` for `duration`, s, on one of the bodies that hang together; at most until one more step would do more work than `may_do` in all, J, with all that still acts on any of them:
+  /// what that might still do is forgotten, but where it acts on other bodies too and is more.
   void begin(double start, double duration, const std::vector<int>& together, double may_do, std::vector<HoldingForce> forces);
   /// The same, of what balances the forces that act on them already: it fades as these do, where a fifth of them is left; whether it is.
   bool join(const std::vector<int>& together, double may_do, const std::vector<HoldingForce>& forces);

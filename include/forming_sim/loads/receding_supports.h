@@ -30,8 +30,10 @@ class RecedingSupports {
   static constexpr double kNearlyOpen = 0.6;   ///< of the opening: from here on nothing is squeezed, and what they bear is meant
   static constexpr double kDepth = 3;          ///< what presses on both faces of a sheet asks for 1/2, of two sheets between them for 1
   /// A body of thickness t, m, and Young's modulus E, Pa, in which `stored`, J, are, is let go from `start` on, s: the supports recede in kOpening of the time `fade`, s, and in that what they then still bear is to fade.
+  /// together: bodies that hang together with it, itself among them.
   struct OfBody {
     int body = 0;
+    std::vector<int> together;
     double t = 0, E = 0, stored = 0, start = 0, fade = 0;
   };
   /// Of what holds a body, the part of the forces of tools that balances itself, (sum |F| - |P sum F|)/sum |F|; 0 where none presses.
@@ -39,10 +41,8 @@ class RecedingSupports {
   static double squeeze(const std::vector<Held>& held, const Mat3& alone = Mat3::Identity());
   /// Nodes have these masses, kg, are at x, and move on by steps of dt, s. squeeze: squeeze() of what held them.
   void begin(const OfBody& body, double squeeze, double dt, const std::vector<double>& mass, const NodeField& x, const std::vector<Held>& held);
-  /// Supports of this body recede.
-  bool hold(int body) const;
-  /// What a boundary held that lets go of such a body meanwhile: it balances what the supports bear, and so goes with them.
-  void join(int body, const NodeField& x, const std::vector<Held>& held);
+  /// What a boundary held that lets go meanwhile of one of the bodies that hang together: it balances what the supports of any of them bear, and so goes with them; whether there are any.
+  bool join(const std::vector<int>& together, const NodeField& x, const std::vector<Held>& held);
   /// f += what they bear at time t, of nodes at x.
   void add(double t, const NodeField& x, NodeField& f);
   /// What they could still do if d stayed as it is at time t, J; but for what boundaries held. Their gradient, for tests.
@@ -68,6 +68,7 @@ class RecedingSupports {
     a.each(sets_, [&](Set& set) {
       for (double* value : {&set.of.t, &set.of.E, &set.of.stored, &set.of.start, &set.of.fade}) a.number(*value);
       a.number(set.of.body);
+      a.list(set.of.together);
       for (double* value : {&set.depth, &set.added, &set.meant}) a.number(*value);
       a.each(set.supports, [&](Support& support) {
         a.number(support.node);
@@ -96,7 +97,7 @@ class RecedingSupports {
     double receded(double t) const;                                ///< d, m
   };
   std::vector<Set> sets_;
-  static Support support(const Held& held, const NodeField& x);  ///< of what a boundary held
+  static Support support_of(const Held& held, const NodeField& x);  ///< that gives nothing
   static double bears(const Support& support, double d, const Node& x);  ///< N
 };
 

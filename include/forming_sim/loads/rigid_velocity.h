@@ -5,8 +5,8 @@
 
 namespace forming_sim {
 
-/// A centre c that moves with v(t), and a turn about it with w(t). Both are means over a
-/// step, and the turn is done in full, so that a node that follows keeps its distance from the centre.
+/// A centre c that moves with v(t), and a turn about it with w(t). Both are those of a
+/// step (VelocityProfile::of_step), and the turn is done in full, so that a node that follows keeps its distance from the centre.
 class RigidVelocity {
  public:
   RigidVelocity() = default;  ///< rest
@@ -21,7 +21,7 @@ class RigidVelocity {
   const Vec3& centre() const { return centre_; }     ///< at the start
 
   /// By which a point at x at the time t moves on in dt, over dt (dt = 0: its velocity):
-  /// v + w x r sin(a)/a + w x (w x r) dt (1 - cos a)/a^2,  r = x - c(t), a = |w| dt, v and w the means from t to t + dt.
+  /// v + w x r sin(a)/a + w x (w x r) dt (1 - cos a)/a^2,  r = x - c(t), a = |w| dt, v and w those of the step from t to t + dt.
   Vec3 at(double t, double dt, const Vec3& x) const;
 
  private:
