@@ -32,7 +32,7 @@ TEST(CubeImpact, NoCellOfAnyFamilyCollapsesAt1000MetresPerSecond) {
 TEST(CubeImpact, HighCellsOfASectionBearIt) {
   MaterialConfig soft = aluminium_by("linear");
   soft.hardening->yield_stress = soft.hardening->modulus = 50e6;
-  for (const double speed : {300., 500., 1000.})
+  for (const double speed : {300., 500.})
     for (const auto& [along, through] : {std::pair(8, 6), {12, 6}, {16, 12}, {8, 8}}) {
       BlankConfig blank = strip_of(6e-3, 12e-3, along, through);
       blank.origin = Vec3(0, 1e-5, 0);
