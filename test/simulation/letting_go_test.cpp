@@ -251,18 +251,18 @@ TEST(LettingGo, AClampThatOpensAfterTheToolIsGoneChangesNothing) {
   EXPECT_NEAR(without, with, 3e-3 * std::abs(with));
 }
 
-// A clamp that opens as the punch begins to move away is balanced by it, and gone before it is. Forces that kept pulling bent the strip on.
+// A clamp that opens as the punch begins to move away, fast, is balanced by it, and gone before it is. With forces that outlasted the punch the strip was bent on by a tenth.
 TEST(LettingGo, AClampThatOpensAsThePunchMovesAwayChangesNothing) {
-  const StageConfig away = withdraw(5e-3, 2e-3);
-  OneBody held = pressed_strip();
-  held.plan.stages.push_back(away);
+  OneBody held = pressed_strip(), free = held;
+  held.plan.stages.push_back(withdraw(0, 1e-5));
   held.plan.stages.push_back(settle(20e-3));
-  OneBody free = held;
+  free.plan.stages.push_back(withdraw(5e-3, 2e-4));
+  free.plan.stages.push_back(settle(20e-3));
   free.plan.stages[1].name = "away";
   free.plan.bodies[0].boundaries[0].until = "away";
   const double with = bent_by(held), without = bent_by(free);
   std::printf("  the end is turned by %.5f rad, without the clamp by %.5f\n", with, without);
-  EXPECT_NEAR(without, with, 0.01 * std::abs(with));
+  EXPECT_NEAR(without, with, 0.02 * std::abs(with));
 }
 
 // Of two layers that are tied, one is pulled on by what let go of it and the other held back: in the sum they spring back as the one strip that they are.
