@@ -1,6 +1,7 @@
 #include "forming_sim/contact/ties.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -80,12 +81,6 @@ template <class Place> std::array<Mat3, 4> turning(const Tie& tie, const Mat3& f
   W[t] += around_a;
   W[s] -= around_a;
   return W;
-}
-
-Mat3 cross_with(const Vec3& r) {
-  Mat3 m;
-  m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-  return m;
 }
 
 Tie tie_to_facet(const Features& f, int vertex, int facet, const Closest& closest) {
@@ -374,7 +369,7 @@ void aim_tie(const Tie& tie, const Workspace& work, const std::vector<ToolMotion
   pair.apart = tie.kept.norm() > kTouches * (at(last) - at(last - 1)).norm();
   if (!pair.apart) return;
   pair.turn = turning(tie, frame, at);
-  for (Mat3& turn : pair.turn) turn = cross_with(kept) * turn;
+  for (Mat3& turn : pair.turn) turn = Mat3(turn.colwise().cross(-kept));  // [kept]x of each column
   pair.mass = mass_of(work, pair);  // of the workspace's inertia
 }
 

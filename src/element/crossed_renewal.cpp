@@ -23,16 +23,19 @@ void Elements::Group::set_weights(int block) {
   }
 }
 
+Eigen::Matrix2d Elements::Group::law_edges(int block, int l, const Vec3* corners, int s) const {
+  Eigen::Vector2d way[4];
+  for (int b = 0; b < 4; ++b) way[b] = (corners[b] - corners[4]).head<2>();
+  const auto y = crossed_edges([&](int i) { return constant(block, i, l); }, way, s);
+  Eigen::Matrix2d columns;
+  columns << y[0], y[1];
+  return columns;
+}
+
 double Elements::Group::least_seen(int block, int l, const Vec3* corners) const {
   const auto areas = [&](const Vec3* at) {
-    Eigen::Vector2d way[4];
-    for (int b = 0; b < 4; ++b) way[b] = (at[b] - at[4]).head<2>();
     std::array<double, 5> area{};  // by the law's edges; the last: of the cell
-    for (int s = 0; s < 4; ++s) {
-      const auto y = crossed_edges([&](int i) { return constant(block, i, l); }, way, s);
-      area[s] = y[0].x() * y[1].y() - y[0].y() * y[1].x();
-      area[4] += area[s];
-    }
+    for (int s = 0; s < 4; ++s) area[4] += area[s] = law_edges(block, l, at, s).determinant();
     return area;
   };
   const auto first = areas(first_corners_of(block, l).data()), now = areas(corners);
@@ -48,36 +51,33 @@ void Elements::renew_weights(const NodeField& x) {
       const Lane before = g.weight_ratio[block];
       Lane now = before;
       bool any = false;
-      for (int l = 0; l < kLanes; ++l) {
-        if (is_mild(before[l])) continue;
-        Vec3 corners[5];
+      const auto corners_of = [&](int l) {
+        std::array<Vec3, 5> corners;
         const int cell = std::min(block * kLanes + l, g.cells - 1);
         for (int a = 0; a < 5; ++a) corners[a] = vec3(x[g.node(cell, a)]);
-        const double ratio = crossed_ratio(corners);
+        return corners;
+      };
+      for (int l = 0; l < kLanes; ++l) {
+        if (is_mild(before[l])) continue;
+        const std::array<Vec3, 5> corners = corners_of(l);
+        const double ratio = crossed_ratio(corners.data());
         if (std::isfinite(ratio)) now[l] = renewed_ratio(crossed_ratio(g.first_corners_of(block, l).data()), before[l], ratio);
-        if (g.least_seen(block, l, corners) < kSeen) now[l] = 1;
+        if (g.least_seen(block, l, corners.data()) < kSeen) now[l] = 1;
         any = any || now[l] != before[l];
       }
       if (!any) continue;
       Eigen::Matrix2d edges[triangles][kLanes];  // of the law, with the weights of before
-      Eigen::Vector2d way[kLanes][4];
-      const auto law_edges = [&](int l, int s) {
-        const auto y = crossed_edges([&](int i) { return g.constant(block, i, l); }, way[l], s);
-        Eigen::Matrix2d columns;
-        columns << y[0], y[1];
-        return columns;
-      };
       for (int l = 0; l < kLanes; ++l) {
-        const int cell = std::min(block * kLanes + l, g.cells - 1);
-        for (int b = 0; b < 4; ++b) way[l][b] = (vec3(x[g.node(cell, b)]) - vec3(x[g.node(cell, 4)])).head<2>();
-        for (int s = 0; s < triangles; ++s) edges[s][l] = law_edges(l, s);
+        const std::array<Vec3, 5> corners = corners_of(l);
+        for (int s = 0; s < triangles; ++s) edges[s][l] = g.law_edges(block, l, corners.data(), s);
       }
       g.weight_ratio[block] = now;
       g.set_weights(block);
       for (int l = 0; l < kLanes; ++l) {
         if (now[l] == before[l]) continue;
+        const std::array<Vec3, 5> corners = corners_of(l);
         for (int s = 0; s < triangles; ++s) {
-          const Eigen::Matrix2d after = law_edges(l, s);
+          const Eigen::Matrix2d after = g.law_edges(block, l, corners.data(), s);
           Lane* memory = g.memory_storage.data() + (static_cast<std::size_t>(block) * triangles + s) * g.items;
           for (int k = 0; k < g.solid.layers; ++k) {
             Lane* layer = memory + k * kLayerItems<2>;

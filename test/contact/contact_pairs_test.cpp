@@ -30,12 +30,6 @@ PairConfig pair(const std::string& first, const std::string& second, const std::
   return config;
 }
 
-Vec3 angular_momentum(const World& w) {
-  Vec3 l = Vec3::Zero();
-  for (size_t i = 0; i < w.x.size(); ++i) l += w.mass[i] * vec3(w.x[i]).cross(vec3(w.v[i]));
-  return l;
-}
-
 /// A block slides on a plane at 1 m/s under gravity for .02 s: tangential over normal impulse, and how fast it is then.
 std::pair<double, double> slides(const std::vector<PairConfig>& pairs, double of_the_tool) {
   World world;
@@ -106,7 +100,7 @@ TEST(ContactPairs, TiedBodiesStayTogether) {
   double farthest = 0, l0 = 0;
   for (int i = 0; i < 6300; ++i) {
     world.step(contact, 5e-6, i % 100 == 0);
-    if (i == 0) l0 = angular_momentum(world).z();
+    if (i == 0) l0 = world.angular_momentum().z();
     // .15 + 4 * .07 = .43: between the vertices at .4 and .5, 3 tenths of the way.
     const Node place = .7 * world.x[11 * 4 + 4] + .3 * world.x[11 * 4 + 5];
     farthest = std::max(farthest, (world.x[on] - place).norm());
@@ -114,7 +108,7 @@ TEST(ContactPairs, TiedBodiesStayTogether) {
   EXPECT_EQ(world.crossings, 0);
   EXPECT_LT(farthest, 1e-6);
   EXPECT_LT((world.momentum() - p).norm(), 1e-9 * p.norm());
-  EXPECT_NEAR(angular_momentum(world).z() / l0, 1, 1e-3);
+  EXPECT_NEAR(world.angular_momentum().z() / l0, 1, 1e-3);
   EXPECT_NEAR(energy() / before, 1, 5e-3);
   EXPECT_NEAR(world.closure(), 0, 1e-9 * world.exchanged);
   EXPECT_NEAR(world.dissipated, 0, 1e-5 * before);
@@ -401,20 +395,15 @@ TEST(ContactPairs, TiesAtARimGiveNoEnergy) {
   world.add_box(Vec3(.1, .12, .12), 7, 5, 1, .14, 2700, 2e7);
   world.config.pairs = {pair("body0", "body1", "tied")};
   Contact contact = world.make();
-  const auto kinetic = [&] {
-    double sum = 0;
-    for (size_t i = 0; i < world.x.size(); ++i) sum += .5 * world.mass[i] * world.v[i].squaredNorm();
-    return sum;
-  };
   for (size_t i = 0; i < world.x.size(); ++i) {
     const double x = world.x[i][0] - .6, y = world.x[i][1] - .36;
     world.v[i] = Node(0, 0, 40 * (3 * x * x - 2 * y * y + x * y), 0);
   }
-  const double given = kinetic();
+  const double given = world.kinetic();
   double most = 0;
   for (int i = 0; i < 1500; ++i) {
     world.step(contact, 1e-5, i % 100 == 0);
-    most = std::max(most, kinetic());
+    most = std::max(most, world.kinetic());
     ASSERT_LT(most, 1.01 * given) << "at step " << i;
   }
 }

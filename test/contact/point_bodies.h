@@ -147,6 +147,11 @@ struct World {
     for (size_t i = 0; i < x.size(); ++i) l += mass[i] * vec3(x[i]).cross(vec3(v[i]));
     return l;
   }
+  double kinetic() const {
+    double sum = 0;
+    for (size_t i = 0; i < x.size(); ++i) sum += .5 * mass[i] * v[i].squaredNorm();
+    return sum;
+  }
   Vec3 mean_velocity() const {
     double m = 0;
     for (double mi : mass) m += mi;

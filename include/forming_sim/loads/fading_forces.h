@@ -48,7 +48,7 @@ class FadingForces {
   }
 
  private:
-  static constexpr double kLeft = 0.2;
+  static constexpr double kLeft = 0.2;  ///< of forces with which others may still go
   struct Set {
     double start = 0, duration = 0;
     std::vector<HoldingForce> forces;
