@@ -36,10 +36,10 @@ def framed(view, low, high):
     return view
 
 
-def save(view):
-    """Writes the view where rviz can open it; returns the path."""
+def save(view, topics):
+    """Writes the view of these topics where rviz can open it; returns the path. Views of other topics may be opened at the same time."""
     os.makedirs(rospkg.get_ros_home(), exist_ok=True)
-    path = os.path.join(rospkg.get_ros_home(), 'forming_view.rviz')
+    path = os.path.join(rospkg.get_ros_home(), 'forming_view%s.rviz' % topics.replace('/', '_'))
     with open(path, 'w') as file:
         yaml.safe_dump(view, file, sort_keys=False)
     return path
@@ -74,13 +74,13 @@ def main():
             return
         view = load(os.path.join(views, 'forming.rviz' if run.dimension == 2 else 'forming_3d.rviz'), topics, frame)
         nodes = [(p.x, p.y, p.z) for p in run.nodes]
-        path = save(framed(view, [min(column) for column in zip(*nodes)], [max(column) for column in zip(*nodes)]))
+        path = save(framed(view, [min(column) for column in zip(*nodes)], [max(column) for column in zip(*nodes)]), topics)
         rospy.signal_shutdown('rviz takes its name')
     elif not os.path.exists(path):
         known = sorted(f[:-5] for f in os.listdir(views) if f.endswith('.rviz'))
         sys.exit(f"forming_view.py: given '{name}'; give fit or one of the views {', '.join(known)}")
     elif (topics, frame) != (SHIPPED, SHIPPED_FRAME):
-        path = save(load(path, topics, frame))
+        path = save(load(path, topics, frame), topics)
     os.execvp('rviz', ['rviz', '-d', path] + options)
 
 

@@ -48,6 +48,8 @@ def main():
     spring = s.get("springback") or {}
     if spring.get("angle_deg_released") is not None:
         rows.append(("angle", f"{number(spring['angle_deg_formed'], 1, '{:.2f}')} deg formed, {number(spring['angle_deg_released'], 1, '{:.2f}')} deg released: springback {number(spring['change_deg'], 1, '{:.2f}')} deg"))
+    if energy.get("kinetic_over_internal_forming") is not None:
+        rows.append(("kinetic over internal", number(energy["kinetic_over_internal_forming"], 100) + " % (the most while forming)"))
     rows += [
         ("energy balance", f"{number(energy['balance_error'], 100)} % of the work is unaccounted for"),
         ("contact", f"{s['contact']['crossings']} crossings, {s['contact']['halvings']} halved steps, smallest gap {number(s['contact']['min_gap_over_h0'])} h0"),
@@ -64,4 +66,10 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        code = main()
+        sys.stdout.flush()
+    except BrokenPipeError:  # who reads wants no more, as head does
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        code = 0
+    sys.exit(code)

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """What the plots read of a result.h5: a frame, and a field of it per node, element or facet."""
+import argparse
 import contextlib
+import re
 import sys
 
 import h5py
@@ -35,6 +37,20 @@ def write_picture(figure, path, **options):
     except (OSError, ValueError) as error:
         sys.exit(f"--output: given {path}; {error}")
     print(path)
+
+
+class Parser(argparse.ArgumentParser):
+    """Takes -3e8 for a number, which argparse takes for an option before Python 3.14."""
+
+    def __init__(self, **arguments):
+        super().__init__(**arguments)
+        self._negative_number_matcher = re.compile(r"-\.?\d")
+
+    def parse_args(self, *arguments):
+        options = super().parse_args(*arguments)
+        if options.range and not options.range[0] < options.range[1]:
+            self.error(f"--range: given {options.range[0]:g} {options.range[1]:g}; give the lower end first, and two that differ")
+        return options
 
 
 def add_frame_options(parser):

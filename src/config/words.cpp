@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include <nlohmann/json.hpp>
+
 namespace forming_sim {
 
 std::string number_text(double value) {
@@ -19,6 +21,16 @@ std::string number_text(double value) {
 std::string three_digits(double value) {
   const double digits = std::pow(10, 2 - std::floor(std::log10(value)));
   return number_text(std::round(value * digits) / digits);
+}
+
+bool is_utf8(const std::string& text) {
+  if (std::none_of(text.begin(), text.end(), [](unsigned char c) { return c > 0x7f; })) return true;
+  try {
+    nlohmann::json(text).dump();
+  } catch (const nlohmann::json::type_error&) {
+    return false;
+  }
+  return true;
 }
 
 std::string given_text(double value) { return number_text(value); }

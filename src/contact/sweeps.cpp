@@ -18,6 +18,8 @@ constexpr long kTilesAimedAt = 16;     ///< where there are not pairs enough for
 
 constexpr int kPlainSweeps = 2;        ///< before any are mixed; pairs that share no node are done after two
 constexpr int kSweepsAMixture = 2;     ///< to mix each costs as much again as the sweep, and ends no sooner
+constexpr double kTied = 1e-5;         ///< of what ties change in the first sweep: what they leave is taken back a step later, and lags gather energy
+constexpr double kLeastTied = 1e-9;    ///< of the tolerance of pairs: where nothing moves, a change of this is none
 constexpr double kWorse = 2;           ///< a change that has grown by more is of other pairs than those that are mixed
 
 /// Calls each(n) for the nodes of a pair that can move.
@@ -305,7 +307,7 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
   for (DrivenTool& tool : driven) push_driven(dt, true, work, ties, tool);
   SweepResult result;
   using Clock = std::chrono::steady_clock;
-  double change = 0, before = 0;
+  double change = 0, before = 0, tied_tolerance = tolerance;
   int begun = 0;  // after so many sweeps
   std::mutex one;
   const Clock::time_point begin = Clock::now();
@@ -322,7 +324,10 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
     }
     before = change;
     change = 0;
-    for (TiePair& tie : ties) change = std::max(change, sweep_tie(dt, work, tie));
+    double tied = 0;
+    for (TiePair& tie : ties) tied = std::max(tied, sweep_tie(dt, work, tie));
+    if (result.sweeps == 0) tied_tolerance = std::min(tolerance, std::max(kTied * tied, kLeastTied * tolerance));
+    change = tied * (tolerance / tied_tolerance);
     each_tile([&](Tile& tile) {
       const double most_of_tile = kernels_.sweep(dt, movers, tile.packs.data(), tile.rub(), static_cast<long>(tile.packs.size()));
       const std::lock_guard<std::mutex> lock(one);

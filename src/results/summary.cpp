@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include "forming_sim/config/words.h"
@@ -101,6 +102,11 @@ Json bodies(const Simulation& simulation) {
   return list;
 }
 
+Json orientation(const Mat3& rotation) {
+  const Eigen::Quaterniond turned(rotation);
+  return {number(turned.x()), number(turned.y()), number(turned.z()), number(turned.w())};
+}
+
 Json tools(const Simulation& simulation) {
   Json list = Json::array();
   for (std::size_t i = 0; i < simulation.tools().size(); ++i) {
@@ -110,6 +116,7 @@ Json tools(const Simulation& simulation) {
                     {"peak_radial_force", simulation.model().axisymmetric ? number(tool.peak_radial_force) : Json(nullptr)},
                     {"unit", simulation.model().per_width() ? "N/m" : "N"},
                     {"position", vector(tool.position)},
+                    {"orientation_xyzw", orientation(tool.rotation)},
                     {"present", tool.present},
                     {"stopped_s", tool.stopped ? number(*tool.stopped) : Json(nullptr)}});
   }

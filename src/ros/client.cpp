@@ -1,6 +1,6 @@
 #include "forming_sim/ros/client.h"
 
-#include <actionlib/client/simple_action_client.h>
+#include <actionlib/client/action_client.h>
 #include <ros/ros.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 namespace forming_sim {
 namespace {
 
-using Client = actionlib::SimpleActionClient<SimulateFormingAction>;
+using Client = actionlib::ActionClient<SimulateFormingAction>;
 
 SimulateFormingGoal goal_of(const ClientRequest& request) {
   Scene scene = read_scene_file(local_path(request.scene_file, Code::invalid_scene));
@@ -81,21 +81,21 @@ template <class Come> bool wait_for(Come&& come, double wait_s) {
 }
 
 /// Follows the goal to its end. False where the server has gone, or does not know the goal any more.
-bool follow(Client& client, ClientProgress& line) {
+bool follow(Client& client, Client::GoalHandle& goal, ClientProgress& line) {
   bool cancelled = false;
   int missed = 0;
-  for (; !client.getState().isDone(); ros::WallDuration(kLook).sleep()) {
+  for (; goal.getCommState() != actionlib::CommState::DONE; ros::WallDuration(kLook).sleep()) {
     if (!ros::ok()) return false;
-    // Not while pending: actionlib gives a goal up as lost when it is cancelled before a status lists it.
-    if (stop_requested() && !cancelled && client.getState() != actionlib::SimpleClientGoalState::PENDING) {
+    // Not before a status lists it: actionlib gives a goal up as lost when it is cancelled earlier.
+    if (stop_requested() && !cancelled && goal.getCommState() != actionlib::CommState::WAITING_FOR_GOAL_ACK) {
       line.say("cancelling");
-      client.cancelGoal();
+      goal.cancel();
       cancelled = true;
     }
     missed = client.isServerConnected() ? 0 : missed + 1;
     if (missed > 30) return false;
   }
-  return client.getState() != actionlib::SimpleClientGoalState::LOST;
+  return goal.getTerminalState() != actionlib::TerminalState::LOST;
 }
 
 }  // namespace
@@ -116,35 +116,37 @@ int run_client(const ClientRequest& request) {
     return 1;
   }
   ClientProgress line(stdout);  // outlives the client, whose thread writes to it
-  Client client(name, true);
+  Client client(name);
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
   if (!wait_for([&] { return client.isServerConnected(); }, request.wait_s)) {
     std::fprintf(stderr, "forming_client: no server on %s after %g s; start one with `roslaunch forming_sim forming.launch`\n",
                  name.c_str(), request.wait_s);
     return 1;
   }
-  client.sendGoal(goal, Client::SimpleDoneCallback(), Client::SimpleActiveCallback(),
-                  [&line](const SimulateFormingFeedbackConstPtr& feedback) { line.show(feedback->status); });
-  const bool ended = follow(client, line);
+  Client::GoalHandle sent = client.sendGoal(goal, {}, [&line](Client::GoalHandle, const SimulateFormingFeedbackConstPtr& feedback) { line.show(feedback->status); });
+  const bool ended = follow(client, sent, line);
   line.end();
   if (!ended) {
     std::fprintf(stderr, "forming_client: the server on %s has gone, or another has taken its name; what it had written until then can be read\n", name.c_str());
     return 1;
   }
-  const SimulateFormingResult result = client.getResult() ? *client.getResult() : SimulateFormingResult();
-  if (result.code == ResultCode::SUCCESS && client.getState() == actionlib::SimpleClientGoalState::SUCCEEDED) {
+  const SimulateFormingResult result = sent.getResult() ? *sent.getResult() : SimulateFormingResult();
+  const actionlib::TerminalState state = sent.getTerminalState();
+  if (result.code == ResultCode::SUCCESS && state == actionlib::TerminalState::SUCCEEDED) {
     std::printf("%s\n", result.message.c_str());
     print_summary(result);
     return 0;
   }
-  const bool rejected = client.getState() == actionlib::SimpleClientGoalState::REJECTED;
+  const bool rejected = state == actionlib::TerminalState::REJECTED;
   if (result.faults.empty()) {
-    std::fprintf(stderr, "%s: %s\n", client.getState().toString().c_str(), result.message.c_str());
+    std::fprintf(stderr, "%s: %s\n", state.toString().c_str(), result.message.c_str());
   } else {
     std::fprintf(stderr, "the goal was rejected, %zu fault(s):\n", result.faults.size());
     print_faults(result);
   }
   if (result.summary.steps > 0) print_summary(result);
-  if (result.code == ResultCode::CANCELLED) return 130;
+  if (result.code == ResultCode::CANCELLED && stop_requested()) return 130;
   return rejected ? 2 : 1;
 }
 

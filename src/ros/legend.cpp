@@ -1,5 +1,5 @@
-// The legend: a bar of colours left of the sheet, what it means, its ends, and
-// where the run stands.
+// The legend: a bar of colours left of the sheet, in 3D at its near corner, which hides nothing
+// of it, what it means, its ends, and where the run stands.
 #include <cstdio>
 
 #include "forming_sim/ros/colour.h"
@@ -18,6 +18,7 @@ void RunMarkers::add_legend(const RunFrame& frame, const ros::Time& stamp,
   const Vec3 centre = box_.center();
   Vec3 foot = centre - 0.5 * height * up;
   foot.x() = box_.min().x() - 0.3 * size;
+  if (dimension_ == 3) foot.y() = box_.min().y();
 
   Marker bar = marker("legend", 0, Marker::CUBE_LIST, stamp);
   bar.scale.x = bar.scale.y = bar.scale.z = height / bar_cubes;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
-#include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 
 #include "forming_sim/ContactFields.h"
@@ -56,6 +55,7 @@ RunPublisher::RunPublisher(const ros::NodeHandle& node, const PublishOptions& op
   topology_ = node_.advertise<PlasticStrainTopology>("plastic_strain_topology", 1, true);
   contact_ = node_.advertise<ContactFields>("contact", 2, true);
   status_ = node_.advertise<RunStatus>("status", 2, true);
+  again_ = node_.createWallTimer(ros::WallDuration(1 / kPosesAgain), [this](const ros::WallTimerEvent&) { repeat_poses(); });
 }
 
 void RunPublisher::start(const RunShape& shape) {
@@ -84,6 +84,9 @@ void RunPublisher::start(const RunShape& shape) {
   topology.bodies = shape.bodies;
   topology.first_element.assign(shape.first_element.begin(), shape.first_element.end());
   topology_.publish(topology);
+  ContactFields none;  // that of the last run is latched, and would be taken for this one's
+  none.header = topology.header;
+  contact_.publish(none);
 }
 
 void RunPublisher::publish(const RunFrame& frame, const RunStatus& status, bool always) {
@@ -138,7 +141,9 @@ void RunPublisher::publish_contact(const RunFrame& frame, const std_msgs::Header
 }
 
 void RunPublisher::publish_poses(const RunFrame& frame, const std_msgs::Header& header) {
-  std::vector<geometry_msgs::TransformStamped> poses;
+  const std::lock_guard<std::mutex> lock(poses_mutex_);
+  last_poses_.clear();
+  poses_sent_ = std::chrono::steady_clock::now();
   for (std::size_t k = 0; k < tools_.size(); ++k) {
     const ToolStatus& tool = frame.tools[k];
     if (!tool.present || !tool.position.allFinite()) continue;
@@ -148,9 +153,16 @@ void RunPublisher::publish_poses(const RunFrame& frame, const std_msgs::Header& 
     message.child_frame_id = options_.markers.frame + "/" + tools_[k];
     message.transform.translation = vector_message(tool.position);
     message.transform.rotation = pose.orientation;
-    poses.push_back(message);
+    last_poses_.push_back(message);
   }
-  poses_.sendTransform(poses);
+  poses_.sendTransform(last_poses_);
+}
+
+void RunPublisher::repeat_poses() {
+  const std::lock_guard<std::mutex> lock(poses_mutex_);
+  if (last_poses_.empty() || std::chrono::steady_clock::now() - poses_sent_ < std::chrono::duration<double>(0.9 / kPosesAgain)) return;
+  for (geometry_msgs::TransformStamped& pose : last_poses_) pose.header.stamp = ros::Time::now();
+  poses_.sendTransform(last_poses_);
 }
 
 void RunPublisher::publish_forces(const RunFrame& frame, const std_msgs::Header& header, bool always) {

@@ -1,5 +1,7 @@
 #include "forming_sim/ros/server.h"
 
+#include <malloc.h>
+
 #include <cstdlib>
 
 #include "forming_sim/ResultCode.h"
@@ -70,8 +72,7 @@ FormingServer::FormingServer(const ros::NodeHandle& node)
   estimate_ = services.advertiseService("estimate_run", &FormingServer::on_estimate, this);
   service_threads_.start();
   warn_of_unknown_parameters(node_, {"threads", "output_root"});
-  RunStatus idle;
-  idle.header = publisher_.header();
+  RunStatus idle = before_a_run();
   idle.message = "no run so far";
   publisher_.publish(idle);
   worker_ = std::thread([this] { work(); });
@@ -135,7 +136,7 @@ void FormingServer::on_cancel(Goal goal) {
 }
 
 void FormingServer::work() {
-  for (;;) {
+  for (;; malloc_trim(0)) {  // what a large run had is given back
     std::unique_ptr<Waiting> next;
     {
       std::unique_lock<std::mutex> lock(mutex_);
@@ -178,17 +179,22 @@ void FormingServer::serve(Goal goal, Clock::time_point received) {
 }
 
 void FormingServer::tell(const std::string& scene, Code code, const std::string& message) {
-  RunStatus status;
-  status.header = publisher_.header();
+  RunStatus status = before_a_run();
   status.scene = scene;
   status.running = code == Code::none;
   status.stage = "preparing";
   status.code = static_cast<int>(code);
   status.message = message;
+  publisher_.publish(status);
+}
+
+RunStatus FormingServer::before_a_run() const {
+  RunStatus status;
+  status.header = publisher_.header();
   status.eta_s = -1;
   status.min_thickness_m = -1;
   status.min_gap_over_layer = 1;
-  publisher_.publish(status);
+  return status;
 }
 
 void FormingServer::run(Goal& goal, Answer& answer) {
@@ -248,7 +254,8 @@ void FormingServer::run(Goal& goal, Answer& answer) {
 
 void FormingServer::finish(Goal& goal, const Answer& answer) {
   const SimulateFormingResult& result = answer.result;
-  ROS_INFO("%s: %s", answer.scene.c_str(), result.message.c_str());
+  const bool as_wanted = result.code == ResultCode::SUCCESS || result.code == ResultCode::CANCELLED;
+  ROS_LOG(as_wanted ? ros::console::levels::Info : answer.accepted ? ros::console::levels::Error : ros::console::levels::Warn, ROSCONSOLE_DEFAULT_NAME, "%s: %s", answer.scene.c_str(), result.message.c_str());
   if (result.code == ResultCode::CANCELLED) {
     goal.setCanceled(result, result.message);
   } else if (!answer.accepted) {
@@ -269,6 +276,12 @@ bool FormingServer::on_validate(ValidateScene::Request& request, ValidateScene::
 }
 
 bool FormingServer::on_estimate(EstimateRun::Request& request, EstimateRun::Response& response) {
+  estimate(request, response);
+  malloc_trim(0);  // what a large scene had is given back
+  return true;
+}
+
+void FormingServer::estimate(const EstimateRun::Request& request, EstimateRun::Response& response) {
   const int threads = choose_threads(request.threads, threads_);
   Prepared prepared = prepare(request.scene, "", threads);
   if (prepared.faults.empty()) {
@@ -283,7 +296,6 @@ bool FormingServer::on_estimate(EstimateRun::Request& request, EstimateRun::Resp
   response.valid = prepared.faults.empty();
   response.faults = fault_messages(prepared.faults);
   response.notes = prepared.notes;
-  return true;
 }
 
 }  // namespace forming_sim

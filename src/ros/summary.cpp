@@ -72,10 +72,13 @@ RunSummary read_summary(const std::string& directory) {
   for (const json& tool : root.value("tools", json::array())) {
     ToolState state;
     state.name = tool.value("name", "");
-    const json force = tool.value("peak_force", json::array());
-    if (force.is_array() && force.size() == 3) state.peak_force = vector_message(Vec3(number(tool, "/peak_force/0"), number(tool, "/peak_force/1"), number(tool, "/peak_force/2")));
+    state.peak_force = vector_message(Vec3(number(tool, "/peak_force/0"), number(tool, "/peak_force/1"), number(tool, "/peak_force/2")));
     if (const auto radial = tool.find("peak_radial_force"); radial != tool.end() && radial->is_number()) state.peak_radial_force = *radial;
-    state.pose.orientation.w = 1;
+    state.pose.position = point_message(Vec3(number(tool, "/position/0"), number(tool, "/position/1"), number(tool, "/position/2")));
+    state.pose.orientation.x = number(tool, "/orientation_xyzw/0");
+    state.pose.orientation.y = number(tool, "/orientation_xyzw/1");
+    state.pose.orientation.z = number(tool, "/orientation_xyzw/2");
+    state.pose.orientation.w = number(tool, "/orientation_xyzw/3");
     state.present = tool.value("present", false);
     state.stopped_s = number(tool, "/stopped_s");
     summary.tools.push_back(state);

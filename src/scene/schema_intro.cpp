@@ -119,8 +119,7 @@ A run is a list of stages. Times of motions, boundaries, pressures and loads cou
 - `settle` takes motion out of the bodies until the kinetic energy of each stays below `kinetic_fraction` of its elastic one:
   springback. Tools that forces drive and that press on them rest with them, and it does not end while a motion, a pressure or a load is between two of its
   times (in the last stage also where these are still to come). It ends at `limit` at the latest, and the result then says so. Forces come to rest as the root of it: with
-  the default of 1e-5 to some .3 %, of slack bodies such as a sheet that sags by its own weight .8 %; who reads a static force from the end of a run gives 1e-8 (.3 % of such sheets: `time_step.damping` of twice their
-  slowest swing in a stage `form` comes nearer, and sooner).
+  the default of 1e-5 to some .3 %, of a sheet that sags by its own weight .1 %; who reads a static force from the end of a run gives 1e-8 (.004 % of that sheet).
   Where another operation follows, `ends: limit` makes it as long as its limit, so that the times of that operation are known.
 
 Slow processes are simulated faster than they are: give the tools speeds of some m/s, or scale the mass, and judge

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "forming_sim/scene/validate.h"
@@ -36,12 +35,7 @@ int line_in_other_encoding(const std::string& text) {
   std::istringstream lines(text);
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
-    if (std::none_of(line.begin(), line.end(), [](unsigned char c) { return c > 0x7f; })) continue;
-    try {
-      nlohmann::json(line).dump();
-    } catch (const nlohmann::json::type_error&) {
-      return number;
-    }
+    if (!is_utf8(line)) return number;
   }
   return 0;
 }

@@ -11,7 +11,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f6600000015u;
+constexpr std::uint64_t kLayout = 0x6d726f6600000016u;
 
 template <class T> std::size_t mark_of(const T* values, std::size_t count) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(values), count * sizeof(T)});
@@ -63,9 +63,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   a.text(smallest.reason);
   settle.exchange(a);
   a.text(unsettled);
-  f_before.resize(x.size(), Node::Zero());
-  a.numbers(f_before.data()->data(), f_before.size() * 4);
-  a.number(f_before_step);
+  ways.exchange(a, x.size());
   a.number(rests);
   a.number(pressed);
   std::size_t told = warnings.size() - told_at_start;

@@ -14,7 +14,7 @@
 #include "forming_sim/simulation/steady_step.h"
 #include "simulation/departure.h"
 #include "simulation/global_limit.h"
-#include "simulation/settle.h"
+#include "forming_sim/simulation/settle.h"
 #include "simulation/stages.h"
 #include "simulation/step_control.h"
 
@@ -71,8 +71,7 @@ struct Simulation::Impl {
   double farthest = 0;          ///< coordinate of a node at the start, m
   Settle settle;                    ///< of the running stage
   std::string unsettled;            ///< why the last settle stage that ran into its limit did; empty: none has
-  NodeField f_before;               ///< forces of the step before an estimate of the settling frequency
-  long f_before_step = -2;
+  Ways ways;                        ///< of the bodies in the running settle stage
   bool rests = false;               ///< a settling body has come to rest
   double wall = 0, observed = 0;  ///< s
 
@@ -143,7 +142,7 @@ struct Simulation::Impl {
   double damping_rate() const;
 
   // settling.cpp
-  /// Estimates the frequency; forces() are complete.
+  /// How fast each body swings, and the damping for it.
   void watch_settling();
   /// Of the tools that forces drive those that press on the bodies settle with them.
   bool settles(int tool) const;
@@ -155,8 +154,7 @@ struct Simulation::Impl {
   /// Of the running stage, which has come to its limit.
   std::string why_unsettled() const;
   std::string what_moves() const;  ///< a tool or a set that is driven on, in words; empty: none
-  /// Whether the bodies rest, from the force m dv/dt + m alpha v that is left on
-  /// each node when contact and supports have answered; v_before, v and dt are those of the step.
+  /// Whether the bodies rest.
   void see_rest();
 
   // letting_go.cpp

@@ -12,31 +12,22 @@ namespace forming_sim {
 bool Simulation::Impl::settles(int tool) const { return stages.drive(tool) && tools[tool].present && tools[tool].pressed; }
 
 void Simulation::Impl::watch_settling() {
-  const long phase = steps % Settle::kInterval;
-  const bool estimates = phase == 0 && f_before_step == steps - 1;
-  if (phase != Settle::kInterval - 1 && !estimates) return;
-  // With the loads: what fades of them the body answers as it springs back slowly, and both together tell of its swings about that way
-  // alone. Damping for its own slow motion drags on it, and bends it anew: of a bent strip 4 % of the curvature.
-  NodeField f(x.size());
-  sum_nodes(elements.team(), forces(), f);
-  if (!estimates) {
-    f_before = f, f_before_step = steps;
-    return;
-  }
-  const std::vector<double>& mass = elements.nodal_mass();
-  std::vector<Settle::Swing> swings;
-  for (const BodyModel& body : model.bodies) {
-    Settle::Swing swing;
-    for (int i = body.first_node; i < body.first_node + body.node_count; ++i) {
-      swing.v_df += v[i].dot(f[i] - f_before[i]);
-      swing.v_Mv += mass[i] * v[i].squaredNorm();
-    }
-    swings.push_back(swing);
+  if (steps % Settle::kInterval != 0) return;
+  if (ways.empty()) return ways.begin(time, model.bodies.size(), x, v);
+  std::vector<std::size_t> looked_at;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (ways.ends_half(b)) looked_at.push_back(b);
+  if (looked_at.empty()) return;
+  ways.go_on(x, damping_rate());
+  for (const std::size_t b : looked_at) {
+    const BodyModel& body = model.bodies[b];
+    if (ways.whole(b) && settle.over(b, ways.of(time, b, body, x, v, elements.nodal_mass()), previous_dt, let_go_until() > 0)) ways.begin_again(time, b, body, x, v);
+    else ways.double_up(time, b, body, x, v);
   }
   double driven = 0;
   for (int k = 0; k < static_cast<int>(tools.size()); ++k)
     if (settles(k)) driven += stages.drive(k)->mass() * stages.drive(k)->velocity().squaredNorm();
-  settle.estimate(swings, driven, previous_dt);
+  settle.take_together(driven);
 }
 
 void Simulation::Impl::slow_tools() {
@@ -60,20 +51,16 @@ bool Simulation::Impl::still_driven() const {
 }
 
 // A tool that a force drives has the energy 1/2 M V^2, and could still set free U^2/(2 omega^2 (M + m)) as the bodies' forces out of
-// balance can f.M^-1 f/(2 omega^2): U = F + R, its force and the mean of what presses on it; m, the mass of the bodies, moves with it.
+// balance can F.M^-1 F/(2 omega^2): U = F + R, its force and the mean of what presses on it; m, the mass of the bodies, moves with it.
 void Simulation::Impl::see_rest() {
   if (steps % (10 * Settle::kInterval) != 0) return;
-  const double kick = 0.5 * (previous_dt + dt), alpha = damping_rate();
   const std::vector<double>& mass = elements.nodal_mass();
-  std::vector<Settle::Unrest> bodies;
+  std::vector<Settle::Energies> bodies;
   for (const BodyModel& body : model.bodies) {
-    Settle::Unrest unrest;
-    for (int i = body.first_node; i < body.first_node + body.node_count; ++i) {
-      unrest.f_Mf += mass[i] * ((v[i] - v_before[i]) / kick + 0.5 * alpha * (v[i] + v_before[i])).squaredNorm();
-      unrest.kinetic += 0.5 * mass[i] * v[i].squaredNorm();
-    }
-    unrest.elastic = elements.stored_energy_of(body, x);
-    bodies.push_back(unrest);
+    Settle::Energies energies;
+    for (int i = body.first_node; i < body.first_node + body.node_count; ++i) energies.kinetic += 0.5 * mass[i] * v[i].squaredNorm();
+    energies.elastic = elements.stored_energy_of(body, x);
+    bodies.push_back(energies);
   }
   const double all = std::accumulate(mass.begin(), mass.end(), 0.0);
   Settle::Unrest of_tools;
@@ -81,7 +68,7 @@ void Simulation::Impl::see_rest() {
     const ForceDrive* drive = stages.drive(k);
     if (!settles(k)) continue;  // what has left the bodies may fly on
     const double unbalanced = drive->force(time) + tools[k].force.dot(drive->guide());
-    of_tools.f_Mf += unbalanced * unbalanced / (drive->mass() + all);
+    of_tools.F_MF += unbalanced * unbalanced / (drive->mass() + all);
     of_tools.kinetic += 0.5 * drive->mass() * drive->velocity().squaredNorm();
   }
   if (let_go_until() > 0 || still_driven()) settle.not_yet(time);

@@ -33,6 +33,7 @@ void Simulation::Impl::begin_stage() {
   std::vector<double> slowest;
   for (const BodyModel& body : model.bodies) slowest.push_back(slowness(body));
   settle = Settle(time, std::move(slowest), stages.stage().kinetic_fraction, least_energy());
+  ways = Ways();
 }
 
 void Simulation::Impl::check_ledger(double residual, double error) {

@@ -412,6 +412,46 @@ class ServiceTest(ServerTest):
         _, errors = client.communicate(timeout=20)
         self.assertEqual(client.returncode, 130, errors)
 
+    def test_a_goal_that_is_cancelled_while_it_is_prepared_leaves_the_results_in_its_directory(self):
+        directory = self.path('run')
+        self.assertEqual(run(scenes.pulled_strip(), output_directory=directory)[1].code, ResultCode.SUCCESS)
+
+        def contents():
+            return {name: open(os.path.join(directory, name), 'rb').read() for name in os.listdir(directory)}
+        before = contents()
+        large = scenes.pulled_strip(cells_along=100000)
+        large['name'] = 'large'
+        large['bodies'][0]['blank']['length'] = 100.0
+        with open(self.path('large.yaml'), 'w') as file:
+            yaml.safe_dump(large, file)
+        prepared = threading.Event()
+        listener = rospy.Subscriber('/forming_server/status', RunStatus, lambda m: m.scene == 'large' and m.stage == 'preparing' and prepared.set())
+        self.addCleanup(listener.unregister)
+        client = subprocess.Popen([executable('forming_client'), self.path('large.yaml'), '--output', directory], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, text=True)
+        self.assertTrue(prepared.wait(30))
+        client.send_signal(signal.SIGINT)
+        _, errors = client.communicate(timeout=60)
+        self.assertEqual(client.returncode, 130, errors)
+        self.assertIn('before the first step', errors)
+        self.assertEqual(contents(), before)
+
+    # ---- who listens late
+
+    def test_contact_of_an_earlier_run_is_not_taken_for_that_of_the_last(self):
+        run(scenes.pressed_strip())
+        self.assertGreater(len(rospy.wait_for_message('/forming_server/contact', ContactFields, 10).nodes), 0)
+        run(scenes.pulled_strip())  # has no contact
+        self.assertEqual(rospy.wait_for_message('/forming_server/contact', ContactFields, 10).nodes, ())
+
+    def test_tools_keep_their_frames_after_the_run(self):
+        result = run(scenes.pressed_strip())[1]
+        pose = rospy.wait_for_message('/tf', TFMessage, 10).transforms[0]
+        self.assertEqual(pose.child_frame_id, 'forming_world/press')
+        self.assertEqual(pose.transform.translation.y, result.summary.tools[0].pose.position.y)
+        self.assertNotEqual(pose.transform.translation.y, 0)
+        self.assertEqual(result.summary.tools[0].pose.orientation.w, 1)
+
     # ---- services
 
     def test_validate_scene(self):

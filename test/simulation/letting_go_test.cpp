@@ -12,6 +12,7 @@ namespace {
 TEST(LettingGo, ABentStripSpringsBackAsMuchAsItShould) {
   OneBody run = bent_strip(perfect_aluminium());
   const Kept slowly = let_go(*run.start());
+  std::printf("  keeps %.4f of the curvature, late flow %.2g\n", slowly.curvature, slowly.late_flow);
   EXPECT_NEAR(slowly.curvature, kKeptPerfect, 0.003);
   EXPECT_LT(slowly.late_flow, 0.003);
   EXPECT_LT(slowly.balance_error, 1e-4);

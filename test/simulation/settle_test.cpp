@@ -3,6 +3,7 @@
 
 #include <atomic>
 
+#include "forming_sim/simulation/settle.h"
 #include "support/runs.h"
 
 namespace forming_sim {
@@ -28,7 +29,78 @@ double sag(const Simulation& sim) {
   return lowest;
 }
 
+/// A body of two nodes that drifts, and whose nodes swing against each other, some of it fast: w(t) = a cos(omega t) + b cos(100 omega t).
+struct Swinging {
+  double omega = 1e3, a = 1e-3, b = 0, drift = 0, dt = 1e-6;
+  /// What a settle stage makes of it until `end`, damping told to it as `alpha`: 1/s.
+  double damping_at(double end, double alpha) const {
+    BodyModel body;
+    body.node_count = 2;
+    const std::vector<double> mass(2, 0.1);
+    Settle settle(0, {1 / omega}, 1e-5, 0);
+    Ways ways;
+    NodeField x(2, Node::Zero()), v(2, Node::Zero());
+    double dragged = 0;
+    for (long step = 0; step * dt < end; ++step) {
+      const double t = step * dt, w = a * std::cos(omega * t) + b * std::cos(100 * omega * t);
+      const double speed = -omega * (a * std::sin(omega * t) + 100 * b * std::sin(100 * omega * t));
+      const double was = x[0][0];
+      for (const int i : {0, 1}) {
+        const double sign = i ? -1 : 1;
+        x[i][0] = i + sign * w, x[i][1] = drift * t;
+        v[i][0] = sign * speed, v[i][1] = drift;
+      }
+      if (step > 0) dragged += alpha * (x[0][0] - was);
+      NodeField u = v;  // of the damped body, which the forces -omega^2 m w move as they do the free one
+      for (const int i : {0, 1}) u[i][0] -= (i ? -1 : 1) * dragged, u[i][1] -= alpha * drift * t;
+      if (step % Settle::kInterval != 0) continue;
+      if (ways.empty()) {
+        ways.begin(t, 1, x, u);
+        continue;
+      }
+      if (!ways.ends_half(0)) continue;
+      ways.go_on(x, alpha);
+      if (ways.whole(0) && settle.over(0, ways.of(t, 0, body, x, u, mass), dt, false)) ways.begin_again(t, 0, body, x, u);
+      else ways.double_up(t, 0, body, x, u);
+      settle.take_together(0);
+    }
+    return settle.damping();
+  }
+};
+
 }  // namespace
+
+// Twice the frequency, whatever the body drifts at, damps it, or swings in it with less energy.
+TEST(Settle, DampsForTheSwingThatHasTheEnergy) {
+  const double end = 3e-3;
+  Swinging swing;
+  EXPECT_NEAR(swing.damping_at(end, 0), 2 * swing.omega, .1 * swing.omega);
+  EXPECT_NEAR(swing.damping_at(end, 3e3), 2 * swing.omega, .1 * swing.omega);
+  swing.drift = 1e3 * swing.a * swing.omega;
+  EXPECT_NEAR(swing.damping_at(end, 0), 2 * swing.omega, .1 * swing.omega);
+  EXPECT_NEAR(swing.damping_at(end, 3e3), 2 * swing.omega, .1 * swing.omega);
+  swing.b = 1e-4 * swing.a;  // 1e-4 of the energy; in a single step it weighs as much as the slow one
+  EXPECT_NEAR(swing.damping_at(end, 0), 2 * swing.omega, .2 * swing.omega);
+  swing.b = .1 * swing.a;  // a hundred times the energy
+  EXPECT_GT(swing.damping_at(end, 0), 20 * swing.omega);
+}
+
+// A sheet that sags by its weight has next to no energy: what is left of it when it is told to rest must not show.
+TEST(Settle, ASlackSheetHangsWhereItsWeightHoldsIt) {
+  double sags[2];
+  for (const bool fine : {false, true}) {
+    OneBody run(body_of(generate_blank(strip_of(60e-3, 1e-3, 30, 2)), aluminium()), 1);
+    run.plan.stages = {settle(1)};
+    if (fine) run.plan.stages[0].kinetic_fraction = 1e-10;
+    clamp_left(run);
+    run.plan.gravity = Vec3(0, -9.81, 0);
+    auto sim = run.start();
+    while (sim->step()) {}
+    sags[fine] = sag(*sim);
+    std::printf("  sags by %.5g m, at rest after %.3g s and %ld steps\n", sags[fine], sim->time(), sim->steps());
+  }
+  EXPECT_NEAR(sags[0], sags[1], .004 * sags[1]);
+}
 
 TEST(Settle, WaitsForALoadThatRises) {
   auto quick = loaded(0, 5e-4, .1).start(), slow = loaded(0, 1e-2, .1).start();

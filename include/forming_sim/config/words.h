@@ -13,6 +13,9 @@ std::string number_text(double value);
 /// A value above 0, rounded for notes and faults.
 std::string three_digits(double value);
 
+/// Whether its bytes are UTF-8.
+bool is_utf8(const std::string& text);
+
 /// What was given, as a user would write it: numbers, [x, y, z], words in quotes,
 /// lists of more than 6 shortened.
 std::string given_text(double value);

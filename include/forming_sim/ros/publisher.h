@@ -3,8 +3,10 @@
 // tool_forces/<name>, status; and the frames of the tools, <frame>/<name>, on /tf. Used by the server and by the replay of a result.
 #include <chrono>
 #include <functional>
+#include <mutex>
 #include <vector>
 
+#include <geometry_msgs/TransformStamped.h>
 #include <ros/ros.h>
 #include <std_msgs/Header.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -30,6 +32,8 @@ class RunPublisher {
 
   /// A new run: sends the topology and announces the topics of the tools.
   void start(const RunShape& shape);
+  /// The namespace of the topics.
+  std::string place() const { return node_.getNamespace(); }
   /// True once the time to publish again has come; costs a look at the clock.
   bool is_due() const { return std::chrono::steady_clock::now() >= next_; }
   /// Does anybody look at the fields of contact?
@@ -51,6 +55,9 @@ class RunPublisher {
   void publish_contact(const RunFrame& frame, const std_msgs::Header& header, bool always);
   void publish_poses(const RunFrame& frame, const std_msgs::Header& header);
   void publish_forces(const RunFrame& frame, const std_msgs::Header& header, bool always);
+  /// /tf is not latched: where the tools stand is told again while no frame comes, or who listens late would not know.
+  void repeat_poses();
+  static constexpr double kPosesAgain = 1;  ///< Hz
 
   ros::NodeHandle node_;
   PublishOptions options_;
@@ -58,6 +65,10 @@ class RunPublisher {
   std::vector<std::string> tools_;  ///< as in topics and frames
   std::vector<ros::Publisher> forces_;
   tf2_ros::TransformBroadcaster poses_;
+  std::mutex poses_mutex_;  ///< of the two below: frames and the timer are of different threads
+  std::vector<geometry_msgs::TransformStamped> last_poses_;
+  std::chrono::steady_clock::time_point poses_sent_{};
+  ros::WallTimer again_;
   RunMarkers markers_;
   std::vector<int> surface_nodes_;
   std::chrono::steady_clock::time_point next_{};

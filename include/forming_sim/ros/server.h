@@ -57,11 +57,13 @@ class FormingServer {
   void on_cancel(Goal goal);
   bool on_validate(ValidateScene::Request& request, ValidateScene::Response& response);
   bool on_estimate(EstimateRun::Request& request, EstimateRun::Response& response);
+  void estimate(const EstimateRun::Request& request, EstimateRun::Response& response);
 
   void work();
   void serve(Goal goal, Clock::time_point received);
   /// A status of a goal that does not run: it is prepared (Code::none), or it ended before its first step.
   void tell(const std::string& scene, Code code, const std::string& message);
+  RunStatus before_a_run() const;
   /// Prepares and runs what it is the answer to; throws Error, and then holds how far it came.
   void run(Goal& goal, Answer& answer);
   void finish(Goal& goal, const Answer& answer);
