@@ -73,12 +73,14 @@ class PlateOverTool {
 
   /// One step with all nodes `gap` layers from the tool, along which they slide at 1 m/s where they do not stand; adds to times().
   ContactStep step(double gap) {
+    contact_->time_parts(&times_);
     NodeField x = x_, v = v_;
     for (Node& node : x) node[2] += gap * kLayer;
     return contact_->advance(0, 1e-7, x, v, v_before_, [&](double, NodeField& v_star) { v_star = v; },
                              [&](double dt, const NodeField& with, NodeField& at) { move_nodes(team_, dt, with, nullptr, at); }, [](double) { return std::vector<ToolMotion>(1); });
   }
   const Contact& contact() const { return *contact_; }
+  const ContactTimes& times() const { return times_; }
 
  private:
   static constexpr double kLayer = 1e-4;  // m
@@ -95,6 +97,7 @@ class PlateOverTool {
   NodeField x_, v_ = NodeField(x_.size(), Node(1, 0, 0, 0)), v_before_;
   Team team_;
   std::unique_ptr<Contact> contact_;
+  ContactTimes times_;
 };
 
 constexpr double ContactTimes::* kParts[] = {&ContactTimes::list, &ContactTimes::narrow, &ContactTimes::lanes, &ContactTimes::sweeps, &ContactTimes::check, &ContactTimes::books};
@@ -103,9 +106,9 @@ ContactTimes least_times(PlateOverTool& scene, double gap, ContactStep& step) {
   scene.step(gap);  // builds the list
   ContactTimes least{1, 1, 1, 1, 1, 1};
   for (int turn = 0; turn < 20; ++turn) {
-    const ContactTimes before = scene.contact().times();
+    const ContactTimes before = scene.times();
     step = scene.step(gap);
-    for (auto part : kParts) least.*part = std::min(least.*part, scene.contact().times().*part - before.*part);
+    for (auto part : kParts) least.*part = std::min(least.*part, scene.times().*part - before.*part);
   }
   return least;
 }

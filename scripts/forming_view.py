@@ -20,10 +20,10 @@ from forming_sim.msg import PlasticStrainTopology
 
 SHIPPED = '/forming_server'  # the topics in the shipped views
 SHIPPED_FRAME = 'forming_world'
-DISTANCE = 1.6  # of the camera, over the size of the bodies
+DISTANCE = {2: 1.6, 3: 2.1}  # of the camera, over the size of the bodies: from aside the near corner with the legend is large
 
 
-def framed(view, low, high):
+def framed(view, dimension, low, high):
     """The view with its camera on the box from low to high and the legend, which stands at lesser x."""
     size = max(h - l for l, h in zip(low, high))
     camera = view['Visualization Manager']['Views']['Current']
@@ -31,7 +31,7 @@ def framed(view, low, high):
     centre[0] -= 0.15 * size
     camera['Focal Point'] = dict(zip('XYZ', centre))
     camera['Focal Shape Size'] = 0.02 * size
-    camera['Distance'] = DISTANCE * size
+    camera['Distance'] = DISTANCE[dimension] * size
     camera['Near Clip Distance'] = 0.02 * size
     return view
 
@@ -74,7 +74,7 @@ def main():
             return
         view = load(os.path.join(views, 'forming.rviz' if run.dimension == 2 else 'forming_3d.rviz'), topics, frame)
         nodes = [(p.x, p.y, p.z) for p in run.nodes]
-        path = save(framed(view, [min(column) for column in zip(*nodes)], [max(column) for column in zip(*nodes)]), topics)
+        path = save(framed(view, run.dimension, [min(column) for column in zip(*nodes)], [max(column) for column in zip(*nodes)]), topics)
         rospy.signal_shutdown('rviz takes its name')
     elif not os.path.exists(path):
         known = sorted(f[:-5] for f in os.listdir(views) if f.endswith('.rviz'))

@@ -16,7 +16,7 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from result_fields import Parser, add_options, opened, pick_frame, read_on, title, write_picture
+from result_fields import add_options, opened, pick_frame, read_on, title, write_picture
 
 
 def cut(points, simplices, axis, at):
@@ -67,7 +67,7 @@ def tool_lines(result, frame, axis, at):
 
 
 def main():
-    parser = Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add_options(parser)
     parser.add_argument("--axis", choices=list("xyz"), default="y", help="3D: the cut is normal to this axis")
     parser.add_argument("--at", type=float, help="3D: where to cut, in metres; default: half way through the blank")

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Draws a field over the deformed surface of a 3D run, from its result.h5. With a field
 like contact_gap or contact_pressure one sees where the bodies touch."""
+import argparse
 import os
 import sys
 
@@ -12,7 +13,7 @@ import numpy as np
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from result_fields import Parser, add_options, opened, pick_frame, read_on, title, write_picture
+from result_fields import add_options, opened, pick_frame, read_on, title, write_picture
 
 LIGHT = np.array([0.3, -0.6, 0.75])
 
@@ -28,7 +29,7 @@ def drawn_facets(result, wanted):
 
 
 def main():
-    parser = Parser(description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__)
     add_options(parser)
     parser.add_argument("--body", action="append", default=[], help="draw this body; can be given again; default: all")
     parser.add_argument("--view", type=float, nargs=2, default=(20, -60), metavar=("ELEVATION", "AZIMUTH"), help="degrees")

@@ -57,19 +57,17 @@ def main():
     if s["contact"].get("sweeps_per_step") is not None:
         rows.append(("contact forces", f"{number(s['contact']['sweeps_per_step'])} sweeps a step, {number(s['contact']['share_at_max_sweeps'], 100)} % of the steps ended at contact.max_sweeps"))
     width = max(len(name) for name, _ in rows)
-    for name, text in rows:
-        print(f"  {name:<{width}}  {text}")
-    print("\nfiles")
-    for name in sorted(os.listdir(directory)):
-        print("  " + os.path.join(directory, name))
+    try:
+        for name, text in rows:
+            print(f"  {name:<{width}}  {text}")
+        print("\nfiles")
+        for name in sorted(os.listdir(directory)):
+            print("  " + os.path.join(directory, name))
+        sys.stdout.flush()
+    except BrokenPipeError:  # who reads wants no more, as head does
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return 0 if s["status"]["code"] == 1 else 1
 
 
 if __name__ == "__main__":
-    try:
-        code = main()
-        sys.stdout.flush()
-    except BrokenPipeError:  # who reads wants no more, as head does
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        code = 0
-    sys.exit(code)
+    sys.exit(main())

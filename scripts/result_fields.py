@@ -39,18 +39,13 @@ def write_picture(figure, path, **options):
     print(path)
 
 
-class Parser(argparse.ArgumentParser):
-    """Takes -3e8 for a number, which argparse takes for an option before Python 3.14."""
+class Ends(argparse.Action):
+    """Two numbers, the lower one first."""
 
-    def __init__(self, **arguments):
-        super().__init__(**arguments)
-        self._negative_number_matcher = re.compile(r"-\.?\d")
-
-    def parse_args(self, *arguments):
-        options = super().parse_args(*arguments)
-        if options.range and not options.range[0] < options.range[1]:
-            self.error(f"--range: given {options.range[0]:g} {options.range[1]:g}; give the lower end first, and two that differ")
-        return options
+    def __call__(self, parser, options, ends, option=None):
+        if not ends[0] < ends[1]:
+            parser.error(f"{option}: given {ends[0]:g} {ends[1]:g}; give the lower end first, and two that differ")
+        setattr(options, self.dest, ends)
 
 
 def add_frame_options(parser):
@@ -61,10 +56,11 @@ def add_frame_options(parser):
 
 
 def add_options(parser):
+    parser._negative_number_matcher = re.compile(r"-\.?\d")  # or -3e8 is taken for an option, before Python 3.14
     add_frame_options(parser)
     parser.add_argument("--field", default="plastic_strain",
                         help="any field of the frame: plastic_strain, mises, contact_gap, stress.xx, velocities.z ...")
-    parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"), help="ends of the colours, in the unit of the legend")
+    parser.add_argument("--range", type=float, nargs=2, action=Ends, metavar=("LOW", "HIGH"), help="ends of the colours, in the unit of the legend")
 
 
 def pick_frame(result, options):

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "forming_sim/element/nodes.h"
+#include "forming_sim/parallel/stage_clock.h"
 #include "forming_sim/simulation/config.h"
 #include "rows.h"
 

@@ -250,7 +250,7 @@ std::vector<SurfacePair> Contact::surface_pairs() const {
     }
   return all;
 }
-const ContactTimes& Contact::times() const { return impl_->times; }
+void Contact::time_parts(ContactTimes* times) { impl_->times = times; }
 const std::vector<Vec3>& Contact::body_shifts() const { return impl_->body_shifts; }
 const std::vector<std::string>& Contact::warnings() const { return impl_->warnings; }
 

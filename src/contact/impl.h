@@ -66,7 +66,7 @@ struct Contact::Impl {
   double travel = 0;        ///< bound on relative motion since the list was built (never falls)
   double used = 0;          ///< of the list's radius
   std::vector<bool> listed_present;
-  ContactTimes times;
+  ContactTimes* times = nullptr;
   NodeField x_at_build;     ///< of the bodies' surface vertices, in their order
   std::vector<ToolMotion> motion_at_build;
   // ---- scratch

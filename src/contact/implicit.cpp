@@ -1,7 +1,6 @@
 // The package's own method: the mild law at the end of the step, swept over the
 // pairs; a continuous check, and halving of the step where that finds a touch.
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -12,29 +11,13 @@
 #include "forming_sim/contact/continuous.h"
 #include "forming_sim/contact/impulse.h"
 #include "forming_sim/contact/law.h"
+#include "forming_sim/parallel/stage_clock.h"
 
 namespace forming_sim {
 
 namespace {
 constexpr long kPairsOfAChunk = 300;  ///< whose sums are made in turn
 constexpr double kTolerance = 1e-5;  ///< of h0: a pressure of 1e-5 E; the jitter that bodies at rest keep is of that size too
-
-/// Adds to a part of the times what has passed since the part before was done.
-class Laps {
- public:
-  explicit Laps(ContactTimes& times) : times_(times) {}
-  void start() { last_ = Clock::now(); }
-  void done(double ContactTimes::*part) {
-    const Clock::time_point now = Clock::now();
-    times_.*part += std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  ContactTimes& times_;
-  Clock::time_point last_;
-};
 }  // namespace
 
 // Do the features of a close pair touch on their way? moved: the square of the way of every node, m2.
@@ -209,7 +192,7 @@ void Contact::Impl::close_books(ContactStep& step) {
 
 ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at) {
   ContactStep step;
-  Laps laps(times);
+  StageClock clock(times);
   bool all = false;  // let pairs that push askew act before they are in their layer
   tried.resize(0, false);
   std::vector<ToolMotion> motion;
@@ -217,7 +200,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
     motion = tools_at(dt);
     predict(dt, v_star);
     work.kick = previous_dt > 0 ? 0.5 * (previous_dt + dt) : dt;
-    laps.start();
+    clock.begins();
     std::vector<DrivenTool> driven = driven_tools(motion, dt);
     // How far a driven tool goes is known afterwards: what its force alone would do to a light one is far more than what it does while that lies on something.
     const double predicted = both * fastest(v_star) * dt, told_way = step_way(motion, x);
@@ -233,7 +216,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
       const double reach = std::max(thickest, std::min(ceiling, 0.1 * bound)) + bound;
       ensure_list(x, motion, reach, bound);
       near.clear();
-      laps.done(&ContactTimes::list);
+      clock.ends(&ContactTimes::list);
       double most = 0, tool_way = told_way;
       if (list.size() > 0) {
         gather(x, v, v_star, dt, motion, planes);
@@ -243,14 +226,12 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
         if (waves.any()) delay.recall(work, near.pairs, near.rubs);
         if (!all) join_alike(work, near.pairs, near.rubs);
         if (shear_limit.any()) shear_limit.set(features, x, work.kick, work, near.pairs, near.rubs);
-        laps.done(&ContactTimes::narrow);
+        clock.ends(&ContactTimes::narrow);
         swept = SweepResult();
         for (DrivenTool& tool : driven) gather_driven(tool);
         if (!near.pairs.empty() || !tie_pairs.empty())
-          swept = sweeps.solve(dt, kTolerance * layer, config.max_sweeps, work, tie_pairs, near.pairs, near.rubs, driven);
-        laps.done(&ContactTimes::lanes);
-        times.lanes -= swept.seconds;
-        times.sweeps += swept.seconds;
+          swept = sweeps.solve(dt, kTolerance * layer, config.max_sweeps, work, tie_pairs, near.pairs, near.rubs, driven, times);
+        clock.begins();  // the sweeps have told theirs
         step.sweeps += swept.sweeps;
         if (pushed_in(dt)) {
           aside = false;
@@ -265,7 +246,7 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
     }
     check_unmovable(time + dt);
     const int touch = swept.open ? first_touch(dt) : -1;
-    laps.done(&ContactTimes::check);
+    clock.ends(&ContactTimes::check);
     if (swept.open && touch < 0) {
       step.settled = swept.settled;
       step.tool_push.assign(motion.size(), 0.0);
@@ -292,10 +273,10 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
 
   end(dt, move, x, v, v_star);
 
-  laps.start();
+  clock.begins();
   close_books(step);
   follow_steady_motion(dt, motion, x, v_star, v);
-  laps.done(&ContactTimes::books);
+  clock.ends(&ContactTimes::books);
   check_resolution(time, dt, step.min_gap_over_layer * layer);
   return step;
 }

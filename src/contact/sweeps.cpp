@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <mutex>
 
 #include "forming_sim/contact/impulse.h"
+#include "forming_sim/parallel/stage_clock.h"
 
 namespace forming_sim {
 
@@ -293,7 +293,8 @@ void Sweeps::mix(Workspace& work, const LargeArray<ContactPair>& pairs, std::vec
 }
 
 SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, const LargeArray<ContactPair>& pairs,
-                          const std::vector<Rub>& rubs, std::vector<DrivenTool>& driven) {
+                          const std::vector<Rub>& rubs, std::vector<DrivenTool>& driven, ContactTimes* times) {
+  StageClock clock(times);
   cut(work.share.size(), pairs);
   projector_.resize(work.share.size());
   for (std::size_t i = 0; i < projector_.size(); ++i) projector_[i] = work.projector[i] ? work.projector[i]->data() : nullptr;
@@ -306,11 +307,10 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
   });
   for (DrivenTool& tool : driven) push_driven(dt, true, work, ties, tool);
   SweepResult result;
-  using Clock = std::chrono::steady_clock;
   double change = 0, before = 0, tied_tolerance = tolerance;
   int begun = 0;  // after so many sweeps
   std::mutex one;
-  const Clock::time_point begin = Clock::now();
+  clock.ends(&ContactTimes::lanes);
   for (;;) {
     if (result.sweeps >= kPlainSweeps && result.sweeps < most - most / 10) {
       if (result.sweeps == kPlainSweeps || change > kWorse * before) {
@@ -348,7 +348,7 @@ SweepResult Sweeps::solve(double dt, double tolerance, int most, Workspace& work
     result.open = open;
     if (result.open || result.sweeps >= most) break;
   }
-  result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  clock.ends(&ContactTimes::sweeps);
   for (Node& v : work.v) v[3] = 0;
   return result;
 }

@@ -17,6 +17,7 @@
 #include "forming_sim/mesh/cell_order.h"
 #include "forming_sim/mesh/cell_tables.h"
 #include "forming_sim/material/law.h"
+#include "forming_sim/parallel/stage_clock.h"
 
 namespace forming_sim {
 

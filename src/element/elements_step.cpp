@@ -5,6 +5,7 @@
 #include "element/group.h"
 #include "forming_sim/element/nodes.h"
 #include "forming_sim/element/one_point.h"
+#include "forming_sim/parallel/stage_clock.h"
 
 namespace forming_sim {
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "forming_sim/simulation/stage_times.h"
+#include "forming_sim/simulation/ways.h"
 
 namespace forming_sim {
 namespace {
@@ -20,9 +21,10 @@ Estimate estimate_run(Simulation& simulation) {
   for (const StageConfig& stage : simulation.plan().stages) estimate.settles = estimate.settles || stage.kind == "settle";
   estimate.nodes = simulation.model().node_count();
   estimate.elements = simulation.model().element_count();
-  // The state and its copy in a checkpoint, and per element what is kept besides:
+  // The state and its copy in a checkpoint, with what settle stages know of each node, and per element what is kept besides:
   // connectivity, the blocks of the kernels, the fields of a frame.
-  estimate.memory_bytes = 2.0 * static_cast<double>(simulation.save().size()) + 400.0 * static_cast<double>(estimate.elements);
+  const double of_settling = estimate.settles ? static_cast<double>(Ways::kBytesOfNode * estimate.nodes) : 0;
+  estimate.memory_bytes = 2.0 * (static_cast<double>(simulation.save().size()) + of_settling) + 400.0 * static_cast<double>(estimate.elements);
   for (const ToolModel& tool : simulation.model().tools) estimate.memory_bytes += kBytesOfTriangle * static_cast<double>(tool.mesh.surface.size());
 
   bool more = true;

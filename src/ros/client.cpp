@@ -115,7 +115,7 @@ int run_client(const ClientRequest& request) {
     std::fprintf(stderr, "forming_client: use_sim_time is set and in %g s nobody has published /clock, without which actions do not answer: `rosparam set use_sim_time false`\n", request.wait_s);
     return 1;
   }
-  ClientProgress line(stdout);  // outlives the client, whose thread writes to it
+  ClientProgress line(stdout);  // outlives the spinner, whose thread writes to it
   Client client(name);
   ros::AsyncSpinner spinner(1);
   spinner.start();

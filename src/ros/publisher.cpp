@@ -161,6 +161,7 @@ void RunPublisher::publish_poses(const RunFrame& frame, const std_msgs::Header& 
 void RunPublisher::repeat_poses() {
   const std::lock_guard<std::mutex> lock(poses_mutex_);
   if (last_poses_.empty() || std::chrono::steady_clock::now() - poses_sent_ < std::chrono::duration<double>(0.9 / kPosesAgain)) return;
+  if (ros::Time::now() <= last_poses_.front().header.stamp) return;  // a clock that stands: tf warns of what comes twice
   for (geometry_msgs::TransformStamped& pose : last_poses_) pose.header.stamp = ros::Time::now();
   poses_.sendTransform(last_poses_);
 }

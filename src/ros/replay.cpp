@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 
 #include "forming_sim/ros/signals.h"
 #include "forming_sim/ros/status.h"
@@ -90,6 +91,15 @@ bool wait_until(const ros::WallTime& time) {
   return ros::ok() && !stop_requested();
 }
 
+/// A run that still writes has gone on since. While it does, or begins anew, its file cannot always be read: then the frames known play again.
+void look_again(const std::string& file, std::unique_ptr<ResultReader>& reader) {
+  try {
+    auto now = std::make_unique<ResultReader>(file);
+    if (!now->frames().empty()) reader = std::move(now);
+  } catch (const Error&) {
+  }
+}
+
 }  // namespace
 
 bool are_published(const ros::NodeHandle& place) {
@@ -100,25 +110,25 @@ bool are_published(const ros::NodeHandle& place) {
 }
 
 void replay(RunPublisher& publisher, const ReplayOptions& options) {
-  bool first_pass = true;
+  auto reader = std::make_unique<ResultReader>(options.file);
+  if (reader->frames().empty()) throw Error(Code::output_error, options.file + " has no frame to show");
+  ROS_INFO("replaying %zu frames of %s in %g s%s, on %s", reader->frames().size(), options.file.c_str(), options.duration_s,
+           options.loop ? " again and again" : "", publisher.place().c_str());
   do {
-    const ResultReader reader(options.file);  // anew in every pass: a run that still writes has gone on
-    const auto& entries = reader.frames();
-    if (entries.empty()) throw Error(Code::output_error, options.file + " has no frame to show");
-    const RunShape shape = shape_of(reader.header());
+    const auto& entries = reader->frames();
+    const RunShape shape = shape_of(reader->header());
     const double first = entries.front().time, span = entries.back().time - first;
-    if (first_pass) ROS_INFO("replaying %zu frames of %s in %g s%s, on %s", entries.size(), options.file.c_str(), options.duration_s, options.loop ? " again and again" : "", publisher.place().c_str());
-    first_pass = false;
     publisher.start(shape);
     const ros::WallTime begin = ros::WallTime::now();
     for (std::size_t i = 0; i < entries.size(); ++i) {
       const double progress = span > 0 ? (entries[i].time - first) / span : 1;
       if (!wait_until(begin + ros::WallDuration(progress * options.duration_s))) return;
       if (!publisher.is_due() && i + 1 < entries.size()) continue;
-      const Frame stored = reader.frame(i);
+      const Frame stored = reader->frame(i);
       const RunFrame frame = run_frame(stored);
       publisher.publish(frame, status_of(publisher.header(), shape, frame, stored.thickness, progress), true);
     }
+    if (options.loop) look_again(options.file, reader);
   } while (options.loop);
 }
 

@@ -42,6 +42,11 @@ SimulateFormingResult rejection(const std::vector<Fault>& faults) {
   return result;
 }
 
+/// What a large scene took is the system's again when its run, or what was asked of it, has ended.
+struct GivesBack {
+  ~GivesBack() { malloc_trim(0); }
+};
+
 CostEstimate estimate_message(const Estimate& estimate) {
   CostEstimate message;
   message.nodes = estimate.nodes;
@@ -136,7 +141,8 @@ void FormingServer::on_cancel(Goal goal) {
 }
 
 void FormingServer::work() {
-  for (;; malloc_trim(0)) {  // what a large run had is given back
+  for (;;) {
+    const GivesBack memory;
     std::unique_ptr<Waiting> next;
     {
       std::unique_lock<std::mutex> lock(mutex_);
@@ -254,8 +260,11 @@ void FormingServer::run(Goal& goal, Answer& answer) {
 
 void FormingServer::finish(Goal& goal, const Answer& answer) {
   const SimulateFormingResult& result = answer.result;
-  const bool as_wanted = result.code == ResultCode::SUCCESS || result.code == ResultCode::CANCELLED;
-  ROS_LOG(as_wanted ? ros::console::levels::Info : answer.accepted ? ros::console::levels::Error : ros::console::levels::Warn, ROSCONSOLE_DEFAULT_NAME, "%s: %s", answer.scene.c_str(), result.message.c_str());
+  const auto level = [&] {
+    if (result.code == ResultCode::SUCCESS || result.code == ResultCode::CANCELLED) return ros::console::levels::Info;
+    return answer.accepted ? ros::console::levels::Error : ros::console::levels::Warn;
+  }();
+  ROS_LOG(level, ROSCONSOLE_DEFAULT_NAME, "%s: %s", answer.scene.c_str(), result.message.c_str());
   if (result.code == ResultCode::CANCELLED) {
     goal.setCanceled(result, result.message);
   } else if (!answer.accepted) {
@@ -268,6 +277,7 @@ void FormingServer::finish(Goal& goal, const Answer& answer) {
 }
 
 bool FormingServer::on_validate(ValidateScene::Request& request, ValidateScene::Response& response) {
+  const GivesBack memory;
   const Prepared prepared = prepare(request.scene, "", 1);
   response.valid = prepared.faults.empty();
   response.faults = fault_messages(prepared.faults);
@@ -276,12 +286,7 @@ bool FormingServer::on_validate(ValidateScene::Request& request, ValidateScene::
 }
 
 bool FormingServer::on_estimate(EstimateRun::Request& request, EstimateRun::Response& response) {
-  estimate(request, response);
-  malloc_trim(0);  // what a large scene had is given back
-  return true;
-}
-
-void FormingServer::estimate(const EstimateRun::Request& request, EstimateRun::Response& response) {
+  const GivesBack memory;
   const int threads = choose_threads(request.threads, threads_);
   Prepared prepared = prepare(request.scene, "", threads);
   if (prepared.faults.empty()) {
@@ -296,6 +301,7 @@ void FormingServer::estimate(const EstimateRun::Request& request, EstimateRun::R
   response.valid = prepared.faults.empty();
   response.faults = fault_messages(prepared.faults);
   response.notes = prepared.notes;
+  return true;
 }
 
 }  // namespace forming_sim

@@ -98,12 +98,21 @@ void tell_odd_friction(const Scene& scene, std::vector<std::string>& notes) {
   for (const PairConfig& pair : scene.contact.pairs) tell(pair.friction, "of the pair " + pair.first + ", " + pair.second);
 }
 
+void tell_odd_centres(const Scene& scene, std::vector<std::string>& notes) {
+  for (const ToolConfig& tool : scene.tools) {
+    if (!tool.motion || !tool.motion->centre.isZero(0) || tool.position.isZero(0)) continue;
+    if (greatest(tool.motion->spins_deg_s) == 0 && greatest(tool.motion->rotations_deg) == 0) continue;
+    notes.push_back("tool " + tool.name + " turns about [0, 0, 0], since motion.centre is not given, and its position is " + given_text(tool.position) + ": a roll that turns about itself has that as its centre");
+  }
+}
+
 }  // namespace
 
 void tell_odd_values(const Scene& scene, std::vector<std::string>& notes) {
   for (const BodyConfig& body : scene.bodies) tell_odd_material(body, notes);
   tell_odd_speeds(scene, notes);
   tell_odd_friction(scene, notes);
+  tell_odd_centres(scene, notes);
   if (scene.time_step.mass_scaling > kMuchScaling)
     notes.push_back("time_step.mass_scaling " + number_text(scene.time_step.mass_scaling) + " makes waves " + three_digits(std::sqrt(scene.time_step.mass_scaling)) +
                     " times as slow: look at kinetic_over_internal_forming, and expect bodies to be squeezed flat where tools are faster than these waves");

@@ -155,7 +155,7 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom` |
 | `thinning` | the largest 1 - t/t0 of a node of `top`, t its thickness, t0 that of the start; where and when it is |
 | `bodies` | for each body: name, mass (that of the solver, with what `mass_scaling` and `raise_to` add), centre, momentum, angular momentum about the origin, `bounding_box` (`min`, `max`) |
-| `tools` | for each tool: name and the vector of its peak force (axisymmetric: along the axis, and `peak_radial_force` outward, summed around the circle), of means over some 50 steps: shorter peaks are in `history.csv`, as means from row to row; their `unit`; `position` at the end, whether it is `present` then, and `stopped_s`, when it stopped under its `stop_force` |
+| `tools` | for each tool: name and the vector of its peak force (axisymmetric: along the axis, and `peak_radial_force` outward, summed around the circle), of means over some 50 steps: shorter peaks are in `history.csv`, as means from row to row; their `unit`; `position` and `orientation_xyzw` (a quaternion) at the end, whether it is `present` then, and `stopped_s`, when it stopped under its `stop_force` |
 | `springback` | `angle_deg_formed`, `angle_deg_released`, `change_deg`, `probe`, `kinetic_over_internal` |
 | `stages` | for each stage that has ended: name, kind, when, and the energies then |
 | `warnings` | what was odd in the scene or happened on the way, in sentences |

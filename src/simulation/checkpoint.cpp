@@ -64,6 +64,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   settle.exchange(a);
   a.text(unsettled);
   ways.exchange(a, x.size());
+  tool_ways.exchange(a, tools.size());
   a.number(rests);
   a.number(pressed);
   std::size_t told = warnings.size() - told_at_start;

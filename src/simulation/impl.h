@@ -10,11 +10,11 @@
 #include "forming_sim/loads/fading_forces.h"
 #include "forming_sim/loads/pressure.h"
 #include "forming_sim/loads/receding_supports.h"
+#include "forming_sim/simulation/settle.h"
 #include "forming_sim/simulation/simulation.h"
 #include "forming_sim/simulation/steady_step.h"
 #include "simulation/departure.h"
 #include "simulation/global_limit.h"
-#include "forming_sim/simulation/settle.h"
 #include "simulation/stages.h"
 #include "simulation/step_control.h"
 
@@ -71,7 +71,7 @@ struct Simulation::Impl {
   double farthest = 0;          ///< coordinate of a node at the start, m
   Settle settle;                    ///< of the running stage
   std::string unsettled;            ///< why the last settle stage that ran into its limit did; empty: none has
-  Ways ways;                        ///< of the bodies in the running settle stage
+  Ways ways, tool_ways;             ///< of the bodies and of the tools in the running settle stage
   bool rests = false;               ///< a settling body has come to rest
   double wall = 0, observed = 0;  ///< s
 

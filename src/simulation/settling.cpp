@@ -1,6 +1,5 @@
 // How settle stages take motion out of the bodies, and when these rest (simulation/settle.h).
 #include <algorithm>
-#include <numeric>
 #include <sstream>
 
 #include "forming_sim/loads/course.h"
@@ -12,22 +11,44 @@ namespace forming_sim {
 bool Simulation::Impl::settles(int tool) const { return stages.drive(tool) && tools[tool].present && tools[tool].pressed; }
 
 void Simulation::Impl::watch_settling() {
-  if (steps % Settle::kInterval != 0) return;
-  if (ways.empty()) return ways.begin(time, model.bodies.size(), x, v);
-  std::vector<std::size_t> looked_at;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (ways.ends_half(b)) looked_at.push_back(b);
-  if (looked_at.empty()) return;
-  ways.go_on(x, damping_rate());
-  for (const std::size_t b : looked_at) {
-    const BodyModel& body = model.bodies[b];
-    if (ways.whole(b) && settle.over(b, ways.of(time, b, body, x, v, elements.nodal_mass()), previous_dt, let_go_until() > 0)) ways.begin_again(time, b, body, x, v);
-    else ways.double_up(time, b, body, x, v);
+  const long phase = steps % Settle::kInterval;
+  if (phase != 0 && phase < Settle::kInterval - 2) return;
+  const bool led = let_go_until() > 0 || still_driven();
+  if (phase != 0 && !led) return;
+  const auto watch = [&](Ways& ways, std::size_t first_mover, const std::vector<Ways::Nodes>& nodes, const NodeField& x, const NodeField& v, const std::vector<double>& mass, double alpha) {
+    if (ways.empty()) return ways.begin(time, nodes.size(), x, v);
+    if (phase == Settle::kInterval - 2) {  // led on: windows of two steps
+      ways.go_on(x, alpha);
+      for (std::size_t b = 0; b < nodes.size(); ++b) ways.begin_again(time, b, nodes[b], x, v);
+      return;
+    }
+    std::vector<std::size_t> looked_at;
+    for (std::size_t b = 0; b < nodes.size(); ++b)
+      if (ways.ends_half(b)) looked_at.push_back(b);
+    if (looked_at.empty()) return;
+    ways.go_on(x, alpha);
+    for (const std::size_t b : looked_at)
+      if (ways.whole(b) && settle.over(first_mover + b, ways.way(time, b, nodes[b], x, v, mass, led), previous_dt, led)) ways.begin_again(time, b, nodes[b], x, v);
+      else ways.double_up(time, b, nodes[b], x, v);
+  };
+  std::vector<Ways::Nodes> nodes;
+  for (const BodyModel& body : model.bodies) nodes.push_back({body.first_node, body.node_count});
+  watch(ways, 0, nodes, x, v, elements.nodal_mass(), damping_rate());
+  // A tool goes along its guide as one node would.
+  NodeField places, velocities;
+  std::vector<double> mass;
+  nodes.clear();
+  for (int k = 0; k < static_cast<int>(tools.size()); ++k) {
+    const ForceDrive* drive = stages.drive(k);
+    places.push_back(node(drive ? drive->way() : Vec3(Vec3::Zero())));
+    velocities.push_back(node(drive ? drive->velocity() : Vec3(Vec3::Zero())));
+    mass.push_back(drive ? drive->mass() : 1);
+    nodes.push_back({k, 1});
   }
-  double driven = 0;
+  watch(tool_ways, model.bodies.size(), nodes, places, velocities, mass, settle.damping());
   for (int k = 0; k < static_cast<int>(tools.size()); ++k)
-    if (settles(k)) driven += stages.drive(k)->mass() * stages.drive(k)->velocity().squaredNorm();
-  settle.take_together(driven);
+    if (!settles(k)) settle.forget(model.bodies.size() + k);
+  settle.take_together(previous_dt);
 }
 
 void Simulation::Impl::slow_tools() {
@@ -50,8 +71,6 @@ bool Simulation::Impl::still_driven() const {
   return false;
 }
 
-// A tool that a force drives has the energy 1/2 M V^2, and could still set free U^2/(2 omega^2 (M + m)) as the bodies' forces out of
-// balance can F.M^-1 F/(2 omega^2): U = F + R, its force and the mean of what presses on it; m, the mass of the bodies, moves with it.
 void Simulation::Impl::see_rest() {
   if (steps % (10 * Settle::kInterval) != 0) return;
   const std::vector<double>& mass = elements.nodal_mass();
@@ -62,15 +81,8 @@ void Simulation::Impl::see_rest() {
     energies.elastic = elements.stored_energy_of(body, x);
     bodies.push_back(energies);
   }
-  const double all = std::accumulate(mass.begin(), mass.end(), 0.0);
-  Settle::Unrest of_tools;
-  for (int k = 0; k < static_cast<int>(tools.size()); ++k) {
-    const ForceDrive* drive = stages.drive(k);
-    if (!settles(k)) continue;  // what has left the bodies may fly on
-    const double unbalanced = drive->force(time) + tools[k].force.dot(drive->guide());
-    of_tools.F_MF += unbalanced * unbalanced / (drive->mass() + all);
-    of_tools.kinetic += 0.5 * drive->mass() * drive->velocity().squaredNorm();
-  }
+  std::vector<double> of_tools;  // what has left the bodies may fly on
+  for (int k = 0; k < static_cast<int>(tools.size()); ++k) of_tools.push_back(settles(k) ? 0.5 * stages.drive(k)->mass() * stages.drive(k)->velocity().squaredNorm() : 0);
   if (let_go_until() > 0 || still_driven()) settle.not_yet(time);
   rests = settle.at_rest(time, bodies, of_tools);
 }

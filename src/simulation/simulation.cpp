@@ -29,11 +29,11 @@ void Simulation::Impl::begin_stage() {
       previous_dt = std::min(previous_dt, full_dt());
     }
   }
+  ways = tool_ways = Ways();
   if (!stages.settling()) return;
   std::vector<double> slowest;
   for (const BodyModel& body : model.bodies) slowest.push_back(slowness(body));
-  settle = Settle(time, std::move(slowest), stages.stage().kinetic_fraction, least_energy());
-  ways = Ways();
+  settle = Settle(time, std::move(slowest), tools.size(), stages.stage().kinetic_fraction, least_energy());
 }
 
 void Simulation::Impl::check_ledger(double residual, double error) {

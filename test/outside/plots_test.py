@@ -62,6 +62,13 @@ class Plots(unittest.TestCase):
         run = self.plot('plot_surface.py', '--field', 'surface_strain', '--body', 'plate', '--range', '0', '0.1')
         self.assertEqual(run.returncode, 0, run.stderr)
 
+    def test_ends_of_the_colours_may_be_negative_and_stand_in_order(self):
+        self.assertEqual(self.plot('plot_section.py', '--field', 'stress.zz', '--range', '-3e8', '3e8').returncode, 0)
+        for ends in (('1', '-1'), ('5', '5')):
+            run = self.plot('plot_section.py', '--range', *ends)
+            self.assertNotEqual(run.returncode, 0)
+            self.assertIn('the lower end first', run.stderr)
+
     def test_the_forming_limit_diagram(self):
         curve = os.path.join(self.directory, 'limit.csv')
         with open(curve, 'w') as file:

@@ -186,6 +186,7 @@ class ServiceTest(ServerTest):
         scene = scenes.pulled_strip()
         self.assert_rejected(scene, 'threads', threads=-1)
         self.assert_rejected(scene, 'threads', threads=2**31 - 1)
+        self.assert_rejected(dict(scene, name='a\0b'), 'name')
         self.assert_rejected(scene, 'resume', code=ResultCode.RESUME_ERROR, resume='/nowhere/checkpoint.h5')
         self.assert_rejected(scene, 'resume', code=ResultCode.RESUME_ERROR, resume='http://nowhere/checkpoint.h5')
         self.assert_rejected(scene, 'output_directory', code=ResultCode.OUTPUT_ERROR, output_directory='/proc/nowhere')
@@ -419,7 +420,7 @@ class ServiceTest(ServerTest):
         def contents():
             return {name: open(os.path.join(directory, name), 'rb').read() for name in os.listdir(directory)}
         before = contents()
-        large = scenes.pulled_strip(cells_along=100000)
+        large = scenes.pulled_strip(cells_along=100000)  # to be meshed takes ten times as long as to ask for the end of it
         large['name'] = 'large'
         large['bodies'][0]['blank']['length'] = 100.0
         with open(self.path('large.yaml'), 'w') as file:
@@ -445,12 +446,20 @@ class ServiceTest(ServerTest):
         self.assertEqual(rospy.wait_for_message('/forming_server/contact', ContactFields, 10).nodes, ())
 
     def test_tools_keep_their_frames_after_the_run(self):
-        result = run(scenes.pressed_strip())[1]
+        scene = scenes.pressed_strip()
+        scene['tools'][0]['motion'].update(kind='trajectory', positions=[[0, 0, 0], [0, -1e-5, 0]], rotations_deg=[[0, 0, 0], [0, 0, 10]])
+        del scene['tools'][0]['motion']['velocities']
+        scene['tools'][0]['point'] = [0.0, 0.003, 0.0]  # above the strip, also when it has turned
+        result = run(scene)[1]
+        self.assertEqual(result.code, ResultCode.SUCCESS, result.message)
         pose = rospy.wait_for_message('/tf', TFMessage, 10).transforms[0]
         self.assertEqual(pose.child_frame_id, 'forming_world/press')
         self.assertEqual(pose.transform.translation.y, result.summary.tools[0].pose.position.y)
         self.assertNotEqual(pose.transform.translation.y, 0)
-        self.assertEqual(result.summary.tools[0].pose.orientation.w, 1)
+        turned = result.summary.tools[0].pose.orientation
+        for axis in 'xyzw':
+            self.assertAlmostEqual(getattr(pose.transform.rotation, axis), getattr(turned, axis), delta=1e-12)
+        self.assertAlmostEqual(abs(turned.z), math.sin(math.radians(5)), delta=1e-9)  # half of its 10 degrees
 
     # ---- services
 

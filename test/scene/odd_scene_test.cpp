@@ -136,6 +136,19 @@ TEST(OddScene, OddValuesAreTold) {
     motion.positions = {Vec3::Zero(), Vec3(0, 0, 0.02)};
     s.tools[0].motion = motion;
   });
+  const auto roll = [](const Vec3& centre) {
+    return [centre](Scene& s) {
+      MotionConfig motion;
+      motion.kind = "velocity";
+      motion.times = {0};
+      motion.spins_deg_s = {Vec3(0, 100, 0)};
+      motion.centre = centre;
+      s.tools[0].position += Vec3(0, 0, -1e-3);
+      s.tools[0].motion = motion;
+    };
+  };
+  told("tool " + plate_scene().tools[0].name + " turns about [0, 0, 0], since motion.centre is not given", roll(Vec3::Zero()));
+  EXPECT_TRUE(notes_of(roll(Vec3(0, 0, -1e-3))).empty());
   const auto driven = [](double speed, double until) {
     BoundaryConfig drive;
     drive.set = "left";

@@ -34,10 +34,9 @@ struct Swinging {
   double omega = 1e3, a = 1e-3, b = 0, drift = 0, dt = 1e-6;
   /// What a settle stage makes of it until `end`, damping told to it as `alpha`: 1/s.
   double damping_at(double end, double alpha) const {
-    BodyModel body;
-    body.node_count = 2;
+    const Ways::Nodes both{0, 2};
     const std::vector<double> mass(2, 0.1);
-    Settle settle(0, {1 / omega}, 1e-5, 0);
+    Settle settle(0, {1 / omega}, 0, 1e-5, 0);
     Ways ways;
     NodeField x(2, Node::Zero()), v(2, Node::Zero());
     double dragged = 0;
@@ -60,9 +59,9 @@ struct Swinging {
       }
       if (!ways.ends_half(0)) continue;
       ways.go_on(x, alpha);
-      if (ways.whole(0) && settle.over(0, ways.of(t, 0, body, x, u, mass), dt, false)) ways.begin_again(t, 0, body, x, u);
-      else ways.double_up(t, 0, body, x, u);
-      settle.take_together(0);
+      if (ways.whole(0) && settle.over(0, ways.way(t, 0, both, x, u, mass, false), dt, false)) ways.begin_again(t, 0, both, x, u);
+      else ways.double_up(t, 0, both, x, u);
+      settle.take_together(dt);
     }
     return settle.damping();
   }
@@ -70,19 +69,19 @@ struct Swinging {
 
 }  // namespace
 
-// Twice the frequency, whatever the body drifts at, damps it, or swings in it with less energy.
+// Twice the frequency, whatever damps the body, or swings in it with less energy. What flies as a whole is not held up.
 TEST(Settle, DampsForTheSwingThatHasTheEnergy) {
   const double end = 3e-3;
   Swinging swing;
-  EXPECT_NEAR(swing.damping_at(end, 0), 2 * swing.omega, .1 * swing.omega);
-  EXPECT_NEAR(swing.damping_at(end, 3e3), 2 * swing.omega, .1 * swing.omega);
-  swing.drift = 1e3 * swing.a * swing.omega;
   EXPECT_NEAR(swing.damping_at(end, 0), 2 * swing.omega, .1 * swing.omega);
   EXPECT_NEAR(swing.damping_at(end, 3e3), 2 * swing.omega, .1 * swing.omega);
   swing.b = 1e-4 * swing.a;  // 1e-4 of the energy; in a single step it weighs as much as the slow one
   EXPECT_NEAR(swing.damping_at(end, 0), 2 * swing.omega, .2 * swing.omega);
   swing.b = .1 * swing.a;  // a hundred times the energy
   EXPECT_GT(swing.damping_at(end, 0), 20 * swing.omega);
+  swing.b = 0;
+  swing.drift = 1e3 * swing.a * swing.omega;
+  EXPECT_LT(swing.damping_at(end, 0), .01 * swing.omega);
 }
 
 // A sheet that sags by its weight has next to no energy: what is left of it when it is told to rest must not show.
@@ -99,7 +98,7 @@ TEST(Settle, ASlackSheetHangsWhereItsWeightHoldsIt) {
     sags[fine] = sag(*sim);
     std::printf("  sags by %.5g m, at rest after %.3g s and %ld steps\n", sags[fine], sim->time(), sim->steps());
   }
-  EXPECT_NEAR(sags[0], sags[1], .004 * sags[1]);
+  EXPECT_NEAR(sags[0], sags[1], .001 * sags[1]);
 }
 
 TEST(Settle, WaitsForALoadThatRises) {
@@ -116,6 +115,7 @@ TEST(Settle, WaitsInTheLastStageForALoadThatIsToCome) {
   auto last = loaded(4e-3, 6e-3, .1).start();
   while (last->step()) {}
   EXPECT_GT(last->time(), 6e-3);
+  EXPECT_LT(last->time(), 7e-3);  // the waiting is no window
   OneBody run = loaded(4e-3, 6e-3, .1);
   run.plan.stages.push_back(form_for(1e-3));
   auto before = run.start();

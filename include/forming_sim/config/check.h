@@ -77,7 +77,8 @@ template <class T> void check_value(const T& value, const std::string& path, con
     if (!value.allFinite()) faults.add(path, given_text(value), "give three finite numbers");
     else if (value.cwiseAbs().maxCoeff() > kGreatest) faults.add(path, given_text(value), "give numbers of at most 1e100");
   } else if constexpr (std::is_same_v<T, std::string>) {
-    if (!is_utf8(value)) return faults.add(path, std::to_string(value.size()) + " bytes that are not UTF-8", "give a text in UTF-8: the files of a run hold it, and whoever reads them expects that");
+    if (!is_utf8(value))
+      return faults.add(path, std::to_string(value.size()) + " bytes that are not UTF-8", "give a text in UTF-8: the files of a run hold it, and whoever reads them expects that");
     if (value.find('\0') != std::string::npos) return faults.add(path, "a text with a NUL character", "leave that out: what follows it would be lost in the files of a run");
     const auto& words = field.choices();
     if (!words.empty() && std::find(words.begin(), words.end(), value) == words.end()) {

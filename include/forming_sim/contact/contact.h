@@ -21,6 +21,7 @@
 
 #include "forming_sim/config/fault.h"
 #include "forming_sim/contact/config.h"
+#include "forming_sim/contact/contact_times.h"
 #include "forming_sim/contact/held_node.h"
 #include "forming_sim/contact/shear_waves.h"
 #include "forming_sim/mesh/mesh.h"
@@ -105,16 +106,6 @@ struct SurfacePair {
   bool tied = false;
 };
 
-/// Wall time that the parts of contact took in all steps so far, s (method implicit).
-struct ContactTimes {
-  double list = 0;    ///< bounds on the motion, and which features are near
-  double narrow = 0;  ///< from listed features to pairs: places, closest points, constants, layers
-  double lanes = 0;   ///< pairs into tiles and lanes, and back
-  double sweeps = 0;
-  double check = 0;   ///< the continuous check
-  double books = 0;   ///< energies, tool forces, layers that grow
-};
-
 class Contact {
  public:
   /// Chooses h0, stiffness and push speed; sets the tools back by h0; backs off
@@ -191,7 +182,8 @@ class Contact {
   double push_speed() const;                          ///< m/s
   long listed_pairs() const;                          ///< pairs of features near enough to be watched
   long list_builds() const;                           ///< how often the list was built
-  const ContactTimes& times() const;
+  /// From now on adds to `times` what its parts take; nullptr: no more.
+  void time_parts(ContactTimes* times);
   /// Bodies that touched each other at the start are moved apart by so much, m: one
   /// per body, mostly zero. The caller moves their nodes before the first step.
   const std::vector<Vec3>& body_shifts() const;

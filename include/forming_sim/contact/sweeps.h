@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "forming_sim/contact/contact_times.h"
 #include "forming_sim/contact/driven.h"
 #include "forming_sim/contact/mixing.h"
 #include "forming_sim/contact/pair_pack.h"
@@ -26,7 +27,6 @@ struct SweepResult {
   int sweeps = 0;
   bool settled = true;    ///< nothing changed by more than the tolerance in the last one
   bool open = true;       ///< every pair that can be moved ends with a gap > 0
-  double seconds = 0;     ///< that the sweeps took, without what comes before and after them
 };
 
 class Sweeps {
@@ -36,9 +36,9 @@ class Sweeps {
 
   /// From the impulses and slips that the pairs come with, sweeps until every pair ends with a gap > 0 and nothing changes
   /// by more than `tolerance`, at most `most` times; in each sweep ties come before pairs, and the tools that forces drive after them. Changes
-  /// work.v, the ties' impulses and the tools' pushes; what was found of the pairs is for take_back to fetch.
+  /// work.v, the ties' impulses and the tools' pushes; what was found of the pairs is for take_back to fetch. times: for who asks for them.
   SweepResult solve(double dt, double tolerance, int most, Workspace& work, std::vector<TiePair>& ties, const LargeArray<ContactPair>& pairs,
-                    const std::vector<Rub>& rubs, std::vector<DrivenTool>& driven);
+                    const std::vector<Rub>& rubs, std::vector<DrivenTool>& driven, ContactTimes* times = nullptr);
   /// Sets impulse and end_gap of the pairs first ... last - 1, and slip and radiated of their rubs.
   void take_back(long first, long last, LargeArray<ContactPair>& pairs, std::vector<Rub>& rubs) const;
 

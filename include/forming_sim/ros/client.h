@@ -19,7 +19,7 @@ extern const char* const client_usage;
 
 /// Runs the request; prints progress to stdout and faults to stderr. A stop
 /// signal cancels the goal. Returns 0 only for a run that succeeded, 1 otherwise,
-/// 2 for a scene with faults or a goal that was rejected, 130 after a cancel.
+/// 2 for a scene with faults or a goal that was rejected, 130 where a stop signal cancelled it.
 int run_client(const ClientRequest& request);
 
 }  // namespace forming_sim

@@ -57,7 +57,6 @@ class FormingServer {
   void on_cancel(Goal goal);
   bool on_validate(ValidateScene::Request& request, ValidateScene::Response& response);
   bool on_estimate(EstimateRun::Request& request, EstimateRun::Response& response);
-  void estimate(const EstimateRun::Request& request, EstimateRun::Response& response);
 
   void work();
   void serve(Goal goal, Clock::time_point received);

@@ -1,15 +1,14 @@
 #pragma once
-// What each body has done in a window of time, in two halves: how far its nodes went, and the mean forces that moved
+// What each body, or tool, has done in a window of time, in two halves: how far its nodes went, and the mean forces that moved
 // them, from what became of their velocities. Elements, loads, contact and supports are all in these, damping is not.
 // A window is looked at when it has grown to twice what it was. A settle stage judges by them (simulation/settle.h).
 #include <vector>
 
 #include "forming_sim/element/nodes.h"
-#include "forming_sim/simulation/model.h"
 
 namespace forming_sim {
 
-/// Of a body in a window of T: d, the way between the middles of its halves; F1 and F2, the mean forces in these, dF = F2 - F1.
+/// Of a body in a window of T: d, half its way, as the middles of the halves are apart; F1 and F2, the mean forces in these, dF = F2 - F1.
 struct Way {
   double T = 0;           ///< s
   double d_dF = 0;        ///< d . dF, J
@@ -17,12 +16,19 @@ struct Way {
   double rigid_dF = 0;    ///< likewise, of the part of d by which the body moved as a whole
   double rigid_Md = 0;
   double F_MF = 0;        ///< F2 . M^-1 F2, N^2/kg
+  double rigid_F_MF = 0;  ///< likewise, of the part of F2 that moves it as a whole
+  double rigid_dF_MdF = 0;  ///< and of that of dF
 };
 
 class Ways {
  public:
+  static constexpr std::size_t kBytesOfNode = 6 * sizeof(Node);
+  /// Those of a body.
+  struct Nodes {
+    int first, count;
+  };
   bool empty() const { return windows_.empty(); }
-  /// The windows of `bodies` bodies begin at t, with places x and velocities v.
+  /// The windows of so many bodies begin at t, with places x and velocities v.
   void begin(double t, std::size_t bodies, const NodeField& x, const NodeField& v) {
     windows_.assign(bodies, {});
     begins_ = middle_ = {x, v};
@@ -42,16 +48,17 @@ class Ways {
   }
   /// Where both halves of the window of body b have been.
   bool whole(std::size_t b) const { return windows_[b].looks > 1; }
-  /// Of body b, whose window began earlier and has both halves, up to now.
-  Way of(double t, std::size_t b, const BodyModel& body, const NodeField& x, const NodeField& v, const std::vector<double>& mass) const;
+  /// Of body b, whose window began earlier and has both halves, up to now. led: the window is of two steps, and the forces of its halves
+  /// are those at its beginning and in its middle.
+  Way way(double t, std::size_t b, Nodes of, const NodeField& x, const NodeField& v, const std::vector<double>& mass, bool led) const;
   /// The window of body b goes on: what was all of it is its first half.
-  void double_up(double t, std::size_t b, const BodyModel& body, const NodeField& x, const NodeField& v) {
-    mark(body, x, v, middle_);
+  void double_up(double t, std::size_t b, Nodes of, const NodeField& x, const NodeField& v) {
+    mark(of, x, v, middle_);
     windows_[b].middle = t;
   }
   /// It begins anew.
-  void begin_again(double t, std::size_t b, const BodyModel& body, const NodeField& x, const NodeField& v) {
-    mark(body, x, v, begins_);
+  void begin_again(double t, std::size_t b, Nodes of, const NodeField& x, const NodeField& v) {
+    mark(of, x, v, begins_);
     windows_[b] = {t, t, 0};
   }
 
@@ -76,8 +83,8 @@ class Ways {
   struct Mark {
     NodeField x, u;  ///< u = v + int alpha v dt: its changes are of all forces but damping
   };
-  void mark(const BodyModel& body, const NodeField& x, const NodeField& v, Mark& at) {
-    for (int i = body.first_node; i < body.first_node + body.node_count; ++i) at.x[i] = x[i], at.u[i] = v[i] + dragged_[i];
+  void mark(Nodes of, const NodeField& x, const NodeField& v, Mark& at) {
+    for (int i = of.first; i < of.first + of.count; ++i) at.x[i] = x[i], at.u[i] = v[i] + dragged_[i];
   }
 
   std::vector<Window> windows_;
