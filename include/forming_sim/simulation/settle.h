@@ -23,7 +23,6 @@
 // Each is judged by itself, with the omega of its own motion: beside a block under pressure a soft strip has no energy, and its forces, over
 // the block's omega^2, next to none to set free. One that has had no energy in the stage has nothing to come to rest from, however slowly it would swing.
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -35,11 +34,6 @@ namespace forming_sim {
 class Settle {
  public:
   static constexpr int kInterval = 10;    ///< steps between two looks at the windows
-  static constexpr double kTurn = 0.5;    ///< omega T of a window
-  static constexpr double kLongest = 2;   ///< T of a window, of the time for which a body must be quiet
-  static constexpr double kSteady = 0.1;  ///< by which a force that a body falls by may change from half to half
-  static constexpr double kFall = 10;     ///< times the slowest swing: when what it gives the body counts
-  static constexpr double kDrift = 0.25;  ///< of that: below it a body that moves as a whole drifts
 
   /// Of a body that is looked at: its energies, J.
   struct Energies {
@@ -55,62 +49,16 @@ class Settle {
         shortest_of_(std::move(shortest_of)), swing_of_(shortest_of_.size() + tools), most_of_(shortest_of_.size(), 0.0) {}
 
   /// What a body or tool has done in its window up to now, by steps of dt, s; led: it is led on. True when the window is over.
-  bool over(std::size_t mover, const Way& way, double dt, bool led) {
-    Swing& swing = swing_of_[mover];
-    const double slower = kTurn / way.T;
-    const bool drifts = !led && of(way.rigid_dF, way.rigid_Md) < kDrift * slower;
-    const double own_dF = way.d_dF - (drifts ? way.rigid_dF : 0), own_Md = way.d_Md - (drifts ? way.rigid_Md : 0), omega = of(own_dF, own_Md);
-    // A steady force drives it on, and will have given it what is no rest any more.
-    const bool falls = drifts && way.rigid_dF_MdF < kSteady * kSteady * way.rigid_F_MF && 0.5 * way.rigid_F_MF * std::pow(kFall * slowest_of(mover), 2) > swing.below;
-    const bool flies = falls || (drifts && 2 * way.rigid_Md > swing.below * way.T * way.T);
-    const bool turned = led ? omega > 0 : omega >= slower;
-    if (turned || (!led && slower < swing.omega)) {
-      swing.omega = std::min(led ? omega : std::max(omega, slower), 0.5 / dt);
-      swing.v_Mv = 4 * (flies ? way.d_Md : own_Md) / (way.T * way.T);
-      swing.v_Kv = swing.v_Mv * (flies ? std::max(0.0, -way.d_dF / way.d_Md) : swing.omega * swing.omega);
-    } else if (swing.omega > 0) {
-      return led;
-    }
-    swing.F_MF = way.F_MF - (drifts ? way.rigid_F_MF : 0);
-    swing.falls = falls;
-    return led || turned || way.T >= kLongest * slowest_of(mover);
-  }
+  bool over(std::size_t mover, const Way& way, double dt, bool led);
   /// A tool that presses on the bodies no more.
   void forget(std::size_t mover) { swing_of_[mover] = Swing(); }
   /// omega of all together, each by the energy of its mean motion.
-  void take_together(double dt) {
-    double v_Kv = 0, v_Mv = 0;
-    for (const Swing& swing : swing_of_) v_Kv += swing.v_Kv, v_Mv += swing.v_Mv;
-    if (v_Mv > 0) omega_ = std::min(std::sqrt(v_Kv / v_Mv), 0.5 / dt);
-  }
+  void take_together(double dt);
   /// alpha, 1/s.
   double damping() const { return 2 * omega_; }
 
   /// The energies of each body, and the kinetic one of each tool, which counts beside the elastic energy of all. True when all rest.
-  bool at_rest(double t, const std::vector<Energies>& bodies, const std::vector<double>& of_tools) {
-    restless_ = quiet_ = 0;
-    bool quiet = true;
-    double elastic = 0, most = 0;
-    const auto judge = [&](double kinetic, std::size_t mover, double beside, double had) {
-      Swing& swing = swing_of_[mover];
-      const double omega = swing.omega > 0 ? swing.omega : 1 / slowest_of(mover);  // while nothing is known of it
-      const double restless = kinetic + 0.5 * swing.F_MF / (omega * omega), below = std::max(fraction_ * std::max(beside, 1e-6 * had), least_);
-      swing.below = below;
-      if ((swing.omega == 0 && kinetic > 0) || swing.falls || restless > below) quiet = false;
-      if (quiet_ == 0 || restless * quiet_ > restless_ * below) restless_ = restless, quiet_ = below;
-    };
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      most_of_[b] = std::max(most_of_[b], bodies[b].elastic + bodies[b].kinetic);
-      judge(bodies[b].kinetic, b, bodies[b].elastic, most_of_[b]);
-      elastic += bodies[b].elastic;
-      most += most_of_[b];
-    }
-    for (std::size_t k = 0; k < of_tools.size(); ++k) judge(of_tools[k], bodies.size() + k, elastic, most);
-    const bool was_quiet = is_quiet();
-    looked_ = t;
-    if (!quiet) quiet_since_ = t;
-    return was_quiet && t - quiet_since_ > shortest();
-  }
+  bool at_rest(double t, const std::vector<Energies>& bodies, const std::vector<double>& of_tools);
   /// The bodies are not on their own yet: what they were held by fades.
   void not_yet(double t) { quiet_since_ = t; }
   /// They were quiet when they were last looked at: they rest when they stay so.
@@ -137,8 +85,6 @@ class Settle {
   }
 
  private:
-  static double of(double d_dF, double d_Md) { return d_Md > 0 && d_dF < 0 ? std::sqrt(-d_dF / d_Md) : 0; }
-
   /// A tool swings with the slowest of the bodies, s.
   double slowest_of(std::size_t mover) const { return mover < shortest_of_.size() ? shortest_of_[mover] : *std::max_element(shortest_of_.begin(), shortest_of_.end()); }
 
