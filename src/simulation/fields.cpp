@@ -119,8 +119,8 @@ const Energies& Simulation::energies() const {
 
 // What positions cannot tell: the energy of a strain of 1e-11, and far from the origin of what rounding of the places is for the smallest cell, c dt high, a thousand times:
 // it gathers over the steps.
-double Simulation::Impl::least_energy() const {
-  const double mass = std::accumulate(physical_mass.begin(), physical_mass.end(), 0.0), c = elements.slowest_wave();
+double Simulation::Impl::least_energy(double mass) const {
+  const double c = elements.slowest_wave();
   const double rounding = 0.5 * std::numeric_limits<double>::epsilon() * farthest / (c * first_element_dt), strain = 1e-11 + 1e3 * rounding;
   return strain * strain * mass * c * c;
 }
@@ -128,7 +128,7 @@ double Simulation::Impl::least_energy() const {
 // Where nothing happens there is no other energy to refer to.
 double Simulation::balance_error() const {
   const Impl& s = *impl_;
-  return std::fabs(energies().residual()) / std::max(s.most, s.least_energy());
+  return std::fabs(energies().residual()) / std::max(s.most, s.least_energy(std::accumulate(s.physical_mass.begin(), s.physical_mass.end(), 0.0)));
 }
 
 ContactStatus Simulation::contact_status() const {

@@ -184,7 +184,7 @@ struct Simulation::Impl {
   void check_ledger(double residual, double error);
   /// Warns where the running stage, which ends, was to end when a tool stops, and that has not.
   void tell_unstopped();
-  double least_energy() const;  ///< J
+  double least_energy(double mass) const;  ///< of bodies of so much mass, J
 
   // checkpoint.cpp
   template <class Archive> void exchange(Archive& a);

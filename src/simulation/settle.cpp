@@ -46,22 +46,23 @@ void Settle::take_together(double dt) {
 bool Settle::at_rest(double t, const std::vector<Energies>& bodies, const std::vector<double>& of_tools) {
   restless_ = quiet_ = 0;
   bool quiet = true;
-  double elastic = 0, most = 0;
-  const auto judge = [&](double kinetic, std::size_t mover, double beside, double had) {
+  double elastic = 0, most = 0, least = 0;
+  const auto judge = [&](double kinetic, std::size_t mover, double beside, double had, double least) {
     Swing& swing = swing_of_[mover];
     const double omega = swing.omega > 0 ? swing.omega : 1 / slowest_of(mover);  // while nothing is known of it
-    const double restless = kinetic + 0.5 * swing.F_MF / (omega * omega), below = std::max(fraction_ * std::max(beside, 1e-6 * had), least_);
+    const double restless = kinetic + 0.5 * swing.F_MF / (omega * omega), below = std::max(fraction_ * std::max(beside, 1e-6 * had), least);
     swing.below = below;
     if ((swing.omega == 0 && kinetic > 0) || swing.falls || restless > below) quiet = false;
     if (quiet_ == 0 || restless * quiet_ > restless_ * below) restless_ = restless, quiet_ = below;
   };
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     most_of_[b] = std::max(most_of_[b], bodies[b].elastic + bodies[b].kinetic);
-    judge(bodies[b].kinetic, b, bodies[b].elastic, most_of_[b]);
+    judge(bodies[b].kinetic, b, bodies[b].elastic, most_of_[b], least_of_[b]);
     elastic += bodies[b].elastic;
     most += most_of_[b];
+    least += least_of_[b];
   }
-  for (std::size_t k = 0; k < of_tools.size(); ++k) judge(of_tools[k], bodies.size() + k, elastic, most);
+  for (std::size_t k = 0; k < of_tools.size(); ++k) judge(of_tools[k], bodies.size() + k, elastic, most, least);
   const bool was_quiet = is_quiet();
   looked_ = t;
   if (!quiet) quiet_since_ = t;

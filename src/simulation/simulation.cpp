@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 #include "simulation/impl.h"
@@ -31,9 +32,13 @@ void Simulation::Impl::begin_stage() {
   }
   ways = tool_ways = Ways();
   if (!stages.settling()) return;
-  std::vector<double> slowest;
-  for (const BodyModel& body : model.bodies) slowest.push_back(slowness(body));
-  settle = Settle(time, std::move(slowest), tools.size(), stages.stage().kinetic_fraction, least_energy());
+  std::vector<double> slowest, least;
+  for (const BodyModel& body : model.bodies) {
+    slowest.push_back(slowness(body));
+    const auto first = physical_mass.begin() + body.first_node;
+    least.push_back(least_energy(std::accumulate(first, first + body.node_count, 0.0)));
+  }
+  settle = Settle(time, std::move(slowest), std::move(least), tools.size(), stages.stage().kinetic_fraction);
 }
 
 void Simulation::Impl::check_ledger(double residual, double error) {

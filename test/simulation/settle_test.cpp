@@ -36,7 +36,7 @@ struct Swinging {
   double damping_at(double end, double alpha) const {
     const Ways::Nodes both{0, 2};
     const std::vector<double> mass(2, 0.1);
-    Settle settle(0, {1 / omega}, 0, 1e-5, 0);
+    Settle settle(0, {1 / omega}, {0.0}, 0, 1e-5);
     Ways ways;
     NodeField x(2, Node::Zero()), v(2, Node::Zero());
     double dragged = 0;
@@ -196,6 +196,49 @@ TEST(Settle, JudgesEachBodyByItself) {
   }
   std::printf("  sags by %.5g m alone, %.5g m beside the block\n", sags[0], sags[1]);
   EXPECT_NEAR(sags[1], sags[0], .01 * sags[0]);
+}
+
+// What positions cannot tell of a block of 1 m is more than the energy of a strip of 20 mm that sags beside it.
+TEST(Settle, JudgesATinyBodyBesideAHugeOne) {
+  OneBody run(body_of(generate_blank(strip_of(20e-3, 5e-4, 20, 2)), aluminium()), 1);
+  run.plan.stages = {settle(.2)};
+  clamp_left(run);
+  run.plan.gravity = Vec3(0, -9.81, 0);
+  auto alone = run.start();
+  BlankConfig block = strip_of(1, 1, 4, 4);
+  block.origin = Vec3(.5, 0, 0);
+  add_flying(run.model, run.plan, body_of(generate_blank(block), aluminium()), "huge", Vec3::Zero());
+  BoundaryConfig foot;
+  foot.set = "bottom";
+  foot.kind = "fixed";
+  run.plan.bodies[1].boundaries = {foot};
+  auto beside = run.start();
+  const auto sag_of_strip = [&](Simulation& sim) {
+    while (sim.step()) {}
+    double lowest = 0;
+    for (int n = 0; n < run.model.bodies[0].node_count; ++n) lowest = std::max(lowest, sim.initial_positions()[n][1] - sim.positions()[n][1]);
+    return lowest;
+  };
+  const double expected = sag_of_strip(*alone), found = sag_of_strip(*beside);
+  std::printf("  sags by %.5g m alone, %.5g m beside the block\n", expected, found);
+  EXPECT_NEAR(found, expected, .01 * expected);
+}
+
+// A body that falls is not at rest because it moves slowly yet, and is not held up.
+TEST(Settle, LetsFallWhatFalls) {
+  OneBody run(body_of(generate_blank(strip_of(10e-3, 1e-3, 10, 2)), aluminium()), 1);
+  run.model.tools = {plane_at("floor", 2, Vec3(0, -2e-4, 0), Vec3::UnitY())};
+  run.plan.gravity = Vec3(0, -9.81, 0);
+  run.plan.stages = {settle(.1)};
+  auto sim = run.start();
+  const double fall = std::sqrt(2 * 2e-4 / 9.81);
+  while (sim->time() < .9 * fall && sim->step()) {}
+  const double way = .5 * 9.81 * sim->time() * sim->time(), gone = sim->initial_positions()[0][1] - sim->positions()[0][1];
+  std::printf("  has fallen by %.4g of %.4g mm\n", 1e3 * gone, 1e3 * way);
+  EXPECT_GT(gone, .8 * way);
+  while (sim->step()) {}
+  EXPECT_LT(sim->time(), .05);
+  EXPECT_NEAR(sim->tools()[0].force.y(), -9.81 * mass_of(*sim), .01 * 9.81 * mass_of(*sim));
 }
 
 // A long thin strip far away, on which nothing acts, once made a settle stage as long as its own slowest swing.

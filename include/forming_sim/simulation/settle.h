@@ -43,10 +43,10 @@ class Settle {
   Settle() = default;
   /// shortest_of: s, time for which each body must be quiet (size^2 / (thickness wave
   /// speed), about the slowest swing of a strip). tools: how many may settle with the bodies, as movers behind these.
-  /// least: J, of which positions tell nothing: what has less rests.
-  Settle(double start, std::vector<double> shortest_of, std::size_t tools, double fraction, double least)
-      : fraction_(fraction), least_(least), quiet_since_(start), looked_(start),
-        shortest_of_(std::move(shortest_of)), swing_of_(shortest_of_.size() + tools), most_of_(shortest_of_.size(), 0.0) {}
+  /// least_of: J, of which positions of each body tell nothing: one that has less rests.
+  Settle(double start, std::vector<double> shortest_of, std::vector<double> least_of, std::size_t tools, double fraction)
+      : fraction_(fraction), quiet_since_(start), looked_(start), shortest_of_(std::move(shortest_of)),
+        least_of_(std::move(least_of)), swing_of_(shortest_of_.size() + tools), most_of_(shortest_of_.size(), 0.0) {}
 
   /// What a body or tool has done in its window up to now, by steps of dt, s; led: it is led on. True when the window is over.
   bool over(std::size_t mover, const Way& way, double dt, bool led);
@@ -70,13 +70,14 @@ class Settle {
   double shortest() const {
     double longest = 0;
     for (std::size_t b = 0; b < shortest_of_.size(); ++b)
-      if (most_of_[b] > least_) longest = std::max(longest, shortest_of_[b]);
+      if (most_of_[b] > least_of_[b]) longest = std::max(longest, shortest_of_[b]);
     return longest;
   }
 
   template <class Archive> void exchange(Archive& a) {
-    for (double* value : {&fraction_, &least_, &quiet_since_, &looked_, &omega_, &restless_, &quiet_}) a.number(*value);
+    for (double* value : {&fraction_, &quiet_since_, &looked_, &omega_, &restless_, &quiet_}) a.number(*value);
     a.list(shortest_of_);
+    a.list(least_of_);
     a.each(swing_of_, [&](Swing& swing) {
       for (double* value : {&swing.omega, &swing.v_Kv, &swing.v_Mv, &swing.F_MF, &swing.below}) a.number(*value);
       a.number(swing.falls);
@@ -95,9 +96,10 @@ class Settle {
     bool falls = false;
   };
 
-  double fraction_ = 0, least_ = 0, quiet_since_ = 0, looked_ = 0, restless_ = 0, quiet_ = 0;
+  double fraction_ = 0, quiet_since_ = 0, looked_ = 0, restless_ = 0, quiet_ = 0;
   double omega_ = 0;               ///< of all together: what damps
   std::vector<double> shortest_of_;  ///< of each body, s
+  std::vector<double> least_of_;     ///< of each body, J
   std::vector<Swing> swing_of_;      ///< of each body, then of each tool
   std::vector<double> most_of_;    ///< of each body, J: the largest of its elastic and kinetic energy
 };
