@@ -149,7 +149,8 @@ struct Simulation::Impl {
   /// In a settle stage tools that settle have its damping too.
   void slow_tools();
   /// A motion, a pressure or a load is on its way from one knot to another; in the last stage also where that is still to come in it.
-  /// Not where the stage does not wait for it, and ends at its limit.
+  bool driven_on() const;
+  /// Likewise, where the stage waits for it, and does not end at its limit.
   bool still_driven() const;
   /// Of the running stage, which has come to its limit.
   std::string why_unsettled() const;

@@ -13,7 +13,7 @@ bool Simulation::Impl::settles(int tool) const { return stages.drive(tool) && to
 void Simulation::Impl::watch_settling() {
   const long phase = steps % Settle::kInterval;
   if (phase != 0 && phase < Settle::kInterval - 2) return;
-  const bool led = let_go_until() > 0 || still_driven();
+  const bool led = let_go_until() > 0 || driven_on();
   if (phase != 0 && !led) return;
   const auto watch = [&](Ways& ways, std::size_t first_mover, const std::vector<Ways::Nodes>& nodes, const NodeField& x, const NodeField& v, const std::vector<double>& mass, double alpha) {
     if (ways.empty()) return ways.begin(time, nodes.size(), x, v);
@@ -56,8 +56,9 @@ void Simulation::Impl::slow_tools() {
     if (ForceDrive* drive = stages.drive(k)) drive->slow_down(stages.settling() && settles(k) ? settle.damping() : 0);
 }
 
-bool Simulation::Impl::still_driven() const {
-  if (stages.stage().ends == "limit") return false;
+bool Simulation::Impl::still_driven() const { return stages.stage().ends != "limit" && driven_on(); }
+
+bool Simulation::Impl::driven_on() const {
   const bool last = stages.index() + 1 == static_cast<int>(plan.stages.size());
   const double until = last ? time + stages.remaining(time) : time;
   const auto any = [&](const auto& configs) { return std::any_of(configs.begin(), configs.end(), [&](const auto& config) { return changes(config, time, until); }); };
