@@ -413,6 +413,20 @@ class ServiceTest(ServerTest):
         _, errors = client.communicate(timeout=20)
         self.assertEqual(client.returncode, 130, errors)
 
+    def test_client_tells_a_cancel_by_another_from_its_own(self):
+        with open(self.path('long.yaml'), 'w') as file:
+            yaml.safe_dump(scenes.long_run(), file)
+        cancel = rospy.Publisher(ACTION + '/cancel', GoalID, queue_size=1)
+        self.addCleanup(cancel.unregister)
+        client = subprocess.Popen([executable('forming_client'), self.path('long.yaml')], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, text=True)
+        client.stdout.readline()
+        while cancel.get_num_connections() == 0:
+            rospy.sleep(0.02)
+        cancel.publish(GoalID())  # all goals
+        _, errors = client.communicate(timeout=20)
+        self.assertEqual(client.returncode, 1, errors)
+
     def test_a_goal_that_is_cancelled_while_it_is_prepared_leaves_the_results_in_its_directory(self):
         directory = self.path('run')
         self.assertEqual(run(scenes.pulled_strip(), output_directory=directory)[1].code, ResultCode.SUCCESS)
