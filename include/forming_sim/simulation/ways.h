@@ -9,6 +9,7 @@
 namespace forming_sim {
 
 /// Of a body in a window of T: d, half its way, as the middles of the halves are apart; F1 and F2, the mean forces in these, dF = F2 - F1.
+/// As a whole it moves as one that is free in space; in axisymmetry a radial motion is none, and the hoop draws it back.
 struct Way {
   double T = 0;           ///< s
   double d_dF = 0;        ///< d . dF, J
