@@ -28,6 +28,20 @@ double sag(const Simulation& sim) {
   for (const Node& x : sim.positions()) lowest = std::max(lowest, -x[1]);
   return lowest;
 }
+/// How far the first of the bodies has come down when all rest, m.
+double sag_at_rest(Simulation& sim) {
+  while (sim.step()) {}
+  double lowest = 0;
+  for (int n = 0; n < sim.model().bodies[0].node_count; ++n) lowest = std::max(lowest, sim.initial_positions()[n][1] - sim.positions()[n][1]);
+  return lowest;
+}
+/// Puts a block that stands on its foot beside the body of a run.
+void add_standing(OneBody& run, const BlankConfig& block, const std::string& name) {
+  BoundaryConfig foot;
+  foot.set = "bottom";
+  foot.kind = "fixed";
+  add_flying(run.model, run.plan, body_of(generate_blank(block), aluminium()), name, Vec3::Zero()).boundaries = {foot};
+}
 
 /// A body of two nodes that drifts, and whose nodes swing against each other, some of it fast: w(t) = a cos(omega t) + b cos(100 omega t).
 struct Swinging {
@@ -176,11 +190,7 @@ TEST(Settle, JudgesEachBodyByItself) {
   OneBody both = alone;
   BlankConfig block = strip_of(40e-3, 40e-3, 6, 6);
   block.origin = Vec3(0, -60e-3, 0);
-  add_flying(both.model, both.plan, body_of(generate_blank(block), aluminium()), "heavy", Vec3::Zero());
-  BoundaryConfig foot;
-  foot.set = "bottom";
-  foot.kind = "fixed";
-  both.plan.bodies[1].boundaries = {foot};
+  add_standing(both, block, "heavy");
   PressureConfig pressure;
   pressure.set = "top";
   pressure.times = {0, 1e-4};
@@ -189,10 +199,7 @@ TEST(Settle, JudgesEachBodyByItself) {
   double sags[2];
   for (const bool block_too : {false, true}) {
     auto sim = (block_too ? both : alone).start();
-    while (sim->step()) {}
-    double lowest = 0;
-    for (int n = 0; n < alone.model.bodies[0].node_count; ++n) lowest = std::max(lowest, sim->initial_positions()[n][1] - sim->positions()[n][1]);
-    sags[block_too] = lowest;
+    sags[block_too] = sag_at_rest(*sim);
   }
   std::printf("  sags by %.5g m alone, %.5g m beside the block\n", sags[0], sags[1]);
   EXPECT_NEAR(sags[1], sags[0], .01 * sags[0]);
@@ -207,19 +214,9 @@ TEST(Settle, JudgesATinyBodyBesideAHugeOne) {
   auto alone = run.start();
   BlankConfig block = strip_of(1, 1, 4, 4);
   block.origin = Vec3(.5, 0, 0);
-  add_flying(run.model, run.plan, body_of(generate_blank(block), aluminium()), "huge", Vec3::Zero());
-  BoundaryConfig foot;
-  foot.set = "bottom";
-  foot.kind = "fixed";
-  run.plan.bodies[1].boundaries = {foot};
+  add_standing(run, block, "huge");
   auto beside = run.start();
-  const auto sag_of_strip = [&](Simulation& sim) {
-    while (sim.step()) {}
-    double lowest = 0;
-    for (int n = 0; n < run.model.bodies[0].node_count; ++n) lowest = std::max(lowest, sim.initial_positions()[n][1] - sim.positions()[n][1]);
-    return lowest;
-  };
-  const double expected = sag_of_strip(*alone), found = sag_of_strip(*beside);
+  const double expected = sag_at_rest(*alone), found = sag_at_rest(*beside);
   std::printf("  sags by %.5g m alone, %.5g m beside the block\n", expected, found);
   EXPECT_NEAR(found, expected, .01 * expected);
 }
