@@ -237,6 +237,12 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
     g.pressed = g.pressed_storage.get();
   }
   if (options.shares) keep_shares(x);
+  for (const BodyModel& body : bodies) {
+    if (!body.formed) continue;
+    NodeField standing = x;
+    for (int n = 0; n < body.node_count; ++n) standing[body.first_node + n] = node(body.mesh.nodes[n]);
+    take_up(body, *body.formed, standing);
+  }
 }
 
 constexpr long kEightsOfAThread = 400;  ///< eight simplices each: fewer are not worth another thread

@@ -11,7 +11,7 @@
 #include <fstream>
 
 #include "forming_sim/config/fault.h"
-#include "mesh/read_apart.h"
+#include "files/read_apart.h"
 #include "tool_surface.h"
 
 namespace forming_sim {

@@ -1,53 +1,21 @@
 #include "forming_sim/results/checkpoint.h"
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <sstream>
 
-#include "forming_sim/results/hdf5_file.h"
+#include "forming_sim/files/hdf5_file.h"
 #include "forming_sim/results/version.h"
 #include "forming_sim/scene/yaml.h"
 
 namespace forming_sim {
-namespace {
-
-/// "in contact: 'mu: 0.1' in the checkpoint, 'mu: 0.2' in the scene"; the texts are not those that users wrote, so that their lines say nothing.
-std::string first_difference(const std::string& a, const std::string& b) {
-  std::istringstream first(a), second(b);
-  std::string left, right, part;
-  for (;;) {
-    const bool more_left = bool(std::getline(first, left)), more_right = bool(std::getline(second, right));
-    if (!more_left) left = "(end)";
-    if (!more_right) right = "(end)";
-    if (left != right || (!more_left && !more_right)) return part + "'" + left + "' in the checkpoint, '" + right + "' in the scene";
-    if (left.find_first_of(" -") != 0) part = "in " + left.substr(0, left.find(':')) + ": ";
-  }
-}
-
-}  // namespace
-
 void save_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
-  const std::string temporary = path + ".part";
-  try {
-    Hdf5File file(temporary, Hdf5File::Mode::create);
-    {
-      Hdf5Group root = file.root();
-      root.write_checked("version", checkpoint.version);
-      root.set("time", checkpoint.time);
-      root.set("step", std::int64_t{checkpoint.step});
-      root.write_checked("scene", checkpoint.scene);
-      root.write_checked("record", checkpoint.record);
-      root.write_checked("state", std::string(checkpoint.state.begin(), checkpoint.state.end()));
-    }
-    file.close();
-    if (std::rename(temporary.c_str(), path.c_str()) != 0)
-      throw Error(Code::output_error, "cannot write " + path + ": " + std::strerror(errno));
-  } catch (...) {
-    std::remove(temporary.c_str());
-    throw;
-  }
+  write_whole_file(path, [&](Hdf5Group& root) {
+    root.write_checked("version", checkpoint.version);
+    root.set("time", checkpoint.time);
+    root.set("step", std::int64_t{checkpoint.step});
+    root.write_checked("scene", checkpoint.scene);
+    root.write_checked("record", checkpoint.record);
+    root.write_checked("state", std::string(checkpoint.state.begin(), checkpoint.state.end()));
+  });
 }
 
 Checkpoint load_checkpoint(const std::string& path) {
@@ -81,7 +49,7 @@ void require_same_run(const Checkpoint& checkpoint, const Scene& scene, const st
   const std::string text = write_scene(scene);
   if (checkpoint.scene != text)
     throw Error(Code::resume_error, path + " was written for another scene (" +
-                                        first_difference(checkpoint.scene, text) +
+                                        first_difference(checkpoint.scene, text, "in the checkpoint", "in the scene") +
                                         "); resume with the scene that wrote it");
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // The part of result.h5 that is written once.
 #include "forming_sim/results/frame.h"
-#include "forming_sim/results/hdf5_file.h"
+#include "forming_sim/files/hdf5_file.h"
 
 namespace forming_sim {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "forming_sim/config/fault.h"
-#include "mesh/read_apart.h"
+#include "files/read_apart.h"
 
 namespace forming_sim {
 namespace {

@@ -1,6 +1,7 @@
 #include "forming_sim/results/run_files.h"
 
 #include "forming_sim/results/fields.h"
+#include "forming_sim/results/formed_parts.h"
 #include "forming_sim/results/history.h"
 #include "forming_sim/results/recorder.h"
 #include "forming_sim/results/summary.h"
@@ -22,6 +23,7 @@ RunFiles open_run_files(const Simulation& simulation, const Scene& scene, const 
   add(std::make_unique<Fields>(scene, directory, every.frames, resumed, gauge, record));
   add(std::make_unique<History>(in_directory(directory, "history.csv"), every.history, resumed, gauge, record));
   add(std::make_unique<Checkpoints>(scene, in_directory(directory, "checkpoint.h5"), every.checkpoint, record));
+  if (scene.output.formed) add(std::make_unique<FormedParts>(scene, in_directory(directory, "formed.h5")));
   add(std::make_unique<SummaryFile>(scene, directory, gauge, record));
   return files;
 }

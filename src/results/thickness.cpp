@@ -50,7 +50,8 @@ Thickness::Thickness(const Model& model) {
   NodeField start;
   for (const BodyModel& body : model.bodies) {
     const Mesh& mesh = body.mesh;
-    for (const Vec3& X : mesh.nodes) start.push_back(node(X));
+    const std::vector<Vec3>& reference = body.reference();
+    for (const Vec3& X : reference) start.push_back(node(X));
     const auto top = mesh.sets.find("top"), bottom = mesh.sets.find("bottom");
     if (top == mesh.sets.end() || bottom == mesh.sets.end() || top->second.empty()) continue;
     Sheet sheet;
@@ -67,12 +68,12 @@ Thickness::Thickness(const Model& model) {
     if (sheet.bottom.empty()) continue;
     std::vector<PlacedNode> top_nodes, facets;  // these by their first nodes
     for (int node : top->second) {
-      top_nodes.push_back({mesh.nodes[node], static_cast<int>(sheet.top.size())});
+      top_nodes.push_back({reference[node], static_cast<int>(sheet.top.size())});
       sheet.top.push_back(body.first_node + node);
     }
-    for (std::size_t i = 0; i < sheet.bottom.size(); ++i) facets.push_back({mesh.nodes[sheet.bottom[i][0] - body.first_node], static_cast<int>(i)});
+    for (std::size_t i = 0; i < sheet.bottom.size(); ++i) facets.push_back({reference[sheet.bottom[i][0] - body.first_node], static_cast<int>(i)});
     const NodeTree top_tree(top_nodes.begin(), top_nodes.end()), bottom_tree(facets.begin(), facets.end());
-    for (const Vec3& X : mesh.nodes) sheet.above.push_back(nearest_node(top_tree, X));
+    for (const Vec3& X : reference) sheet.above.push_back(nearest_node(top_tree, X));
     for (const PlacedNode& node : top_nodes) sheet.below.push_back(nearest_node(bottom_tree, node.x));
     for (const PlacedNode& node : top_nodes) sheet.top_start.push_back(node.x);
     for (const PlacedNode& facet : facets) sheet.bottom_start.push_back(facet.x);

@@ -90,7 +90,7 @@ RunSummary read_summary(const std::string& directory) {
 
 std::vector<std::string> run_files(const std::string& directory) {
   std::vector<std::string> files;
-  for (const char* name : {"result.h5", "result.xdmf", "history.csv", "summary.json", "checkpoint.h5"}) {
+  for (const char* name : {"result.h5", "result.xdmf", "history.csv", "summary.json", "checkpoint.h5", "formed.h5"}) {
     if (is_readable_file(directory + "/" + name)) files.emplace_back(name);
   }
   return files;

@@ -16,6 +16,8 @@
 #include "forming_sim/mesh/seams.h"
 #include "forming_sim/mesh/sets.h"
 #include "forming_sim/mesh/sweep.h"
+#include "forming_sim/mesh/trim.h"
+#include "formed_body.h"
 #include "rules.h"
 
 namespace forming_sim {
@@ -108,20 +110,45 @@ void check_velocity_field(const BodyConfig& body, const std::string& path, const
   });
 }
 
-bool make_body(const Scene& scene, std::size_t i, const std::vector<Fault>& known, Mesh& mesh, std::vector<Fault>& faults) {
+/// What is left of a body. A part that falls apart is told.
+bool trim_body(const BodyConfig& body, const std::string& path, Mesh& mesh, std::optional<FormedMemory>& formed, Geometry& geometry) {
+  if (body.trim.empty()) return true;
+  return attempt(path + ".trim", std::to_string(body.trim.size()) + (body.trim.size() == 1 ? " region" : " regions"), geometry.faults, [&] {
+    const Remainder left = find_remainder(mesh, body.trim);
+    mesh = remaining(mesh, left);
+    if (formed) formed = remaining(*formed, left);
+    if (const int pieces = pieces_of(mesh); pieces > 1)
+      geometry.model.notes.push_back("body " + body.name + " is trimmed into " + std::to_string(pieces) + " pieces that have no node in common: what is scrap is to be cut away too, or it goes on as part of the body");
+  });
+}
+
+bool make_body(const Scene& scene, std::size_t i, const std::vector<Fault>& known, Mesh& mesh, std::optional<FormedMemory>& formed, Geometry& geometry) {
+  std::vector<Fault>& faults = geometry.faults;
   const BodyConfig& body = scene.bodies[i];
   const std::string path = body_path(i);
-  const bool one_source = body.blank.has_value() != body.mesh.has_value();
-  if (!one_source || has_faults(known, path + ".blank") || has_faults(known, path + ".mesh")) return false;
-  const std::string source = path + (body.blank ? ".blank" : body.mesh->url.empty() ? ".mesh" : ".mesh.url");
-  const bool made = attempt(source, origin_of(body.mesh, "this blank"), faults, [&] {
-    mesh = body.blank ? generate_blank(*body.blank) : load_body_mesh(*body.mesh, scene.base_directory);
+  const bool one_source = int(body.blank.has_value()) + int(body.mesh.has_value()) + int(body.formed.has_value()) == 1;
+  if (!one_source) return false;
+  for (const char* part : {".blank", ".mesh", ".formed", ".trim", ".material"})
+    if (has_faults(known, path + part) && (body.formed || std::string(part) != ".material")) return false;
+  const std::string source = path + (body.blank ? ".blank" : body.formed ? ".formed.url" : body.mesh->url.empty() ? ".mesh" : ".mesh.url");
+  const std::string origin = body.formed ? given_text(body.formed->url) : origin_of(body.mesh, "this blank");
+  const std::size_t before = faults.size();
+  const bool made = attempt(source, origin, faults, [&] {
+    if (body.formed) {
+      FormedBody part = load_formed_body(scene, body, path, faults, geometry.model.notes);
+      mesh = std::move(part.mesh);
+      formed = std::move(part.memory);
+    } else {
+      mesh = body.blank ? generate_blank(*body.blank) : load_body_mesh(*body.mesh, scene.base_directory);
+    }
+    if (faults.size() > before) return;
     check_volumes(mesh);
     if (scene.axisymmetric && mesh.dimension == 2) close_at_axis(mesh);
   });
-  if (!made) return false;
+  if (!made || faults.size() > before) return false;
+  if (!trim_body(body, path, mesh, formed, geometry)) return false;
   if (mesh.dimension != scene.dimension && (scene.dimension == 2 || scene.dimension == 3)) {
-    faults.push_back({Code::invalid_scene, source, origin_of(body.mesh, "this blank") + ", whose cells have dimension " + std::to_string(mesh.dimension),
+    faults.push_back({Code::invalid_scene, source, origin + ", whose cells have dimension " + std::to_string(mesh.dimension),
                       scene.dimension == 2 ? "give a mesh of triangles or quadrilaterals, or set dimension to 3" : "give a mesh of tetrahedra or hexahedra (bodies are solids: a surface is to be extruded through the thickness), or set dimension to 2"});
     return false;
   }
@@ -198,7 +225,7 @@ void check_springback_nodes(const Scene& scene, const std::vector<Mesh>& bodies,
   check(scene.output.springback->reference_from, scene.output.springback->reference_to, "reference_to");
 }
 
-void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
+void add_body(const BodyConfig& config, Mesh mesh, std::optional<FormedMemory> formed, Model& model) {
   tell_odd_body(config, mesh, model);
   BodyModel body;
   body.name = config.name;
@@ -210,6 +237,7 @@ void add_body(const BodyConfig& config, Mesh mesh, Model& model) {
   body.pressure_average = config.pressure_average;
   body.self_contact = config.self_contact;
   body.mesh = std::move(mesh);
+  body.formed = std::move(formed);
   model.bodies.push_back(std::move(body));
 }
 
@@ -234,8 +262,9 @@ Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known) {
   geometry.model.dimension = scene.dimension;
   geometry.model.axisymmetric = scene.axisymmetric;
   std::vector<Mesh> bodies(scene.bodies.size()), tools(scene.tools.size());
+  std::vector<std::optional<FormedMemory>> formed(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!make_body(scene, i, known, bodies[i], geometry.faults)) bodies[i] = Mesh{};
+    if (!make_body(scene, i, known, bodies[i], formed[i], geometry)) bodies[i] = Mesh{};
     else if (!has_faults(known, body_path(i) + ".sets")) {
       add_sets(scene.bodies[i], body_path(i), bodies[i], geometry.faults);
       check_used_sets(scene.bodies[i], body_path(i), bodies[i], geometry.faults);
@@ -263,7 +292,7 @@ Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known) {
   check_springback_nodes(scene, bodies, known, geometry.faults);
   check_sizes(scene, bodies, tools, geometry.faults, geometry.model.notes);
   if (known.empty()) tell_odd_values(scene, geometry.model.notes);
-  for (std::size_t i = 0; i < bodies.size(); ++i) add_body(scene.bodies[i], std::move(bodies[i]), geometry.model);
+  for (std::size_t i = 0; i < bodies.size(); ++i) add_body(scene.bodies[i], std::move(bodies[i]), std::move(formed[i]), geometry.model);
   for (std::size_t i = 0; i < tools.size(); ++i) add_tool(scene.tools[i], std::move(tools[i]), geometry.model);
   return geometry;
 }

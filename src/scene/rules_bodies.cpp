@@ -41,9 +41,11 @@ void check_times(const std::vector<double>& times, const std::string& path, Faul
 namespace {
 
 void check_source(const BodyConfig& body, const std::string& path, int dimension, FaultList& faults) {
-  if (body.blank.has_value() == body.mesh.has_value()) {
-    faults.add(path, body.blank ? "both blank and mesh" : "neither blank nor mesh", "give exactly one of them");
-  }
+  std::vector<std::string> given;
+  if (body.blank) given.push_back("blank");
+  if (body.mesh) given.push_back("mesh");
+  if (body.formed) given.push_back("formed");
+  if (given.size() != 1) faults.add(path, given.empty() ? "none of blank, mesh and formed" : one_of(given, " and "), "give exactly one of blank, mesh and formed");
   if (body.mesh) check_mesh(*body.mesh, path + ".mesh", dimension, false, faults);
   if (!body.blank) return;
   const BlankConfig& blank = *body.blank;

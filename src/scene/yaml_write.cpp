@@ -1,5 +1,7 @@
 #include <yaml-cpp/yaml.h>
 
+#include <sstream>
+
 #include "forming_sim/config/reflect.h"
 #include "forming_sim/config/words.h"
 #include "forming_sim/scene/yaml.h"
@@ -48,13 +50,28 @@ template <class T> void write(YAML::Emitter& out, const T& value) {
   }
 }
 
-}  // namespace
-
-std::string write_scene(const Scene& scene) {
+template <class Config> std::string text_of(const Config& config) {
   YAML::Emitter out;
   out.SetBoolFormat(YAML::TrueFalseBool);
-  write_config(out, scene);
+  write_config(out, config);
   return std::string(out.c_str()) + "\n";
+}
+
+}  // namespace
+
+std::string write_scene(const Scene& scene) { return text_of(scene); }
+std::string write_material(const MaterialConfig& material) { return text_of(material); }
+
+std::string first_difference(const std::string& one, const std::string& other, const std::string& of_one, const std::string& of_other) {
+  std::istringstream first(one), second(other);
+  std::string left, right, part;
+  for (;;) {
+    const bool more_left = bool(std::getline(first, left)), more_right = bool(std::getline(second, right));
+    if (!more_left) left = "(end)";
+    if (!more_right) right = "(end)";
+    if (left != right || (!more_left && !more_right)) return part + "'" + left + "' " + of_one + ", '" + right + "' " + of_other;
+    if (left.find_first_of(" -") != 0) part = "in " + left.substr(0, left.find(':')) + ": ";
+  }
 }
 
 }  // namespace forming_sim

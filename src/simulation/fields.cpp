@@ -149,6 +149,11 @@ ContactStatus Simulation::contact_status() const {
   return c;
 }
 
+FormedMemory Simulation::memory_of(const BodyModel& body) const {
+  FormedMemory memory = impl_->elements.memory_of(body, impl_->x);
+  memory.reference = body.reference();
+  return memory;
+}
 std::vector<double> Simulation::plastic_strain() const { return impl_->elements.plastic_strain(); }
 std::vector<Sym> Simulation::stress(const std::vector<int>& elements) const { return impl_->elements.stress_of(elements, impl_->x); }
 std::vector<int> Simulation::pressed_cells() const { return impl_->elements.pressed_cells(impl_->x); }
@@ -211,14 +216,14 @@ std::vector<SurfaceStrain> Simulation::surface_strain() const {
   std::vector<SurfaceStrain> strain;
   strain.reserve(s.surface.size());
   for (const Facet& f : s.surface) {
-    const Vec3 A = vec3(s.X[f.nodes[1]] - s.X[f.nodes[0]]), a = vec3(s.x[f.nodes[1]] - s.x[f.nodes[0]]);
+    const Vec3 A = vec3(s.reference[f.nodes[1]] - s.reference[f.nodes[0]]), a = vec3(s.x[f.nodes[1]] - s.x[f.nodes[0]]);
     if (s.model.dimension == 2) {
       const auto middle = [&](const NodeField& at) { return at[f.nodes[0]][0] + at[f.nodes[1]][0]; };
-      const double across = s.model.axisymmetric ? std::log(middle(s.x) / middle(s.X)) : 0;
+      const double across = s.model.axisymmetric ? std::log(middle(s.x) / middle(s.reference)) : 0;
       strain.push_back(in_order(std::log(a.norm() / A.norm()), across));
       continue;
     }
-    const Vec3 B = vec3(s.X[f.nodes[2]] - s.X[f.nodes[0]]), b = vec3(s.x[f.nodes[2]] - s.x[f.nodes[0]]);
+    const Vec3 B = vec3(s.reference[f.nodes[2]] - s.reference[f.nodes[0]]), b = vec3(s.x[f.nodes[2]] - s.x[f.nodes[0]]);
     // C = E^-T (edges now) E^-1 in the facet's initial plane; its eigenvalues are the squares of the stretches,
     // their product that of the areas
     Eigen::Matrix2d initial, now;

@@ -24,6 +24,7 @@ struct Simulation::Impl {
   RunPlan plan;
   Model model;
   NodeField X;                      ///< initial positions
+  NodeField reference;              ///< where the elements were free of stress: X, but of formed parts
   NodeField x, v, v_before;         ///< v at the half step
   NodeField external;               ///< pressure, dead loads and gravity at x, N; empty where there is none
   Elements elements;

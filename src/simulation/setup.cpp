@@ -27,6 +27,13 @@ NodeField initial_positions_of(const Model& model) {
   return x;
 }
 
+NodeField references_of(const Model& model) {
+  NodeField x;
+  for (const BodyModel& body : model.bodies)
+    for (const Vec3& X : body.reference()) x.push_back(node(X));
+  return x;
+}
+
 /// What lies on the axis of symmetry does not move away from it.
 void hold_at_axis(const BodyModel& body, std::vector<ResolvedBoundary>& held) {
   ResolvedBoundary axis;
@@ -64,12 +71,14 @@ WaveBody waves_of(const BodyModel& body, double mass_scaling) {
 }  // namespace
 
 Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
-    : plan(with_limit(p, m)), model(std::move(m)), X(initial_positions_of(model)), x(X),
+    : plan(with_limit(p, m)), model(std::move(m)), X(initial_positions_of(model)), reference(references_of(model)), x(X),
       v(X.size(), Node::Zero()), v_before(v),
-      elements(model.bodies, model.dimension, X,
+      elements(model.bodies, model.dimension, reference,
                {p.time_step.mass_scaling, p.time_step.linear_viscosity, p.time_step.quadratic_viscosity,
                 !by_cells(), model.axisymmetric}, n),
       stages(plan.stages, model), contact_force(X.size(), 0.0), node_impulse(contact_force) {
+  for (BodyModel& body : model.bodies)
+    if (body.formed) body.formed->cells.clear(), body.formed->edges = {};  // the elements have them
   set_up_loads();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     BodyModel& body = model.bodies[b];
@@ -81,7 +90,7 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
   set_up_contact();
   double kinetic = 0;
   for (std::size_t i = 0; i < v.size(); ++i) kinetic += 0.5 * elements.nodal_mass()[i] * v[i].squaredNorm();
-  initial = most = kinetic;
+  initial = most = kinetic + elements.stored_energy(x);  // of a formed part, which is under stress
   for (const Node& n : x) farthest = std::max(farthest, n.cwiseAbs().maxCoeff());
   elements.find_rates(x, v, rates);
   first_element_dt = elements.slowest_cell(rates).dt;

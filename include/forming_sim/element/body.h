@@ -1,7 +1,10 @@
 #pragma once
 // A deformable body as the elements see it.
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "forming_sim/element/formed.h"
 #include "forming_sim/material/config.h"
 #include "forming_sim/mesh/mesh.h"
 
@@ -15,10 +18,14 @@ struct BodyModel {
   MaterialConfig material;
   std::string pressure_average = "cell";     ///< cell | node | element
   bool self_contact = false;                 ///< it meets itself where it folds
-  Mesh mesh;                     ///< its own mesh, nodes numbered from 0; sets hold the named sets of the scene too
+  Mesh mesh;                     ///< its own mesh where it stands at the start, nodes numbered from 0; sets hold the named sets of the scene too
+  std::optional<FormedMemory> formed;        ///< of a part that an earlier run has formed
   // Found by the simulation, which knows the boundaries
   std::vector<char> cut;         ///< cut_facets() of the mesh, by the planes of symmetry that its boundaries make
   double thickness = 0;          ///< thickness_of() it at the start, m
+
+  /// Where its nodes were while it was free of stress, m.
+  const std::vector<Vec3>& reference() const { return formed ? formed->reference : mesh.nodes; }
 };
 
 }  // namespace forming_sim

@@ -50,7 +50,8 @@ struct ElementOptions {
 
 class Elements {
  public:
-  /// x: initial positions in the joined numbering; the memory starts there, free of stress.
+  /// x: initial positions in the joined numbering; the memory starts there, free of stress, but of bodies with BodyModel::formed:
+  /// x holds the places that it names as their reference, and they go on from what it remembers.
   /// kernels: see choose_isa. Throws Error(mesh_error) for a volume that is not positive,
   /// and for a node of an axisymmetric body with x < 0.
   Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x, const ElementOptions& options, int threads,
@@ -112,6 +113,9 @@ class Elements {
   double stored_energy(const NodeField& x, const NodeField* v = nullptr, double since = 0) const;
   double stored_energy_of(const BodyModel& body, const NodeField& x) const;  ///< J, of one body
 
+  /// What the elements of the body remember; x: where they stand. Without FormedMemory::reference.
+  FormedMemory memory_of(const BodyModel& body, const NodeField& x) const;
+
   /// Numbers that the next steps depend on, in a fixed order.
   void append_state(std::vector<double>& to) const;
   const double* read_state(const double* from);
@@ -142,6 +146,12 @@ class Elements {
   std::vector<double> means_over_edges(const Group& g, const std::vector<double>& value, int components) const;
   /// omega_e^2 of element/time_step.h, of all points at edges.
   std::vector<double> edge_rates(const NodalView& view) const;
+  /// Edge vectors of the law of a point at an edge, m, as columns; 2D: the third is e_3, of a ring R e_3.
+  Eigen::Matrix3d point_edges(const Group& g, int point, const NodeField& x) const;
+  std::vector<double> point_ratios(const Group& g, const NodeField& x) const;  ///< V/V0, [point] at edges
+  /// The body goes on from this memory, which was that of its cells at x, and perhaps of more.
+  void take_up(const BodyModel& body, const FormedMemory& memory, const NodeField& x);
+  void take_up_points(const BodyModel& body, const FormedEdges& formed, const NodeField& x, Group& g);
   void keep_shares(const NodeField& X);
   void add_bytes(const Group& group, GroupPlan& plan) const;
   /// Cuts the groups into tiles, gives every node of each tile a slot, and tells the nodes theirs.

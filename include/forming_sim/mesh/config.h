@@ -85,6 +85,42 @@ struct SetConfig {
   }
 };
 
+/// What is cut away from a body: the cells whose middle lies in a region.
+struct TrimConfig {
+  std::string choose;           ///< plane | box | cylinder | sphere
+  Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
+  Vec3 axis = Vec3::Zero();     ///< of a cylinder; zero: z
+  double radius = 0;
+  Vec3 min = Vec3::Zero(), max = Vec3::Zero();
+  bool outside = false;
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(choose), Field().required().choices({"plane", "box", "cylinder", "sphere"}).doc("plane: cut away what lies on the side to which its normal points; box, cylinder (in dimension 2 a circle), sphere: what lies inside"));
+    visit(FORMING_SIM_FIELD(point), Field().unit("m").when("choose", {"plane", "cylinder", "sphere"}).doc("a point of the plane or of the cylinder's axis, the sphere's centre"));
+    visit(FORMING_SIM_FIELD(normal), Field().when("choose", {"plane"}).required().doc("normal of the plane, any length but zero: towards what is cut away"));
+    visit(FORMING_SIM_FIELD(axis), Field().when("choose", {"cylinder"}).computed("[0, 0, 1]").doc("direction of the cylinder's axis, any length; in dimension 2 it is z"));
+    visit(FORMING_SIM_FIELD(radius), Field().unit("m").above(0).required().when("choose", {"cylinder", "sphere"}).doc("radius of the cylinder or sphere"));
+    visit(FORMING_SIM_FIELD(min), Field().unit("m").when("choose", {"box"}).doc("least corner of the box"));
+    visit(FORMING_SIM_FIELD(max), Field().unit("m").when("choose", {"box"}).doc("greatest corner of the box; in dimension 2 z is ignored"));
+    visit(FORMING_SIM_FIELD(outside), Field().when("choose", {"box", "cylinder", "sphere"}).doc("true: cut away what lies outside, and keep what lies inside"));
+  }
+};
+
+/// A part as an earlier run left it.
+struct FormedConfig {
+  std::string url;
+  std::string body;
+  Vec3 turn_deg = Vec3::Zero(), turn_centre = Vec3::Zero(), shift = Vec3::Zero();
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(url), Field().required().doc("file path (relative to the scene file), file:// or package:// URL of the formed.h5 of a run with output.formed"));
+    visit(FORMING_SIM_FIELD(body), Field().computed("the body of the same name, or the only one").doc("which of its bodies"));
+    visit(FORMING_SIM_FIELD(turn_deg), Field().unit("deg").doc("the part is turned by this rotation vector before anything else, as it is put into the next tool; its stresses turn with it"));
+    visit(FORMING_SIM_FIELD(turn_centre), Field().unit("m").doc("the point that this turn leaves where it is"));
+    visit(FORMING_SIM_FIELD(shift), Field().unit("m").doc("then the part is shifted by this"));
+  }
+};
+
 /// One piece of a 2D profile.
 struct ProfilePieceConfig {
   Vec3 to = Vec3::Zero();

@@ -42,6 +42,7 @@ struct OutputConfig {
   int frames = 50;
   double history_interval = 0;
   double checkpoint_interval = 0;
+  bool formed = false;
   std::vector<ProbeConfig> probes;
   std::optional<SpringbackConfig> springback;
 
@@ -50,6 +51,7 @@ struct OutputConfig {
     visit(FORMING_SIM_FIELD(frames), Field().at_least(1).at_most(1e5).doc("frames over the run, where interval is not given"));
     visit(FORMING_SIM_FIELD(history_interval), Field().unit("s").at_least(0).computed("a tenth of interval").doc("simulated time between rows of history.csv"));
     visit(FORMING_SIM_FIELD(checkpoint_interval), Field().unit("s").at_least(0).computed("only on cancel").doc("simulated time between checkpoints"));
+    visit(FORMING_SIM_FIELD(formed), Field().doc("true: the bodies as the run leaves them go into formed.h5, from which a next scene goes on (bodies[].formed): let the tools go and the parts settle first"));
     visit(FORMING_SIM_FIELD(probes), Field().doc("points and sets to follow"));
     visit(FORMING_SIM_FIELD(springback), Field().doc("two probes whose line's angle is reported as formed and as released"));
   }

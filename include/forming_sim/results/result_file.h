@@ -25,7 +25,7 @@
 #include <vector>
 
 #include "forming_sim/results/frame.h"
-#include "forming_sim/results/hdf5_file.h"
+#include "forming_sim/files/hdf5_file.h"
 
 namespace forming_sim {
 

@@ -21,6 +21,8 @@ struct BodyConfig {
   std::string name;
   std::optional<BlankConfig> blank;
   std::optional<MeshConfig> mesh;
+  std::optional<FormedConfig> formed;
+  std::vector<TrimConfig> trim;
   std::string pressure_average = "cell";
   MaterialConfig material;
   bool self_contact = false;
@@ -35,8 +37,10 @@ struct BodyConfig {
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(name), Field().required().doc("name of the body"));
-    visit(FORMING_SIM_FIELD(blank), Field().doc("a body that is meshed here. Give blank or mesh"));
+    visit(FORMING_SIM_FIELD(blank), Field().doc("a body that is meshed here. Give blank, mesh or formed"));
     visit(FORMING_SIM_FIELD(mesh), Field().doc("a body from a volume mesh; its physical groups become sets"));
+    visit(FORMING_SIM_FIELD(formed), Field().doc("a part as an earlier run has left it: its shape, its stresses and what has flowed, at rest; its material and pressure_average are those of then, its sets are kept"));
+    visit(FORMING_SIM_FIELD(trim), Field().doc("what is cut away before the run: the cells whose middle lies in one of these regions; the edge follows the mesh"));
     visit(FORMING_SIM_FIELD(pressure_average), Field().choices({"cell", "node", "element"}).doc("over what the pressure is averaged: cell: one per quadrilateral or hexahedron, and in free triangles and tetrahedra as node; node: one per node, everything else once an edge; element: no average (locks in plastic flow)"));
     visit(FORMING_SIM_FIELD(material), Field().required().doc("what the body is made of"));
     visit(FORMING_SIM_FIELD(self_contact), Field().doc("true: the body meets itself where it folds; contact of bodies with each other is always on"));

@@ -26,6 +26,12 @@ Scene read_scene_file(const std::string& path, std::vector<Fault>& faults);
 /// YAML that reads back to the same scene, without what equals the default.
 std::string write_scene(const Scene& scene);
 
+/// Likewise one material.
+std::string write_material(const MaterialConfig& material);
+
+/// "in contact: 'mu: 0.1' in the checkpoint, 'mu: 0.2' in the scene", of two such texts; their lines are not those that users wrote, so that their numbers say nothing.
+std::string first_difference(const std::string& one, const std::string& other, const std::string& of_one, const std::string& of_other);
+
 /// Appends those of `more` that tell something new: not those of a field whose
 /// own fault, or whose parent's, is known already.
 void merge_faults(std::vector<Fault>& known, const std::vector<Fault>& more);

@@ -88,7 +88,7 @@ class Simulation {
   std::vector<Sym> stress() const;              ///< Cauchy, Pa
   std::vector<Sym> stress(const std::vector<int>& elements) const;  ///< of these alone, in their order
   std::vector<double> volume_ratio() const;     ///< V / V0
-  /// Of each surface facet (same order as surface()): the stretch of the facet itself, hence on the surface; also of those in planes of symmetry.
+  /// Of each surface facet (same order as surface()), since it was free of stress: the stretch of the facet itself, hence on the surface; also of those in planes of symmetry.
   std::vector<SurfaceStrain> surface_strain() const;
 
   /// Normal contact pressure on the surface per node, Pa: the force, a running mean as the tool forces are, over what the node has now
@@ -99,6 +99,9 @@ class Simulation {
   /// The gaps are searched at every call.
   std::vector<double> contact_gap() const;
   const std::vector<double>& contact_slip() const;
+
+  /// What the elements of a body remember, for a next run.
+  FormedMemory memory_of(const BodyModel& body) const;
 
   // ---- checkpoint: every number that the next steps depend on
   std::vector<char> save() const;

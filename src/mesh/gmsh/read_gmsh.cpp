@@ -8,7 +8,7 @@
 
 #include "forming_sim/config/fault.h"
 #include "forming_sim/mesh/cell_order.h"
-#include "mesh/read_apart.h"
+#include "files/read_apart.h"
 #include "mesh/gmsh_reader.h"
 
 namespace forming_sim {

@@ -3,6 +3,7 @@
 // Every function throws Error(output_error) with file, object and reason;
 // nothing is printed by the HDF5 library itself.
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -106,5 +107,8 @@ class Hdf5File {
   std::string path_;
   Hdf5Handle handle_;
 };
+
+/// A file that is the old or the new one, whole, wherever the program is stopped: what `fill` writes goes to a temporary name, which is renamed.
+void write_whole_file(const std::string& path, const std::function<void(Hdf5Group& root)>& fill);
 
 }  // namespace forming_sim

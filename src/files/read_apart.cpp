@@ -1,4 +1,4 @@
-#include "mesh/read_apart.h"
+#include "files/read_apart.h"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -1,4 +1,4 @@
-#include "forming_sim/results/hdf5_error.h"
+#include "forming_sim/files/hdf5_error.h"
 
 #include <hdf5.h>
 

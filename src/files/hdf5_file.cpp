@@ -1,10 +1,14 @@
-#include "forming_sim/results/hdf5_file.h"
+#include "forming_sim/files/hdf5_file.h"
 
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 
-#include "forming_sim/results/hdf5_error.h"
+#include "forming_sim/config/fault.h"
+#include "forming_sim/files/hdf5_error.h"
 
 namespace forming_sim {
 namespace {
@@ -87,6 +91,22 @@ void Hdf5File::forget() {
 void Hdf5File::close() {
   flush();
   handle_ = Hdf5Handle();
+}
+
+void write_whole_file(const std::string& path, const std::function<void(Hdf5Group& root)>& fill) {
+  const std::string temporary = path + ".part";
+  try {
+    Hdf5File file(temporary, Hdf5File::Mode::create);
+    {
+      Hdf5Group root = file.root();
+      fill(root);
+    }
+    file.close();
+    if (std::rename(temporary.c_str(), path.c_str()) != 0) throw Error(Code::output_error, "cannot write " + path + ": " + std::strerror(errno));
+  } catch (...) {
+    std::remove(temporary.c_str());
+    throw;
+  }
 }
 
 }  // namespace forming_sim

@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "forming_sim/config/fault.h"
-#include "forming_sim/results/hdf5_error.h"
-#include "forming_sim/results/hdf5_file.h"
+#include "forming_sim/files/hdf5_error.h"
+#include "forming_sim/files/hdf5_file.h"
 
 namespace forming_sim {
 namespace {

@@ -1,0 +1,27 @@
+#pragma once
+// Cells cut away: those whose middle lies in a region. What is cut is whole cells, so that the edge follows the mesh.
+#include <string>
+#include <vector>
+
+#include "forming_sim/mesh/config.h"
+#include "forming_sim/mesh/mesh.h"
+
+namespace forming_sim {
+
+/// What a cut leaves of a mesh, in its numbering.
+struct Remainder {
+  std::vector<std::vector<int>> cells;  ///< [block of Mesh::cells] its cells that stay, increasing
+  std::vector<int> node;                ///< [node] its new number, -1: it is gone
+};
+
+/// What lies in none of the regions, by the means of the cells' nodes. Throws Error(mesh_error) for a region without
+/// a direction or with exchanged corners, for one in which no cell lies, and where nothing is left.
+Remainder find_remainder(const Mesh& mesh, const std::vector<TrimConfig>& regions);
+
+/// The mesh of it: its nodes in their order, sets without what is gone (empty ones left out), its surface.
+Mesh remaining(const Mesh& mesh, const Remainder& left);
+
+/// Of so many pieces it consists that have no node in common.
+int pieces_of(const Mesh& mesh);
+
+}  // namespace forming_sim

@@ -1,0 +1,98 @@
+#include "forming_sim/mesh/trim.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "forming_sim/config/reflect.h"
+#include "mesh/region.h"
+
+namespace forming_sim {
+
+Remainder find_remainder(const Mesh& mesh, const std::vector<TrimConfig>& regions) {
+  struct Cut {
+    std::function<bool(const Vec3&)> takes;
+    std::string name;
+    bool any = false;
+  };
+  std::vector<Cut> cuts;
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const TrimConfig& region = regions[i];
+    const std::string name = join_path("trim", i) + ": ";
+    const auto distance = distance_from(region, mesh.dimension == 2, name);
+    const bool positive = region.choose == "plane" || region.outside;
+    cuts.push_back({[=](const Vec3& x) { return positive ? distance(x) > 0 : distance(x) < 0; }, name});
+  }
+  Remainder left;
+  left.node.assign(mesh.nodes.size(), -1);
+  std::size_t stay = 0;
+  for (const Cells& block : mesh.cells) {
+    const int size = shape_of(block.kind).nodes;
+    left.cells.emplace_back();
+    for (int cell = 0; cell < block.count(); ++cell) {
+      const int* nodes = &block.nodes[static_cast<std::size_t>(cell) * size];
+      Vec3 middle = Vec3::Zero();
+      for (int a = 0; a < size; ++a) middle += mesh.nodes[nodes[a]] / size;
+      bool gone = false;
+      for (Cut& cut : cuts)
+        if (cut.takes(middle)) gone = cut.any = true;
+      if (gone) continue;
+      left.cells.back().push_back(cell);
+      ++stay;
+      for (int a = 0; a < size; ++a) left.node[nodes[a]] = 0;
+    }
+  }
+  const auto box = bounds(mesh);
+  const std::string extent = "the body extends from " + place(box.min()) + " to " + place(box.max());
+  for (const Cut& cut : cuts)
+    if (!cut.any) throw Error(Code::mesh_error, cut.name + "no cell lies there: " + extent + ", and a cell is cut away where its middle lies in the region; give another place, or leave it out");
+  if (stay == 0) throw Error(Code::mesh_error, "trim: nothing is left: " + extent + ", and all its cells are cut away; turn a normal round, or cut less");
+  int next = 0;
+  for (int& n : left.node)
+    if (n == 0) n = next++;
+  return left;
+}
+
+Mesh remaining(const Mesh& mesh, const Remainder& left) {
+  Mesh rest;
+  rest.dimension = mesh.dimension;
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    if (left.node[n] >= 0) rest.nodes.push_back(mesh.nodes[n]);
+  for (std::size_t b = 0; b < mesh.cells.size(); ++b) {
+    const Cells& block = mesh.cells[b];
+    const int size = shape_of(block.kind).nodes;
+    Cells cells{block.kind, {}};
+    for (int cell : left.cells[b])
+      for (int a = 0; a < size; ++a) cells.nodes.push_back(left.node[block.nodes[static_cast<std::size_t>(cell) * size + a]]);
+    rest.cells.push_back(std::move(cells));
+  }
+  for (const auto& [name, nodes] : mesh.sets) {
+    std::vector<int> kept;
+    for (int n : nodes)
+      if (left.node[n] >= 0) kept.push_back(left.node[n]);
+    if (!kept.empty()) rest.sets[name] = std::move(kept);
+  }
+  find_surface(rest);
+  return rest;
+}
+
+int pieces_of(const Mesh& mesh) {
+  std::vector<int> of(mesh.nodes.size());  // a node of the same piece, in the end the first
+  std::iota(of.begin(), of.end(), 0);
+  const auto first = [&](int n) {
+    while (of[n] != n) n = of[n] = of[of[n]];
+    return n;
+  };
+  for (const Cells& block : mesh.cells) {
+    const int size = shape_of(block.kind).nodes;
+    for (std::size_t at = 0; at < block.nodes.size(); at += size)
+      for (int a = 1; a < size; ++a) {
+        const auto [low, high] = std::minmax({first(block.nodes[at]), first(block.nodes[at + a])});
+        of[high] = low;
+      }
+  }
+  int count = 0;
+  for (std::size_t n = 0; n < of.size(); ++n) count += of[n] == static_cast<int>(n);
+  return count;
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,31 @@
+#include "forming_sim/results/formed_parts.h"
+
+#include "forming_sim/files/formed_file.h"
+#include "forming_sim/scene/yaml.h"
+
+namespace forming_sim {
+
+void FormedParts::on_end(const Simulation& simulation, Code code, const std::string&) {
+  if (code != Code::success && code != Code::limit_reached) return;
+  std::vector<std::string> pressing;
+  const Model& model = simulation.model();
+  for (std::size_t k = 0; k < model.tools.size(); ++k)
+    if (simulation.tools()[k].present && simulation.tools()[k].pressed) pressing.push_back("tool " + model.tools[k].name);
+  std::vector<FormedPart> parts;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    FormedPart part;
+    part.name = body.name;
+    part.material = write_material(scene_.bodies[b].material);
+    part.pressure_average = body.pressure_average;
+    part.axisymmetric = model.axisymmetric;
+    part.held_by = pressing;
+    part.mesh = body.mesh;
+    for (int n = 0; n < body.node_count; ++n) part.mesh.nodes[n] = vec3(simulation.positions()[body.first_node + n]);
+    part.memory = simulation.memory_of(body);
+    parts.push_back(std::move(part));
+  }
+  save_formed(path_, parts);
+}
+
+}  // namespace forming_sim

@@ -1,0 +1,65 @@
+#include "formed_body.h"
+
+#include <algorithm>
+
+#include "forming_sim/config/words.h"
+#include "forming_sim/files/formed_file.h"
+#include "forming_sim/loads/rotation.h"
+#include "forming_sim/mesh/url.h"
+#include "forming_sim/scene/yaml.h"
+#include "rules.h"
+
+namespace forming_sim {
+
+namespace {
+
+/// Its number in the file; a fault where there is none of that name.
+std::size_t find_part(const std::vector<std::string>& names, const BodyConfig& body, const std::string& path, FaultList& faults) {
+  const std::string& wanted = body.formed->body.empty() ? body.name : body.formed->body;
+  const auto found = std::find(names.begin(), names.end(), wanted);
+  if (found == names.end() && body.formed->body.empty() && names.size() == 1) return 0;
+  if (found == names.end()) faults.add(path + ".formed.body", given_text(wanted), "the file has " + one_of(names, " and ") + did_you_mean(wanted, names));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+void check_place(const Scene& scene, const FormedConfig& formed, const std::string& path, FaultList& faults) {
+  const bool flat = scene.dimension == 2;
+  if (scene.axisymmetric && !formed.turn_deg.isZero(0)) faults.add(path + ".turn_deg", given_text(formed.turn_deg), "leave it out: a turned section stays beside its axis; turn the tools round instead");
+  else if (flat && !formed.turn_deg.head<2>().isZero(0)) faults.add(path + ".turn_deg", given_text(formed.turn_deg), "give [0, 0, angle]: a section turns in its plane");
+  if (scene.axisymmetric && formed.shift.x() != 0) faults.add(path + ".shift", given_text(formed.shift), "give [0, y, 0]: a turned section moves along its axis");
+  else if (flat && formed.shift.z() != 0) faults.add(path + ".shift", given_text(formed.shift), "give [x, y, 0]: a section moves in its plane");
+}
+
+void check_kind(const Scene& scene, const BodyConfig& body, const FormedPart& part, const std::string& path, FaultList& faults) {
+  if (part.axisymmetric != scene.axisymmetric && part.mesh.dimension == scene.dimension)
+    faults.add("axisymmetric", scene.axisymmetric ? "true" : "false", std::string("part ") + part.name + " was formed in a scene with axisymmetric: " + (part.axisymmetric ? "true" : "false"));
+  if (const std::string material = write_material(body.material); material != part.material)
+    faults.add(path + ".material", first_difference(part.material, material, "when the part was formed", "now"), "give the material that the part was formed of: what it remembers is of that");
+  if (body.pressure_average != part.pressure_average)
+    faults.add(path + ".pressure_average", given_text(body.pressure_average), "give " + part.pressure_average + ", with which the part was formed");
+}
+
+}  // namespace
+
+FormedBody load_formed_body(const Scene& scene, const BodyConfig& body, const std::string& path, std::vector<Fault>& faults, std::vector<std::string>& notes) {
+  const FormedConfig& formed = *body.formed;
+  FaultList list(faults);
+  const std::size_t before = faults.size();
+  const std::string file = resolve_url(formed.url, scene.base_directory);
+  const std::vector<std::string> names = formed_names(file);
+  const std::size_t which = find_part(names, body, path, list);
+  check_place(scene, formed, path + ".formed", list);
+  if (which == names.size()) return {};
+  FormedPart part = load_formed(file, which);
+  check_kind(scene, body, part, path, list);
+  if (faults.size() > before) return {};
+  const Mat3 rotation = rotation_matrix(kRadiansPerDegree * formed.turn_deg);
+  for (Vec3& x : part.mesh.nodes) x = rotation * (x - formed.turn_centre) + formed.turn_centre + formed.shift;
+  for (Eigen::Matrix3d& edges : part.memory.edges.edges) edges = rotation * edges;
+  if (body.material.law == "classical") turn_stresses(part.memory, part.mesh.dimension, rotation);
+  if (!part.held_by.empty())
+    notes.push_back("body " + body.name + " was still held by " + one_of(part.held_by, " and ") + " when its run ended: what they bore is let go at once here. Let it go and settle there, with a withdraw and a settle stage");
+  return {std::move(part.mesh), std::move(part.memory)};
+}
+
+}  // namespace forming_sim
