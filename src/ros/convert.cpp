@@ -117,12 +117,13 @@ bool is_relative(const std::string& url) {
   return !url.empty() && url.find("://") == std::string::npos && url.front() != '/';
 }
 
-template <class Function> void for_each_mesh(Scene& scene, Function&& function) {
+template <class Function> void for_each_url(Scene& scene, Function&& function) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (scene.bodies[i].mesh) function(join_path("bodies", i), *scene.bodies[i].mesh);
+    if (scene.bodies[i].mesh) function(join_path("bodies", i) + ".mesh.url", scene.bodies[i].mesh->url);
+    if (scene.bodies[i].formed) function(join_path("bodies", i) + ".formed.url", scene.bodies[i].formed->url);
   }
   for (std::size_t i = 0; i < scene.tools.size(); ++i) {
-    if (scene.tools[i].mesh) function(join_path("tools", i), *scene.tools[i].mesh);
+    if (scene.tools[i].mesh) function(join_path("tools", i) + ".mesh.url", scene.tools[i].mesh->url);
   }
 }
 
@@ -137,9 +138,9 @@ SceneSpec scene_message(const Scene& scene) {
 Scene scene_from(const SceneSpec& message, std::vector<Fault>& faults) {
   Scene scene;
   read(message, scene, "", faults);
-  for_each_mesh(scene, [&](const std::string& path, const MeshConfig& mesh) {
-    if (!is_relative(mesh.url)) return;
-    faults.push_back({Code::invalid_scene, path + ".mesh.url", given_text(mesh.url),
+  for_each_url(scene, [&](const std::string& path, const std::string& url) {
+    if (!is_relative(url)) return;
+    faults.push_back({Code::invalid_scene, path, given_text(url),
                       "give a file:// URL, a package:// URL or an absolute path: a goal has no directory of its own"});
   });
   return scene;
@@ -159,10 +160,10 @@ std::vector<SceneFault> fault_messages(const std::vector<Fault>& faults) {
 }
 
 void make_urls_absolute(Scene& scene) {
-  for_each_mesh(scene, [&](const std::string&, MeshConfig& mesh) {
-    if (!is_relative(mesh.url)) return;
-    const std::filesystem::path path = std::filesystem::absolute(scene.base_directory) / mesh.url;
-    mesh.url = "file://" + path.lexically_normal().string();
+  for_each_url(scene, [&](const std::string&, std::string& url) {
+    if (!is_relative(url)) return;
+    const std::filesystem::path path = std::filesystem::absolute(scene.base_directory) / url;
+    url = "file://" + path.lexically_normal().string();
   });
 }
 

@@ -22,14 +22,6 @@ std::size_t find_part(const std::vector<std::string>& names, const BodyConfig& b
   return static_cast<std::size_t>(found - names.begin());
 }
 
-void check_place(const Scene& scene, const FormedConfig& formed, const std::string& path, FaultList& faults) {
-  const bool flat = scene.dimension == 2;
-  if (scene.axisymmetric && !formed.turn_deg.isZero(0)) faults.add(path + ".turn_deg", given_text(formed.turn_deg), "leave it out: a turned section stays beside its axis; turn the tools round instead");
-  else if (flat && !formed.turn_deg.head<2>().isZero(0)) faults.add(path + ".turn_deg", given_text(formed.turn_deg), "give [0, 0, angle]: a section turns in its plane");
-  if (scene.axisymmetric && formed.shift.x() != 0) faults.add(path + ".shift", given_text(formed.shift), "give [0, y, 0]: a turned section moves along its axis");
-  else if (flat && formed.shift.z() != 0) faults.add(path + ".shift", given_text(formed.shift), "give [x, y, 0]: a section moves in its plane");
-}
-
 void check_kind(const Scene& scene, const BodyConfig& body, const FormedPart& part, const std::string& path, FaultList& faults) {
   if (part.axisymmetric != scene.axisymmetric && part.mesh.dimension == scene.dimension)
     faults.add("axisymmetric", scene.axisymmetric ? "true" : "false", std::string("part ") + part.name + " was formed in a scene with axisymmetric: " + (part.axisymmetric ? "true" : "false"));
@@ -48,7 +40,6 @@ FormedBody load_formed_body(const Scene& scene, const BodyConfig& body, const st
   const std::string file = resolve_url(formed.url, scene.base_directory);
   const std::vector<std::string> names = formed_names(file);
   const std::size_t which = find_part(names, body, path, list);
-  check_place(scene, formed, path + ".formed", list);
   if (which == names.size()) return {};
   FormedPart part = load_formed(file, which);
   check_kind(scene, body, part, path, list);

@@ -29,6 +29,8 @@ void check_output(const Scene& scene, FaultList& faults);
 
 /// One mesh of a body or a tool: url or points, and cells that fit them.
 void check_mesh(const MeshConfig& mesh, const std::string& path, int dimension, bool of_a_tool, FaultList& faults);
+/// A part of an earlier run.
+void check_formed(const FormedConfig& formed, const std::string& path, FaultList& faults);
 /// Cells of a generated blank, as simplices.
 double simplices_of(const BlankConfig& blank);
 

@@ -43,6 +43,10 @@ void check_axisymmetric(const Scene& scene, FaultList& faults) {
     const BodyConfig& body = scene.bodies[i];
     rules.along_axis(body.initial_velocity, body_path(i) + ".initial_velocity");
     rules.no_turn(body.initial_spin_deg_s, body_path(i) + ".initial_spin_deg_s");
+    if (body.formed) {
+      rules.along_axis(body.formed->shift, body_path(i) + ".formed.shift", "give [0, y, 0]: a ring is shifted along its axis");
+      if (!body.formed->turn_deg.isZero(0)) faults.add(body_path(i) + ".formed.turn_deg", given_text(body.formed->turn_deg), "leave it out, and turn the tools over instead: a section stays beside its axis");
+    }
     for (std::size_t k = 0; k < body.boundaries.size(); ++k)
       faults.each(body.boundaries[k].spins_deg_s, [&](std::size_t n) {
         rules.no_turn(body.boundaries[k].spins_deg_s[n], join_path(join_path(body_path(i) + ".boundaries", k) + ".spins_deg_s", n));

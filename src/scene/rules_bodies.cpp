@@ -47,6 +47,7 @@ void check_source(const BodyConfig& body, const std::string& path, int dimension
   if (body.formed) given.push_back("formed");
   if (given.size() != 1) faults.add(path, given.empty() ? "none of blank, mesh and formed" : one_of(given, " and "), "give exactly one of blank, mesh and formed");
   if (body.mesh) check_mesh(*body.mesh, path + ".mesh", dimension, false, faults);
+  if (body.formed) check_formed(*body.formed, path + ".formed", faults);
   if (!body.blank) return;
   const BlankConfig& blank = *body.blank;
   const bool flat = blank.shape == "strip";

@@ -20,11 +20,13 @@ const std::map<std::string, int>& corners_of_cells() {
   return corners;
 }
 
+void check_ending(const std::string& url, const std::string& path, const std::vector<std::string>& endings, const char* what, FaultList& faults) {
+  if (std::find(endings.begin(), endings.end(), ending_of(url)) == endings.end()) faults.add(path + ".url", given_text(url), "give a file that ends in " + one_of(endings) + ": " + what);
+}
+
 void check_url(const MeshConfig& mesh, const std::string& path, bool of_a_tool, FaultList& faults) {
-  const std::vector<std::string> endings = of_a_tool ? std::vector<std::string>{".stl", ".obj", ".ply", ".dae"} : std::vector<std::string>{".msh"};
-  if (std::find(endings.begin(), endings.end(), ending_of(mesh.url)) == endings.end()) {
-    faults.add(path + ".url", given_text(mesh.url), "give a file that ends in " + one_of(endings) + (of_a_tool ? ": the surface of a tool" : ": the volume mesh of a body"));
-  }
+  if (of_a_tool) check_ending(mesh.url, path, {".stl", ".obj", ".ply", ".dae"}, "the surface of a tool", faults);
+  else check_ending(mesh.url, path, {".msh"}, "the volume mesh of a body", faults);
   if (!mesh.cells.empty()) faults.add(path + ".cells", given_text(mesh.cells), "leave it out: cells belong to inline points, and a url is given");
   if (!mesh.cell_type.empty()) faults.add(path + ".cell_type", given_text(mesh.cell_type), "leave it out: it belongs to inline points, and a url is given");
 }
@@ -62,6 +64,11 @@ void check_mesh(const MeshConfig& mesh, const std::string& path, int dimension, 
   } else {
     check_cells(mesh, path, dimension, of_a_tool, faults);
   }
+}
+
+void check_formed(const FormedConfig& formed, const std::string& path, FaultList& faults) {
+  if (!formed.url.empty()) check_ending(formed.url, path, {".h5"}, "the formed.h5 of a run with output.formed", faults);
+  if (formed.turn_deg.isZero(0) && !formed.turn_centre.isZero(0)) faults.add(path + ".turn_centre", given_text(formed.turn_centre), "leave it out: without turn_deg nothing turns about it");
 }
 
 double simplices_of(const BlankConfig& blank) {

@@ -125,6 +125,26 @@ A run is a list of stages. Times of motions, boundaries, pressures and loads cou
 Slow processes are simulated faster than they are: give the tools speeds of some m/s, or scale the mass, and judge
 what it costs by kinetic over internal energy in `summary.json`, which should stay below a few percent.
 
+## Several operations
+
+Operations that follow each other in one tool are stages of one scene. Where a part goes into another tool or is trimmed on the way, a scene with
+`output: {formed: true}` leaves its bodies in `formed.h5` when it has come to its end, and the next one takes them from there:
+
+```yaml
+bodies:
+  - name: blank
+    formed: {url: cup/formed.h5}                     # shape, stresses, plastic strain, memory of the blank
+    trim:                                            # cells whose middle lies there are cut away
+      - {choose: plane, point: [24e-3, 0, 0], normal: [1, 0, 0]}
+    material: ...                                    # the one that it was formed of
+```
+
+Elements, layers and sets go on as they are, at rest; `turn_deg` and `shift` put the part as it goes into the next tool, with its
+stresses. Thickness, thinning and surface strain count from the blank, displacements, energies and plastic work from the start of the scene;
+sets, boundaries, probes and cuts are chosen where the part stands. What a cut sets free comes to rest in a `settle` stage: the springback of trimming. A cut
+goes along cells, so that a mesh with an edge where the trim line will be cuts cleanest. Let the tools go and the part settle before it is
+kept: what still holds it would be gone at once. `trim` cuts blanks and meshes too.
+
 ## What a run writes
 
 Into the directory of `--output`:
@@ -135,6 +155,7 @@ Into the directory of `--output`:
 | `result.xdmf` | opens `result.h5` in ParaView and VTK |
 | `history.csv` | a row per `history_interval`: time, energies, for every tool its force, place and moment about its place, extremes, and for every probe its position, velocity and mean stress (xx yy zz xy yz zx), where boundaries hold or drive it the force and moment that they push with; the first line names the columns, with units |
 | `summary.json` | the result in figures |
+| `formed.h5` | with `output.formed`: the bodies as the run leaves them, for a next scene |
 
 A checkpoint is written when a run is cancelled, and every `checkpoint_interval` if that is given;
 `forming_offline SCENE --output DIR --resume CHECKPOINT` goes on from there to the same numbers as an unbroken run.

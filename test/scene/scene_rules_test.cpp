@@ -25,7 +25,7 @@ TEST(SceneRules, NamesAreThereOnce) {
 
 TEST(SceneRules, BodiesHaveOneSource) {
   const std::string text = minimal_example();
-  expect_fault(replaced(text, "    material:", "    mesh: {url: a.msh, unit_scale: 1}\n    material:"), "bodies[0]", "both blank and mesh");
+  expect_fault(replaced(text, "    material:", "    mesh: {url: a.msh, unit_scale: 1}\n    material:"), "bodies[0]", "blank and mesh");
   Scene scene = scene_of(text);
   scene.bodies[0].blank.reset();
   const auto faults = check_scene(scene);
