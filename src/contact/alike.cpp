@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <cstdint>
 
 #include "forming_sim/contact/closest.h"
 
@@ -46,16 +46,35 @@ void hand_over(ContactPair& from, ContactPair& to, std::vector<Rub>& rubs) {
 
 }  // namespace
 
-void join_alike(const Workspace& work, LargeArray<ContactPair>& pairs, std::vector<Rub>& rubs) {
+AlikePairs::First& AlikePairs::first_of(int vertex, int edge) {
+  const std::uint64_t hash = (static_cast<std::uint64_t>(vertex) << 32 | static_cast<std::uint32_t>(edge)) * 0x9e3779b97f4a7c15u;
+  std::size_t at = static_cast<std::size_t>(hash >> 32) & (table_.size() - 1);
+  while (table_[at].pair && (table_[at].vertex != vertex || table_[at].edge != edge)) at = (at + 1) & (table_.size() - 1);
+  return table_[at];
+}
+
+void AlikePairs::join(const Workspace& work, LargeArray<ContactPair>& pairs, std::vector<Rub>& rubs) {
   const auto edges = std::partition_point(pairs.begin(), pairs.end(), [](const ContactPair& p) { return p.key.kind() != PairKey::edge_edge; });
-  std::map<std::pair<int, int>, ContactPair*> first;  // pair of two edges, by the vertex at which one ends and the other edge
+  const auto ends = [](const ContactPair& pair, int k) { return std::abs(pair.weight[k]) >= 1 - kAtEnd; };
+  std::size_t count = 0;
+  for (auto pair = edges; pair != pairs.end(); ++pair)
+    for (int k = 0; k < 4; ++k) count += ends(*pair, k);
+  if (count == 0) return;
+  std::size_t size = 16;
+  while (size < 2 * count) size *= 2;
+  table_.assign(size, First());
   for (auto pair = edges; pair != pairs.end(); ++pair)
     for (int k = 0; k < 4; ++k) {
-      if (std::abs(pair->weight[k]) < 1 - kAtEnd) continue;
+      if (!ends(*pair, k)) continue;
       const int vertex = work.vertex[pair->node[k]], edge = k < 2 ? pair->key.second() : pair->key.first();
       const PairKey key = PairKey::make(PairKey::vertex_facet, vertex, Closest::edge, edge);
       const auto of_vertex = std::lower_bound(pairs.begin(), edges, key, [](const ContactPair& p, const PairKey& sought) { return p.key < sought; });
-      ContactPair* other = of_vertex != edges && of_vertex->key == key ? &*of_vertex : first.try_emplace({vertex, edge}, &*pair).first->second;
+      ContactPair* other = of_vertex != edges && of_vertex->key == key ? &*of_vertex : nullptr;
+      if (!other) {
+        First& first = first_of(vertex, edge);
+        if (!first.pair) first = {vertex, edge, &*pair};
+        other = first.pair;
+      }
       if (other == &*pair || !are_alike(*other, *pair)) continue;
       hand_over(*pair, *other, rubs);
       break;

@@ -8,12 +8,6 @@
 
 namespace forming_sim {
 
-Books::Books(const Workspace& work, const std::vector<Rub>& rubs, int bodies, int tools, ContactStep& step)
-    : work_(work), rubs_(rubs), bodies_(bodies), step_(step) {
-  step.tool_impulse.assign(tools, Vec3::Zero());
-  step.tool_angular_impulse.assign(tools, Vec3::Zero());
-}
-
 template <class AnyLink> Node Books::book(const AnyLink& link, int tool, const Node& impulse) {
   for (int k = 0; k < link.nodes; ++k) {
     const int n = link.node[k];
@@ -33,9 +27,8 @@ template <class AnyLink> Node Books::book(const AnyLink& link, int tool, const N
 
 void Books::add(const TiePair& tie) { normal_ += dot3(tie.impulse, book(tie, tie.tool, tie.impulse)); }
 
-void Books::add(const Books& share) {
-  normal_ += share.normal_;
-  const ContactStep& more = share.step_;
+void Books::add(const ContactStep& more, double normal_work) {
+  normal_ += normal_work;
   step_.active += more.active;
   step_.friction_work += more.friction_work;
   step_.tool_work += more.tool_work;

@@ -76,20 +76,19 @@ void Contact::set_masses(const std::vector<double>& inverse_mass, const std::vec
   impl_->listed = false;
 }
 
-ContactStep Contact::advance(double time, double dt, NodeField& x, NodeField& v, NodeField& v_before, const Predict& predict, const Move& move, const ToolsAt& tools_at, double full_dt, double damping) {
+const ContactStep& Contact::advance(double time, double dt, NodeField& x, NodeField& v, NodeField& v_before, const Predict& predict, const Move& move, const ToolsAt& tools_at, double full_dt, double damping) {
   Impl& m = *impl_;
   m.damping = damping;
   v_before.resize(x.size());
-  ContactStep step;
+  m.step.begin(m.tools.names.size());
   switch (m.method) {
-    case Impl::Method::implicit: step = m.advance_implicit(time, dt, std::max(dt, full_dt), x, v, v_before, predict, move, tools_at); break;
-    case Impl::Method::explicit_mild: step = m.advance_explicit(time, dt, x, v, v_before, predict, move, tools_at); break;
-    case Impl::Method::geometric: step = m.advance_geometric(dt, x, v, v_before, predict, move, tools_at); break;
+    case Impl::Method::implicit: m.advance_implicit(time, dt, std::max(dt, full_dt), x, v, v_before, predict, move, tools_at); break;
+    case Impl::Method::explicit_mild: m.advance_explicit(time, dt, x, v, v_before, predict, move, tools_at); break;
+    case Impl::Method::geometric: m.advance_geometric(dt, x, v, v_before, predict, move, tools_at); break;
   }
-  step.tool_push.resize(m.tools.names.size());
-  m.previous_dt = step.dt;
-  m.previous_motion = tools_at(step.dt);
-  return step;
+  m.previous_dt = m.step.dt;
+  tools_at(m.step.dt, m.previous_motion);
+  return m.step;
 }
 
 void Contact::Impl::end(double dt, const Move& move, NodeField& x, NodeField& v, NodeField& v_star) {
@@ -100,7 +99,7 @@ void Contact::Impl::end(double dt, const Move& move, NodeField& x, NodeField& v,
   move(dt, v, x);
 }
 
-void Contact::Impl::follow_steady_motion(double dt, const std::vector<ToolMotion>& motion, const NodeField& x, const NodeField& before, const NodeField& v) {
+void Contact::Impl::follow_steady_motion(double dt, const NodeField& x, const NodeField& before, const NodeField& v) {
   if (!waves.any()) return;
   const auto rubs = [](const ContactPair& pair) { return pair.rub >= 0 && pair.impulse != 0; };
   place_pressed.assign(work.body_entries, -1);
@@ -145,7 +144,7 @@ void Contact::Impl::follow_steady_motion(double dt, const std::vector<ToolMotion
   waves.follow(team, dt, previous_dt > 0 ? previous_dt : dt, x, before, v, pressed);
 }
 
-Books Contact::Impl::open_books(ContactStep& step) {
+Books Contact::Impl::open_books() {
   add_slip(step.dt);
   Books books = empty_books(step);
   for (const TiePair& tie : tie_pairs) books.add(tie);
@@ -212,6 +211,18 @@ std::set<std::pair<int, int>> Contact::bodies_that_hold_each_other() const {
   for (const ContactPair& pair : impl_->near.pairs)
     if (pair.impulse > 0) hold(pair.own, pair.surface);
   return all;
+}
+
+std::vector<int> Contact::tools_on(int body) const {
+  const Features& f = impl_->features;
+  std::set<int> found;
+  for (const ContactPair& pair : impl_->near.pairs)
+    if (const int tool = pair.tool(f.bodies); tool >= 0 && pair.impulse > 0 && std::min(pair.own, pair.surface) == body) found.insert(tool);
+  for (const TiePair& tie : impl_->tie_pairs)
+    if (tie.tool >= 0)
+      for (int k = 0; k < tie.nodes; ++k)
+        if (const int n = tie.node[k]; n < impl_->work.body_entries && f.vertex_surface[impl_->work.vertex[n]] == body) found.insert(tie.tool);
+  return {found.begin(), found.end()};
 }
 
 bool Contact::ties() const { return !impl_->ties.empty(); }

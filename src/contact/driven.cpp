@@ -16,18 +16,19 @@ double on_tool(const Link& link, const Workspace& work) {
 }
 }  // namespace
 
-std::vector<DrivenTool> Contact::Impl::driven_tools(const std::vector<ToolMotion>& motion, double dt) const {
-  std::vector<DrivenTool> driven;
+void Contact::Impl::find_driven_tools(double dt) {
+  size_t count = 0;
   for (size_t t = 0; t < motion.size(); ++t) {
     if (motion[t].inverse_mass == 0 || !motion[t].present) continue;
-    DrivenTool tool;
+    if (driven.size() == count) driven.emplace_back();
+    DrivenTool& tool = driven[count++];
+    tool.push = 0;
     tool.tool = static_cast<int>(t);
     tool.guide = node(motion[t].guide);
     tool.inverse_mass = motion[t].inverse_mass;
     tool.speed = (motion[t].position1 - motion[t].position0).dot(motion[t].guide) / dt;
-    driven.push_back(tool);
   }
-  return driven;
+  driven.resize(count);
 }
 
 void Contact::Impl::gather_driven(DrivenTool& tool) const {

@@ -72,10 +72,10 @@ double stable_step(const PowerLaw& law, const Workspace& work, const LargeArray<
 
 }  // namespace
 
-ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at) {
-  const std::vector<ToolMotion> motion = tools_at(dt);
+void Contact::Impl::advance_explicit(double time, double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at) {
+  tools_at(dt, motion);
   predict(dt, v_star);
-  const double tool_way = step_way(motion, x), predicted = both * fastest(v_star) * dt + tool_way;
+  const double tool_way = step_way(x), predicted = both * fastest(v_star) * dt + tool_way;
   const double reach = layer + predicted;  // also those that come into the layer in this step
   const auto check = [&](double way) {
     if (way <= both * features.mean_edge + tool_way) return;
@@ -86,13 +86,13 @@ ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x
   };
   check(predicted);
   near.clear();
-  ensure_list(x, motion, reach, 2 * predicted);
+  ensure_list(x, reach, 2 * predicted);
   const PowerLaw law{config.exponent, layer};
   const double kick = 0.5 * (previous_dt + dt);
   double way = predicted;
   if (list.size() > 0) {
-    const std::vector<PlanePose> planes = tools.planes(motion);
-    gather(x, v, v_star, dt, motion, planes);
+    tools.place_planes(motion, planes);
+    gather(x, v, v_star, dt);
     const Range range{reach, 0, travel, layer};
     // ---- pairs; a plane repels from both its sides, as a surface does
     if (config.pairing == "node_node") {
@@ -133,9 +133,8 @@ ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x
   moved_by(way);
   end(dt, move, x, v, v_star);
 
-  ContactStep step;
   step.dt = dt;
-  Books books = open_books(step);
+  Books books = open_books();
   for (const ContactPair& pair : near.pairs) {
     books.add(pair);
     step.min_gap_over_layer = std::min(step.min_gap_over_layer, pair.gap / layer);
@@ -143,7 +142,6 @@ ContactStep Contact::Impl::advance_explicit(double time, double dt, NodeField& x
     step.potential += law.potential(std::max(middle, 1e-12 * layer), pair.stiffness);
   }
   step.stable_dt = stable_step(law, work, near.pairs, sum);
-  return step;
 }
 
 }  // namespace forming_sim

@@ -80,23 +80,24 @@ void Contact::Impl::put_back(ContactPair pair) {
   near.pairs.push_back(pair);
 }
 
-ContactStep Contact::Impl::advance_geometric(double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at) {
-  std::vector<ToolMotion> motion = tools_at(dt);
+void Contact::Impl::advance_geometric(double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at) {
+  tools_at(dt, motion);
   predict(dt, v_star);
-  const double tool_way = step_way(motion, x), predicted = both * fastest(v_star) * dt + tool_way;
+  const double tool_way = step_way(x), predicted = both * fastest(v_star) * dt + tool_way;
   const double deepest = layer + 2 * predicted;
   near = Narrow();
-  ensure_list(x, motion, deepest, 2 * predicted);
+  ensure_list(x, deepest, 2 * predicted);
   double way = predicted;
   if (list.size() > 0) {
-    gather(x, v, v_star, dt, motion, tools.planes(motion));
+    tools.place_planes(motion, planes);
+    gather(x, v, v_star, dt);
     // ---- the predicted move of bodies and tools
     for (size_t i = 0; i < work.x.size(); ++i) work.x[i] += dt * work.v[i];
     for (ToolMotion& m : motion) {
       m.position0 = m.position1;
       m.rotation0 = m.rotation1;
     }
-    const std::vector<PlanePose> planes = tools.planes(motion);
+    tools.place_planes(motion, planes);
     // ---- corrections
     enum { first_body, second_body, tool };
     for (int pass : {first_body, second_body, tool})
@@ -122,15 +123,13 @@ ContactStep Contact::Impl::advance_geometric(double dt, NodeField& x, NodeField&
   if (!near.pairs.empty())
     for (int i = 0; i < work.body_entries; ++i) x[work.vertex[i]] = work.x[i];
 
-  ContactStep step;
   step.dt = dt;
-  Books books = open_books(step);
+  Books books = open_books();
   for (const ContactPair& pair : near.pairs) {
     books.add(pair);
     step.min_gap_over_layer = std::min(step.min_gap_over_layer, dot3(pair.normal, relative(pair, work.x)) / layer);
   }
   step.dissipated = -books.normal_work();
-  return step;
 }
 
 }  // namespace forming_sim

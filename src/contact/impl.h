@@ -2,9 +2,11 @@
 // What a Contact holds, and the parts of a step that its methods share.
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "forming_sim/contact/alike.h"
 #include "forming_sim/contact/books.h"
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/contact.h"
@@ -61,6 +63,9 @@ struct Contact::Impl {
   NearList list;
   Workspace work;
   std::vector<TiePair> tie_pairs;
+  std::vector<TiePair> doubled;            ///< ties that hold what is held already (take_out_doubled), and do nothing
+  std::set<std::pair<int, int>> parted_told;  ///< surfaces of those of them that have parted, as has been told
+  std::size_t feet = 0;                    ///< of planes and of ties, the last entries of the workspace
   bool listed = false;
   long builds = 0;
   double travel = 0;        ///< bound on relative motion since the list was built (never falls)
@@ -69,7 +74,20 @@ struct Contact::Impl {
   ContactTimes* times = nullptr;
   NodeField x_at_build;     ///< of the bodies' surface vertices, in their order
   std::vector<ToolMotion> motion_at_build;
-  // ---- scratch
+  // ---- the running step, and scratch that keeps its memory from step to step
+  ContactStep step;
+  std::vector<ToolMotion> motion;
+  std::vector<PlanePose> planes;
+  std::vector<DrivenTool> driven;
+  /// Pairs that are booked together, by one thread.
+  struct Chunk {
+    ContactStep step;
+    RelaxedPotential end;
+    double normal_work, start, thickest;
+    long kept;  ///< records, at the place of the chunk's first pair
+  };
+  std::vector<Chunk> chunks;
+  AlikePairs alike;
   Narrow near;
   Sweeps sweeps;
   PairRecords tried;  ///< pairs of the last attempt at this step that failed
@@ -81,14 +99,16 @@ struct Contact::Impl {
   // search.cpp
   double fastest(const NodeField& v) const;
   /// Largest way in the step of any point of the present tools that go as they are told, m.
-  double step_way(const std::vector<ToolMotion>& motion, const NodeField& x) const;
+  double step_way(const NodeField& x) const;
   /// Throws Error(contact_error) where a body vertex, or this reach, is farther than numbers go.
   void check_reach(const NodeField& x, double radius) const;
   /// A list that holds every pair of features nearer than `reach`.
-  void ensure_list(const NodeField& x, const std::vector<ToolMotion>& motion, double reach, double step_bound);
+  void ensure_list(const NodeField& x, double reach, double step_bound);
+  void link_ties();
+  void tell_parted_ties();
   void set_inertia(double wanted);
   /// Into the workspace: x at the start, v_star, v before the kick (of tools: over the step before).
-  void gather(const NodeField& x, const NodeField& v, const NodeField& v_star, double dt, const std::vector<ToolMotion>& motion, const std::vector<PlanePose>& planes);
+  void gather(const NodeField& x, const NodeField& v, const NodeField& v_star, double dt);
   PairConstants constants() const { return {features, work, modulus, layer, &waves}; }
   /// Counts `way` of relative motion towards the list's margin.
   void moved_by(double way);
@@ -96,10 +116,10 @@ struct Contact::Impl {
   // contact.cpp
   /// Velocities back from the workspace, their means for the books, and x + dt v; v and v_star change places.
   void end(double dt, const Move& move, NodeField& x, NodeField& v, NodeField& v_star);
-  /// Adds the slip of the step (step.dt: the step taken) to the nodes', and books the ties; the
+  /// Those of the step, to whose nodes it adds its slip (step.dt: the step taken), with the ties booked; the
   /// caller adds the pairs.
-  Books open_books(ContactStep& step);
-  Books empty_books(ContactStep& step) const { return Books(work, near.rubs, features.bodies, static_cast<int>(tools.names.size()), step); }
+  Books open_books();
+  Books empty_books(ContactStep& of) const { return Books(work, near.rubs, features.bodies, of); }
 
   /// Of a pair in the last step, along its normal and along the surfaces, N s.
   Node impulse_of(const ContactPair& pair) const {
@@ -107,7 +127,7 @@ struct Contact::Impl {
     return pair.rub < 0 || pair.impulse == 0 ? along : Node(along + near.rubs[pair.rub].slip);
   }
   /// What of the bodies' motion lasts, after a step from `before` to v.
-  void follow_steady_motion(double dt, const std::vector<ToolMotion>& motion, const NodeField& x, const NodeField& before, const NodeField& v);
+  void follow_steady_motion(double dt, const NodeField& x, const NodeField& before, const NodeField& v);
 
   // surface_fields.cpp
   /// Adds to the slip of every node that rubs what its pairs slid in the step,
@@ -115,9 +135,9 @@ struct Contact::Impl {
   void add_slip(double dt);
 
   // One file each; v_star: memory for the velocities after the kick, afterwards those before it.
-  ContactStep advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at);
-  ContactStep advance_explicit(double time, double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at);
-  ContactStep advance_geometric(double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at);
+  void advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at);
+  void advance_explicit(double time, double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at);
+  void advance_geometric(double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at);
 
   // geometric.cpp
   /// Sides of the bodies' facets, borders of open surfaces.
@@ -130,12 +150,12 @@ struct Contact::Impl {
 
   // driven.cpp
   /// Those of the present tools that forces drive, and what is of each in the step that has been gathered.
-  std::vector<DrivenTool> driven_tools(const std::vector<ToolMotion>& motion, double dt) const;
+  void find_driven_tools(double dt);
   void gather_driven(DrivenTool& tool) const;
 
   // implicit.cpp
   /// Books the pairs of a step that was taken, lets their layers grow, keeps their records.
-  void close_books(ContactStep& step);
+  void close_books();
   bool touches(double dt, const ClosePair& close) const;
   bool pushed_in(double dt) const;
   int first_touch(double dt);
@@ -147,7 +167,7 @@ struct Contact::Impl {
   [[noreturn]] void give_up(double time, double dt, int touch) const;
 
  private:
-  template <class From, class To> double farthest(const std::vector<ToolMotion>& motion, const NodeField& x, From&& from, To&& to) const;
+  template <class From, class To> double farthest(const NodeField& x, From&& from, To&& to) const;
 };
 
 }  // namespace forming_sim

@@ -2,12 +2,10 @@
 // pairs; a continuous check, and halving of the step where that finds a touch.
 #include <atomic>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <sstream>
 
 #include "contact/impl.h"
-#include "forming_sim/contact/alike.h"
 #include "forming_sim/contact/continuous.h"
 #include "forming_sim/contact/impulse.h"
 #include "forming_sim/contact/law.h"
@@ -136,27 +134,23 @@ void Contact::Impl::check_resolution(double time, double dt, double gap) const {
 }
 
 // Chunk by chunk, shared by the threads, then joined in the order of the pairs: the sums do not depend on the threads.
-void Contact::Impl::close_books(ContactStep& step) {
-  struct Chunk {
-    ContactStep step;
-    Books books;
-    RelaxedPotential end;
-    double start = 0, thickest = 0;
-    long kept = 0;  ///< records, at the place of the chunk's first pair
-    explicit Chunk(const Impl& m) : books(m.empty_books(step)) {}
-  };
-  std::deque<Chunk> chunks;
+void Contact::Impl::close_books() {
   const long count = static_cast<long>(near.pairs.size());
-  for (long i = 0; i < count; i += kPairsOfAChunk) chunks.emplace_back(*this);
+  chunks.resize((count + kPairsOfAChunk - 1) / kPairsOfAChunk);
   records.resize(count, !near.rubs.empty());
   team.share(static_cast<long>(chunks.size()), kPairsOfAThread / kPairsOfAChunk, [&](long first, long last) {
     for (long c = first; c < last; ++c) {
       Chunk& chunk = chunks[c];
+      chunk.step.begin(tools.names.size());
+      chunk.end = RelaxedPotential();
+      chunk.start = chunk.thickest = 0;
+      chunk.kept = 0;
+      Books books = empty_books(chunk.step);
       const long begin = c * kPairsOfAChunk, end = std::min(count, begin + kPairsOfAChunk);
       sweeps.take_back(begin, end, near.pairs, near.rubs);
       for (long i = begin; i < end; ++i) {
         ContactPair& pair = near.pairs[i];
-        chunk.books.add(pair);
+        books.add(pair);
         chunk.start += mild_potential(pair.gap, pair.layer, pair.stiffness);
         chunk.step.min_gap_over_layer = std::min(chunk.step.min_gap_over_layer, pair.end_gap / layer);
         const bool inside = relax_layer(layer, push_speed * step.dt, pair, chunk.end);
@@ -164,9 +158,10 @@ void Contact::Impl::close_books(ContactStep& step) {
         records.put(begin + chunk.kept++, pair, near.rubs, step.dt);
         chunk.thickest = std::max(chunk.thickest, pair.layer);
       }
+      chunk.normal_work = books.normal_work();
     }
   });
-  Books books = open_books(step);
+  Books books = open_books();
   RelaxedPotential end;
   double start = 0;
   long kept = 0, from = 0;
@@ -175,7 +170,7 @@ void Contact::Impl::close_books(ContactStep& step) {
     records.move(from, kept, chunk.kept);
     kept += chunk.kept;
     from += kPairsOfAChunk;
-    books.add(chunk.books);
+    books.add(chunk.step, chunk.normal_work);
     thickest = std::max(thickest, chunk.thickest);
     start += chunk.start;
     end.before += chunk.end.before;
@@ -190,41 +185,39 @@ void Contact::Impl::close_books(ContactStep& step) {
   potential = step.potential;
 }
 
-ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at) {
-  ContactStep step;
+void Contact::Impl::advance_implicit(double time, double dt, double full_dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at) {
   StageClock clock(times);
   bool all = false;  // let pairs that push askew act before they are in their layer
   tried.resize(0, false);
-  std::vector<ToolMotion> motion;
   for (;;) {
-    motion = tools_at(dt);
+    tools_at(dt, motion);
     predict(dt, v_star);
     work.kick = previous_dt > 0 ? 0.5 * (previous_dt + dt) : dt;
     clock.begins();
-    std::vector<DrivenTool> driven = driven_tools(motion, dt);
+    find_driven_tools(dt);
     // How far a driven tool goes is known afterwards: what its force alone would do to a light one is far more than what it does while that lies on something.
-    const double predicted = both * fastest(v_star) * dt, told_way = step_way(motion, x);
+    const double predicted = both * fastest(v_star) * dt, told_way = step_way(x);
     double first_way = told_way;
     for (const DrivenTool& tool : driven) first_way = std::max(first_way, std::abs(motion[tool.tool].last_speed) * dt);
     double bound = 2 * (predicted + first_way);
-    const std::vector<PlanePose> planes = tools.planes(motion);
+    tools.place_planes(motion, planes);
     SweepResult swept;
     double way = 0;
     bool aside = true;  // pairs may be set aside
     // The sweeps may make a node or a driven tool faster than was predicted: then look farther.
     for (;;) {
       const double reach = std::max(thickest, std::min(ceiling, 0.1 * bound)) + bound;
-      ensure_list(x, motion, reach, bound);
+      ensure_list(x, reach, bound);
       near.clear();
       clock.ends(&ContactTimes::list);
       double most = 0, tool_way = told_way;
       if (list.size() > 0) {
-        gather(x, v, v_star, dt, motion, planes);
+        gather(x, v, v_star, dt);
         const Layers layers(records, tried, work, dt, previous_dt, layer, ceiling);
         narrow_phase(constants(), &layers, planes, all, {reach, bound, travel, thickest, aside ? dt : 0}, team, list, near);
         layers.hand_over(near.born, near.pairs);
         if (waves.any()) delay.recall(work, near.pairs, near.rubs);
-        if (!all) join_alike(work, near.pairs, near.rubs);
+        if (!all) alike.join(work, near.pairs, near.rubs);
         if (shear_limit.any()) shear_limit.set(features, x, work.kick, work, near.pairs, near.rubs);
         clock.ends(&ContactTimes::narrow);
         swept = SweepResult();
@@ -249,7 +242,6 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
     clock.ends(&ContactTimes::check);
     if (swept.open && touch < 0) {
       step.settled = swept.settled;
-      step.tool_push.assign(motion.size(), 0.0);
       for (const DrivenTool& tool : driven) step.tool_push[tool.tool] = tool.push;
       moved_by(way);
       break;
@@ -274,11 +266,10 @@ ContactStep Contact::Impl::advance_implicit(double time, double dt, double full_
   end(dt, move, x, v, v_star);
 
   clock.begins();
-  close_books(step);
-  follow_steady_motion(dt, motion, x, v_star, v);
+  close_books();
+  follow_steady_motion(dt, x, v_star, v);
   clock.ends(&ContactTimes::books);
   check_resolution(time, dt, step.min_gap_over_layer * layer);
-  return step;
 }
 
 }  // namespace forming_sim

@@ -35,12 +35,12 @@ template <class Work> void Mixing::each_chunk(Work&& work) {
 }
 
 Mixing::Sums Mixing::products_with(const Numbers& other) {
-  std::vector<Sums> of_chunk((x_.size() + kNumbersOfAChunk - 1) / kNumbersOfAChunk);
+  of_chunk_.assign((x_.size() + kNumbersOfAChunk - 1) / kNumbersOfAChunk, Sums());
   each_chunk([&](long k, long from, long to) {
-    for (int c = 0; c < columns_; ++c) of_chunk[k].of[c] = part(dF_[c], from, to).dot(part(other, from, to));
+    for (int c = 0; c < columns_; ++c) of_chunk_[k].of[c] = part(dF_[c], from, to).dot(part(other, from, to));
   });
   Sums all;
-  for (const Sums& each : of_chunk)
+  for (const Sums& each : of_chunk_)
     for (int c = 0; c < columns_; ++c) all.of[c] += each.of[c];
   return all;
 }

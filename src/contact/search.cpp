@@ -25,7 +25,7 @@ double Contact::Impl::fastest(const NodeField& v) const {
 // Largest way of any point of the present tools between two poses, m. The
 // motion is affine, so that a corner of the box moves farthest.
 template <class From, class To>
-double Contact::Impl::farthest(const std::vector<ToolMotion>& motion, const NodeField& x, From&& from, To&& to) const {
+double Contact::Impl::farthest(const NodeField& x, From&& from, To&& to) const {
   double most = 0;
   Box bodies;
   bool have = false;
@@ -48,11 +48,11 @@ double Contact::Impl::farthest(const std::vector<ToolMotion>& motion, const Node
   return most;
 }
 
-double Contact::Impl::step_way(const std::vector<ToolMotion>& motion, const NodeField& x) const {
+double Contact::Impl::step_way(const NodeField& x) const {
   bool rests = true;
   for (const ToolMotion& m : motion) rests = rests && m.position0 == m.position1 && m.rotation0 == m.rotation1;
   if (rests) return 0;
-  return farthest(motion, x, [&](size_t t, const Vec3& p) { return pose0(motion[t], p); },
+  return farthest(x, [&](size_t t, const Vec3& p) { return pose0(motion[t], p); },
              [&](size_t t, const Vec3& p) { return motion[t].inverse_mass > 0 ? pose0(motion[t], p) : pose1(motion[t], p); });
 }
 
@@ -70,23 +70,24 @@ void Contact::Impl::check_reach(const NodeField& x, double radius) const {
   throw Error(Code::contact_error, text.str());
 }
 
-void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion>& motion, double reach, double step_bound) {
-  const std::vector<bool> present = ToolSet::present(motion);
-  if (listed && present == listed_present) {
+void Contact::Impl::ensure_list(const NodeField& x, double reach, double step_bound) {
+  const bool same = listed && std::equal(motion.begin(), motion.end(), listed_present.begin(), listed_present.end(), [](const ToolMotion& tool, bool was) { return tool.present == was; });
+  if (same) {
     if (used + reach <= list.radius) return;
     // The bound adds up vibrations; how far has anything really gone?
     double body = 0;
     for (size_t i = 0; i < body_vertices.size(); ++i) body = std::max(body, (x[body_vertices[i]] - x_at_build[i]).squaredNorm());
-    const double tool = farthest(motion, x, [&](size_t t, const Vec3& p) { return pose0(motion_at_build[t], p); },
+    const double tool = farthest(x, [&](size_t t, const Vec3& p) { return pose0(motion_at_build[t], p); },
                             [&](size_t t, const Vec3& p) { return pose0(motion[t], p); });
     used = (both * std::sqrt(body) + tool) * (1 + 1e-12);
     if (used + reach <= list.radius - std::max(0.1 * features.mean_edge, step_bound)) return;
   }
   const double radius = reach + std::max(0.25 * features.mean_edge, 4 * step_bound);
   check_reach(x, radius);
-  list = build_list(features, x, {*tool_index, motion, present, tools.is_plane, tools.planes(motion)}, ties, radius, work);
+  listed_present = ToolSet::present(motion);
+  tools.place_planes(motion, planes);
+  list = build_list(features, x, {*tool_index, motion, listed_present, tools.is_plane, planes}, ties, radius, work);
   listed = true;
-  listed_present = present;
   motion_at_build = motion;
   x_at_build.clear();
   for (int v : body_vertices) x_at_build.push_back(x[v]);
@@ -101,10 +102,41 @@ void Contact::Impl::ensure_list(const NodeField& x, const std::vector<ToolMotion
     work.projector[i] = h >= 0 ? &held[h].projector : nullptr;
     if (work.share[i].inverse_mass == 0 || (h >= 0 && held[h].projector.topLeftCorner(features.dimension, features.dimension).isZero(0))) work.fixed.push_back(i);
   }
+  link_ties();
+}
+
+void Contact::Impl::link_ties() {
   tie_pairs.clear();
+  std::vector<bool> told;  // of the entries of tools
+  for (std::size_t i = work.body_entries; i < work.vertex.size(); ++i) told.push_back(work.vertex[i] < 0 || motion[features.vertex_surface[work.vertex[i]] - features.bodies].inverse_mass == 0);
+  feet = list.planes.size();
   for (const NearList::TieEntry& entry : list.ties) {
     tie_pairs.push_back(link_tie(ties[entry.tie], entry.tie, entry.node));
-    prepare_tie(work, tie_pairs.back());
+    TiePair& tie = tie_pairs.back();
+    prepare_tie(work, tie);
+    if (!tie.to_tool) continue;
+    ++feet;
+    told[tie.node[1] - work.body_entries] = motion[tie.tool].inverse_mass == 0;
+  }
+  doubled = take_out_doubled(work, told, tie_pairs);
+}
+
+// Those that were left out, as long as all that they hold goes together, are kept all the same.
+void Contact::Impl::tell_parted_ties() {
+  for (TiePair& pair : doubled) {
+    const Tie& tie = ties[pair.tie];
+    const int first = features.vertex_surface[tie.node[0]], second = pair.to_tool ? features.bodies + pair.tool : features.vertex_surface[tie.node[tie.nodes - 1]];
+    const std::pair<int, int> both = std::minmax({first, second});
+    if (parted_told.count(both) > 0) continue;
+    aim_tie(tie, work, motion, pair);
+    if (!(pair.missing.norm() > layer)) continue;
+    parted_told.insert(both);
+    const auto name = [&](int s) { return s < features.bodies ? "body " + body_names[s] : "tool " + tools.names[s - features.bodies]; };
+    std::ostringstream text;
+    text << name(both.first) << " and " << name(both.second) << " are tied, and part where other ties or boundaries hold them, at " << name_of_vertex(tie.node[0])
+         << " first: what is told to be in two places is left where the others have it. Keep ties off what is held or driven otherwise";
+    step.told = text.str();
+    return;
   }
 }
 
@@ -115,7 +147,7 @@ void Contact::Impl::set_inertia(double wanted) {
   inertia = wanted;
 }
 
-void Contact::Impl::gather(const NodeField& x, const NodeField& v, const NodeField& v_star, double dt, const std::vector<ToolMotion>& motion, const std::vector<PlanePose>& planes) {
+void Contact::Impl::gather(const NodeField& x, const NodeField& v, const NodeField& v_star, double dt) {
   set_inertia(1 + 0.25 * damping * (previous_dt + dt));
   team.share(work.body_entries, kNodesOfAThread, [&](long first, long last) {
     for (long i = first; i < last; ++i) {
@@ -135,8 +167,6 @@ void Contact::Impl::gather(const NodeField& x, const NodeField& v, const NodeFie
     work.stands[entry] = m.inverse_mass == 0 && work.v[entry] == Node::Zero();
     work.before[entry] = previous_dt > 0 ? node((now - pose0(previous_motion[tool], p)) / previous_dt) : work.v[entry];
   };
-  size_t feet = list.planes.size();
-  for (const TiePair& tie : tie_pairs) feet += tie.to_tool;
   const size_t last = work.vertex.size() - feet;
   team.share(static_cast<long>(last) - work.body_entries, kNodesOfAThread, [&](long from, long to) {
     for (size_t i = work.body_entries + from; i < static_cast<size_t>(work.body_entries + to); ++i) {
@@ -151,8 +181,9 @@ void Contact::Impl::gather(const NodeField& x, const NodeField& v, const NodeFie
     place_on_tool(p.foot, p.tool, m.rotation0.transpose() * (vec3(foot) - m.position0));
     work.x[p.foot] = foot;  // to the last bit
   }
-  for (const TiePair& tie : tie_pairs)
-    if (tie.to_tool) place_on_tool(tie.node[1], tie.tool, ties[tie.tie].kept);
+  for (const std::vector<TiePair>* all : {&tie_pairs, &doubled})
+    for (const TiePair& tie : *all)
+      if (tie.to_tool) place_on_tool(tie.node[1], tie.tool, ties[tie.tie].kept);
   if (waves.any()) {
     work.steady.resize(work.v.size());
     const double steps = previous_dt > 0 ? dt / previous_dt : 0;
@@ -160,6 +191,7 @@ void Contact::Impl::gather(const NodeField& x, const NodeField& v, const NodeFie
     std::copy(work.v.begin() + work.body_entries, work.v.end(), work.steady.begin() + work.body_entries);
   }
   for (TiePair& tie : tie_pairs) aim_tie(ties[tie.tie], work, motion, tie);
+  tell_parted_ties();
 }
 
 void Contact::Impl::moved_by(double way) {

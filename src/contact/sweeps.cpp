@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <utility>
 
 #include "forming_sim/contact/impulse.h"
 #include "forming_sim/parallel/stage_clock.h"
@@ -66,7 +67,8 @@ void Sweeps::cut(std::size_t nodes, const LargeArray<ContactPair>& pairs) {
     return;
   }
   taken_.assign(nodes, 0);
-  std::vector<std::vector<long>> of_colour(kBits), left_over;
+  colour_of_.resize(tile_count_);
+  colour_ends_.assign(kBits, 0);  // first how many tiles have each
   for (long t = 0; t < tile_count_; ++t) {
     Tile& tile = tiles_[t];
     tile.first = t * size;
@@ -74,21 +76,20 @@ void Sweeps::cut(std::size_t nodes, const LargeArray<ContactPair>& pairs) {
     std::uint64_t taken = 0;
     for (long i = tile.first; i < tile.last; ++i) each_mover(pairs[i], [&](int n) { taken |= taken_[n]; });
     const int colour = first_free(taken);
-    if (colour == kBits) {
-      left_over.push_back({t});
+    if (colour == kBits) {  // none is free: one of its own, behind all
+      colour_of_[t] = static_cast<int>(colour_ends_.size());
+      colour_ends_.push_back(1);
       continue;
     }
-    of_colour[colour].push_back(t);
+    colour_of_[t] = colour;
+    ++colour_ends_[colour];
     for (long i = tile.first; i < tile.last; ++i) each_mover(pairs[i], [&](int n) { taken_[n] |= std::uint64_t{1} << colour; });
   }
-  of_colour.insert(of_colour.end(), left_over.begin(), left_over.end());
-  order_.clear();
-  colour_ends_.clear();
-  for (const std::vector<long>& tiles : of_colour) {
-    if (tiles.empty()) continue;
-    order_.insert(order_.end(), tiles.begin(), tiles.end());
-    colour_ends_.push_back(static_cast<long>(order_.size()));
-  }
+  long before = 0;  // tiles of the colours before, where those of this one begin
+  for (long& tiles : colour_ends_) before += std::exchange(tiles, before);
+  order_.resize(tile_count_);
+  for (long t = 0; t < tile_count_; ++t) order_[colour_ends_[colour_of_[t]]++] = t;
+  colour_ends_.erase(std::unique(colour_ends_.begin(), colour_ends_.end()), colour_ends_.end());  // colours that no tile has end where those before them do
 }
 
 template <class Work> void Sweeps::each_tile(Work&& work) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 #include "forming_sim/contact/closest.h"
@@ -351,6 +352,47 @@ Mat3 mass_of(const Workspace& work, const TiePair& pair) {
 void prepare_tie(const Workspace& work, TiePair& pair) {
   pair.apart = false;
   pair.mass = pair.undamped = mass_of(work, pair);
+}
+
+std::vector<TiePair> take_out_doubled(const Workspace& work, const std::vector<bool>& told, std::vector<TiePair>& ties) {
+  const auto counts = [](const TiePair& tie, int k) { return std::abs(tie.weight[k]) > kTouches; };
+  std::vector<bool> follows(work.body_entries, false);
+  for (const int i : work.fixed) follows[i] = true;
+  follows.insert(follows.end(), told.begin(), told.end());
+  std::vector<std::vector<int>> of_node(follows.size());  // ties that are kept
+  const auto open = [&](const TiePair& tie, int& last) {  // of its nodes, so many do not follow; last: one of them
+    int count = 0;
+    for (int k = 0; k < tie.nodes; ++k)
+      if (counts(tie, k) && !follows[tie.node[k]]) ++count, last = tie.node[k];
+    return count;
+  };
+  // Those first that hold a vertex on a tool: others may be left out with less loss.
+  std::vector<int> order(ties.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_partition(order.begin(), order.end(), [&](int t) { return ties[t].to_tool; });
+  std::vector<bool> doubled(ties.size(), false);
+  std::vector<int> look;
+  for (const int t : order) {
+    int node = -1;
+    if (open(ties[t], node) == 0) {
+      doubled[t] = true;
+      continue;
+    }
+    for (int k = 0; k < ties[t].nodes; ++k)
+      if (counts(ties[t], k)) of_node[ties[t].node[k]].push_back(t);
+    look.assign(1, t);
+    while (!look.empty()) {  // what one of them fixes may fix the last node of others
+      const int of = look.back();
+      look.pop_back();
+      if (open(ties[of], node) != 1) continue;
+      follows[node] = true;
+      look.insert(look.end(), of_node[node].begin(), of_node[node].end());
+    }
+  }
+  std::vector<TiePair> kept, taken_out;
+  for (std::size_t t = 0; t < ties.size(); ++t) (doubled[t] ? taken_out : kept).push_back(ties[t]);
+  ties = std::move(kept);
+  return taken_out;
 }
 
 void aim_tie(const Tie& tie, const Workspace& work, const std::vector<ToolMotion>& motion, TiePair& pair) {

@@ -29,10 +29,15 @@ void ToolSet::place_all(const Features& f, const std::vector<ToolMotion>& motion
 }
 
 std::vector<PlanePose> ToolSet::planes(const std::vector<ToolMotion>& motion) const {
-  std::vector<PlanePose> poses(motion.size());
-  for (size_t t = 0; t < motion.size(); ++t)
-    if (is_plane[t]) poses[t] = {node(pose0(motion[t], point[t])), node(motion[t].rotation0 * normal[t]), node(motion[t].rotation1 * normal[t])};
+  std::vector<PlanePose> poses;
+  place_planes(motion, poses);
   return poses;
+}
+
+void ToolSet::place_planes(const std::vector<ToolMotion>& motion, std::vector<PlanePose>& planes) const {
+  planes.assign(motion.size(), PlanePose());
+  for (size_t t = 0; t < motion.size(); ++t)
+    if (is_plane[t]) planes[t] = {node(pose0(motion[t], point[t])), node(motion[t].rotation0 * normal[t]), node(motion[t].rotation1 * normal[t])};
 }
 
 std::vector<bool> ToolSet::present(const std::vector<ToolMotion>& motion) {

@@ -306,6 +306,7 @@ void Elements::forces_of_tile(const CellGroup& cells, const Group& g, const Noda
 bool Elements::forces_of_moved(Group& g, const NodalView& view) {
   std::atomic<bool> any_rests{false};
   g.rest.resize(g.tiles, Group::changed);
+  g.plastic_before.resize(g.blocks);
   team_->share(g.tiles, tiles_of_a_thread(g), [&](long begin, long end) {
     for (long t = begin; t < end; ++t) {
       const int *nodes = g.node_storage.data(), *first = nodes + g.first_node(g.first_block(t)), *last = nodes + g.first_node(g.last_block(t));
@@ -316,10 +317,11 @@ bool Elements::forces_of_moved(Group& g, const NodalView& view) {
           continue;
         }
       }
+      const int first_block = g.first_block(t), last_block = g.last_block(t);
       const auto work = g.plastic.begin();
-      const std::vector<double> before(work + g.first_block(t), work + g.last_block(t));
+      std::copy(work + first_block, work + last_block, g.plastic_before.begin() + first_block);
       forces_of_tile(g, g, view, t);
-      g.rest[t] = std::equal(before.begin(), before.end(), work + g.first_block(t)) ? Group::kept : Group::changed;
+      g.rest[t] = std::equal(work + first_block, work + last_block, g.plastic_before.begin() + first_block) ? Group::kept : Group::changed;
     }
   });
   return any_rests;

@@ -83,8 +83,10 @@ FormedMemory Elements::memory_of(const BodyModel& body, const NodeField& x) cons
     of.hourglass = by_cells(g.hourglass_storage, g.order);
     of.ratio = by_cells(g.weight_ratio, g.order);
   }
+  observe_pressure({x.data()->data(), nullptr, nullptr, pressure_.data(), 0, 0});
   for (const Group& g : groups_) {
     if (!g.at_edges || g.body != body.name) continue;
+    for (int n = body.first_node; n < body.first_node + body.node_count; ++n) memory.nodal_ratio.push_back(nodal_volume0_[n] > 0 ? 1 + pressure_[n] / nodal_bulk_[n] : 1);
     FormedEdges& of = memory.edges;
     of.items = g.items;
     of.volume_ratio = point_ratios(g, x);
@@ -112,7 +114,19 @@ void Elements::take_up(const BodyModel& body, const FormedMemory& memory, const 
       if (!std::equal(first[block].value, first[block].value + kLanes, g.weight_ratio[block].value)) g.set_weights(block);
   }
   for (Group& g : groups_)
-    if (g.at_edges && g.body == body.name) take_up_points(body, memory.edges, x, g);
+    if (g.at_edges && g.body == body.name) {
+      take_up_nodes(body, memory.nodal_ratio, x);
+      take_up_points(body, memory.edges, x, g);
+    }
+}
+
+// A node at a cut has lost simplices whose volumes made up for those of the others: that its pressure stays, its V0 is what goes with it now.
+void Elements::take_up_nodes(const BodyModel& body, const std::vector<double>& ratio, const NodeField& x) {
+  observe_pressure({x.data()->data(), nullptr, nullptr, pressure_.data(), 0, 0});
+  for (int k = 0; k < body.node_count; ++k) {
+    const int n = body.first_node + k;
+    if (nodal_volume0_[n] > 0) nodal_volume0_[n] *= (1 + pressure_[n] / nodal_bulk_[n]) / ratio[k];
+  }
 }
 
 // The mean of the simplices around an edge is another where some of them are cut away: the elastic strain that the point had stays,

@@ -39,6 +39,8 @@ FormedMemory remaining(const FormedMemory& memory, const Remainder& left) {
     rest.edges.volume_ratio.push_back(memory.edges.volume_ratio[e]);
   }
   rest.edges.memory = picked(memory.edges.memory, stay, memory.edges.items);
+  for (std::size_t n = 0; n < memory.nodal_ratio.size(); ++n)
+    if (left.node[n] >= 0) rest.nodal_ratio.push_back(memory.nodal_ratio[n]);
   return rest;
 }
 

@@ -20,6 +20,7 @@ struct Elements::Group : CellGroup {
   int shared_sets = 0;           ///< so many of the start, which blocks that are alike share; those behind are of one block each
   std::vector<long> tile_start;  ///< first slot of each tile, and behind the last
   std::vector<double> plastic, viscous;
+  std::vector<double> plastic_before;  ///< room for `plastic` of the step before, where tiles may rest
   std::unique_ptr<bool[]> upright_storage, pressed_storage;
   enum Rest : char { changed, kept, passed_over };  ///< a tile's memory by the last evaluation, or none was needed
   std::vector<Rest> rest;  ///< per tile; empty where all are evaluated

@@ -17,7 +17,7 @@ template <class Archive> void exchange(Archive& a, FormedPart& part) {
   a.text(part.material);
   a.text(part.pressure_average);
   a.number(part.axisymmetric);
-  a.each(part.held_by, [&](std::string& name) { a.text(name); });
+  for (std::vector<std::string>* names : {&part.pressed_by, &part.held_sets}) a.each(*names, [&](std::string& name) { a.text(name); });
   Mesh& mesh = part.mesh;
   a.number(mesh.dimension);
   a.list(mesh.nodes);
@@ -38,6 +38,7 @@ template <class Archive> void exchange(Archive& a, FormedPart& part) {
   a.list(memory.edges.memory);
   a.list(memory.edges.edges);
   a.list(memory.edges.volume_ratio);
+  a.list(memory.nodal_ratio);
 }
 
 std::string number_of(std::size_t part) { return std::to_string(part); }

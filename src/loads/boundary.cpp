@@ -203,15 +203,16 @@ Vec3 BoundarySet::prescribed(const Group& group, double t, double dt, const Vec3
 
 Vec3 BoundarySet::prescribed(int k, double t, double dt, const Vec3& x) const { return prescribed(groups_[group_[k]], t, dt, x); }
 
-BoundarySet::Prescription BoundarySet::prescription(double t, double dt) const {
-  Prescription step{t, dt, {}, {}};
-  step.u.reserve(groups_.size());
-  step.speed.reserve(groups_.size());
+const BoundarySet::Prescription& BoundarySet::prescription(double t, double dt) {
+  step_.t = t;
+  step_.dt = dt;
+  step_.u.clear();
+  step_.speed.clear();
   for (const Group& group : groups_) {
-    step.u.push_back(group.turns ? Vec3(Vec3::Zero()) : prescribed(group, t, dt, Vec3::Zero()));
-    step.speed.push_back(step.u.back().norm());
+    step_.u.push_back(group.turns ? Vec3(Vec3::Zero()) : prescribed(group, t, dt, Vec3::Zero()));
+    step_.speed.push_back(step_.u.back().norm());
   }
-  return step;
+  return step_;
 }
 
 double BoundarySet::apply_velocity(const Prescription& step, const NodeField& x, long first, long last, NodeField& v) const {
@@ -227,7 +228,7 @@ double BoundarySet::apply_velocity(const Prescription& step, const NodeField& x,
   return fastest;
 }
 
-double BoundarySet::apply_velocity(double t, double dt, const NodeField& x, NodeField& v) const {
+double BoundarySet::apply_velocity(double t, double dt, const NodeField& x, NodeField& v) {
   return apply_velocity(prescription(t, dt), x, 0, static_cast<long>(v.size()), v);
 }
 

@@ -1,8 +1,5 @@
 #include "forming_sim/mesh/trim.h"
 
-#include <algorithm>
-#include <numeric>
-
 #include "forming_sim/config/reflect.h"
 #include "mesh/region.h"
 
@@ -73,26 +70,6 @@ Mesh remaining(const Mesh& mesh, const Remainder& left) {
   }
   find_surface(rest);
   return rest;
-}
-
-int pieces_of(const Mesh& mesh) {
-  std::vector<int> of(mesh.nodes.size());  // a node of the same piece, in the end the first
-  std::iota(of.begin(), of.end(), 0);
-  const auto first = [&](int n) {
-    while (of[n] != n) n = of[n] = of[of[n]];
-    return n;
-  };
-  for (const Cells& block : mesh.cells) {
-    const int size = shape_of(block.kind).nodes;
-    for (std::size_t at = 0; at < block.nodes.size(); at += size)
-      for (int a = 1; a < size; ++a) {
-        const auto [low, high] = std::minmax({first(block.nodes[at]), first(block.nodes[at + a])});
-        of[high] = low;
-      }
-  }
-  int count = 0;
-  for (std::size_t n = 0; n < of.size(); ++n) count += of[n] == static_cast<int>(n);
-  return count;
 }
 
 }  // namespace forming_sim

@@ -7,10 +7,7 @@ namespace forming_sim {
 
 void FormedParts::on_end(const Simulation& simulation, Code code, const std::string&) {
   if (code != Code::success && code != Code::limit_reached) return;
-  std::vector<std::string> pressing;
   const Model& model = simulation.model();
-  for (std::size_t k = 0; k < model.tools.size(); ++k)
-    if (simulation.tools()[k].present && simulation.tools()[k].pressed) pressing.push_back("tool " + model.tools[k].name);
   std::vector<FormedPart> parts;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
@@ -19,7 +16,9 @@ void FormedParts::on_end(const Simulation& simulation, Code code, const std::str
     part.material = write_material(scene_.bodies[b].material);
     part.pressure_average = body.pressure_average;
     part.axisymmetric = model.axisymmetric;
-    part.held_by = pressing;
+    for (int tool : simulation.tools_on(static_cast<int>(b))) part.pressed_by.push_back("tool " + model.tools[tool].name);
+    for (const BoundaryConfig& boundary : scene_.bodies[b].boundaries)
+      if (boundary.until.empty()) part.held_sets.push_back(boundary.set);
     part.mesh = body.mesh;
     for (int n = 0; n < body.node_count; ++n) part.mesh.nodes[n] = vec3(simulation.positions()[body.first_node + n]);
     part.memory = simulation.memory_of(body);

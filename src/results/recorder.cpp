@@ -78,7 +78,7 @@ void Recorder::look(const Simulation& simulation) {
   record_.kinetic_peak.look(energies.kinetic, energies.elastic + energies.plastic);
   const Measures& now = gauge_.at(simulation);
   if (now.thickness) {
-    if (!record_.thickness_initial) record_.thickness_initial = now.thickness;
+    if (!record_.thickness_initial) record_.thickness_initial = gauge_.initial_thickness();
     record_.thickness_min = std::min(record_.thickness_min.value_or(*now.thickness), *now.thickness);
   }
   record_.surface_strain.rise_to(now.surface_strain);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "forming_sim/mesh/url.h"
 #include "forming_sim/results/directory_lock.h"
 #include "forming_sim/results/result_file.h"
 #include "forming_sim/results/run_files.h"
@@ -16,10 +17,22 @@
 namespace forming_sim {
 namespace {
 
+/// formed.h5 is written at the end: not over one that is read, nor where it cannot be.
+void require_room_for_parts(const Scene& scene, const std::string& directory) {
+  if (!scene.output.formed) return;
+  const std::string path = in_directory(directory, "formed.h5");
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none)) throw Error(Code::output_error, path + " is a directory, and the run's formed.h5 goes there: move it away");
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    if (scene.bodies[i].formed && std::filesystem::equivalent(resolve_url(scene.bodies[i].formed->url, scene.base_directory), path, none))
+      throw Error(Code::output_error, "body " + scene.bodies[i].name + " is read from " + path + ", over which this run would write its own parts: give another output directory");
+}
+
 Outcome run_valid(const Scene& scene, const std::string& directory, int threads, const std::string& resume_file,
                   const std::atomic<bool>& cancel, const std::vector<Observer*>& extra, std::unique_ptr<Simulation> built) {
   make_output_directory(directory);
   const DirectoryLock lock(directory);
+  require_room_for_parts(scene, directory);
   std::optional<Checkpoint> checkpoint;
   if (!resume_file.empty()) {
     checkpoint = load_checkpoint(resume_file);

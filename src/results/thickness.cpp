@@ -46,6 +46,35 @@ int nearest_node(const NodeTree& tree, const Vec3& point) {
 
 }  // namespace
 
+/// The bottom of a sheet at these positions.
+class Thickness::BottomGrid {
+ public:
+  BottomGrid(const Sheet& sheet, const NodeField& positions) : sheet_(sheet), positions_(positions) {
+    std::vector<Box> boxes;
+    Box all;
+    double size = 0;
+    for (const auto& facet : sheet.bottom) {
+      boxes.push_back(Box::of(positions[facet[0]], positions[facet[1]], positions[facet[2]]));
+      all.add(boxes.back());
+      size += (boxes.back().high - boxes.back().low).norm() / sheet.bottom.size();
+    }
+    grid_.emplace(std::move(boxes), all, std::max(size, std::numeric_limits<double>::min()));
+  }
+  Closest closest(const Node& p, int facet) const {
+    const auto& c = sheet_.bottom[facet];
+    return closest_on_facet(sheet_.corners, p, positions_[c[0]], positions_[c[1]], positions_[c[2]]);
+  }
+  /// The least of what `count` makes of facets and their distances, m. near: a facet that may be near p.
+  template <class Count> double nearest(const Node& p, int near, Count&& count) const {
+    return grid_->nearest(p, std::sqrt(closest(p, near).squared), [&](int facet) { return count(facet, std::sqrt(closest(p, facet).squared)); });
+  }
+
+ private:
+  const Sheet& sheet_;
+  const NodeField& positions_;
+  std::optional<Grid> grid_;
+};
+
 Thickness::Thickness(const Model& model) {
   NodeField start;
   for (const BodyModel& body : model.bodies) {
@@ -76,11 +105,14 @@ Thickness::Thickness(const Model& model) {
     for (const Vec3& X : reference) sheet.above.push_back(nearest_node(top_tree, X));
     for (const PlacedNode& node : top_nodes) sheet.below.push_back(nearest_node(bottom_tree, node.x));
     for (const PlacedNode& node : top_nodes) sheet.top_start.push_back(node.x);
+    sheet.stands.assign(sheet.top.size(), 1);
     for (const PlacedNode& facet : facets) sheet.bottom_start.push_back(facet.x);
     sheet.reach.assign(sheet.top.size(), std::numeric_limits<double>::infinity());
     sheets_.push_back(std::move(sheet));
   }
   if (!any()) return;
+  start_ = at(start);
+  for (Sheet& sheet : sheets_) find_overhangs(model, start, sheet);
   start_ = at(start);
   for (Sheet& sheet : sheets_) {
     for (std::size_t i = 0; i < sheet.top.size(); ++i) {
@@ -89,6 +121,28 @@ Thickness::Thickness(const Model& model) {
       for (int k = 0; k < 3; ++k) longest = std::max(longest, (start[c[k]] - start[c[(k + 1) % 3]]).norm());
       sheet.reach[i] = kNear * start_[sheet.top[i]] + 2 * longest;
     }
+  }
+}
+
+// Where the bottom has been trimmed away the nearest of it lies beside a node of the top, not below it: nothing of it is near the place a thickness inwards.
+void Thickness::find_overhangs(const Model& model, const NodeField& start, Sheet& sheet) const {
+  constexpr double kNearBelow = 0.5;  // thicknesses
+  const BodyModel& body = *std::find_if(model.bodies.begin(), model.bodies.end(), [&](const BodyModel& b) { return b.first_node == sheet.first_node; });
+  const std::vector<int>& top = body.mesh.sets.at("top");
+  const auto place = [&](int n) -> const Node& { return start[sheet.first_node + n]; };
+  NodeField outward(body.mesh.nodes.size(), Node::Zero());
+  for (const Facet& facet : body.mesh.surface) {
+    const auto last = facet.nodes.begin() + sheet.corners;
+    if (!std::all_of(facet.nodes.begin(), last, [&](int n) { return std::binary_search(top.begin(), top.end(), n); })) continue;
+    const Node normal = facet_normal(sheet.corners, place(facet.nodes[0]), place(facet.nodes[1]), place(facet.nodes[sheet.corners - 1]));
+    for (auto n = facet.nodes.begin(); n != last; ++n) outward[*n] += normal;
+  }
+  const BottomGrid bottom(sheet, start);
+  for (std::size_t i = 0; i < top.size(); ++i) {
+    const double thickness = start_[sheet.top[i]], length = outward[top[i]].norm();
+    if (std::isnan(thickness) || length == 0) continue;
+    const Node inside = place(top[i]) - thickness / length * outward[top[i]];
+    sheet.stands[i] = bottom.nearest(inside, sheet.below[i], [](int, double distance) { return distance; }) <= kNearBelow * thickness;
   }
 }
 
@@ -104,32 +158,21 @@ std::vector<double> Thickness::at(const NodeField& positions) const {
   for (const Sheet& sheet : sheets_) {
     if (!std::all_of(sheet.top.begin(), sheet.top.end(), known)) continue;
     if (!std::all_of(sheet.bottom.begin(), sheet.bottom.end(), [&](const auto& c) { return known(c[0]) && known(c[1]) && known(c[2]); })) continue;
-    std::vector<Box> boxes;
-    Box all;
-    double size = 0;
-    for (const auto& facet : sheet.bottom) {
-      boxes.push_back(Box::of(positions[facet[0]], positions[facet[1]], positions[facet[2]]));
-      all.add(boxes.back());
-      size += (boxes.back().high - boxes.back().low).norm() / sheet.bottom.size();
-    }
-    const Grid grid(std::move(boxes), all, std::max(size, std::numeric_limits<double>::min()));
-    const auto closest = [&](const Node& p, int facet) {
-      const auto& c = sheet.bottom[facet];
-      return closest_on_facet(sheet.corners, p, positions[c[0]], positions[c[1]], positions[c[2]]);
-    };
+    const BottomGrid bottom(sheet, positions);
     std::vector<double> of_top;
     for (std::size_t i = 0; i < sheet.top.size(); ++i) {
       const Node& p = positions[sheet.top[i]];
-      const auto through_metal = [&](int facet) {
+      if (!sheet.stands[i]) {
+        of_top.push_back(std::numeric_limits<double>::quiet_NaN());
+        continue;
+      }
+      of_top.push_back(bottom.nearest(p, sheet.below[i], [&](int facet, double distance) {  // through metal
         const double squared = (sheet.top_start[i] - sheet.bottom_start[facet]).squaredNorm();
-        const Closest q = closest(p, facet);
-        const double distance = std::sqrt(q.squared);
         if (squared <= sheet.reach[i] * sheet.reach[i]) return distance;
         const auto& c = sheet.bottom[facet];
         const Node outward = facet_normal(sheet.corners, positions[c[0]], positions[c[1]], positions[c[2]]);
-        return -dot3(q.apart, outward) > kStraight * distance ? distance : std::numeric_limits<double>::infinity();
-      };
-      of_top.push_back(grid.nearest(p, std::sqrt(closest(p, sheet.below[i]).squared), through_metal));
+        return -dot3(bottom.closest(p, facet).apart, outward) > kStraight * distance ? distance : std::numeric_limits<double>::infinity();
+      }));
     }
     for (std::size_t i = 0; i < sheet.above.size(); ++i) thickness[sheet.first_node + i] = of_top[sheet.above[i]];
   }

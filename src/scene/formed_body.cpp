@@ -48,8 +48,13 @@ FormedBody load_formed_body(const Scene& scene, const BodyConfig& body, const st
   for (Vec3& x : part.mesh.nodes) x = rotation * (x - formed.turn_centre) + formed.turn_centre + formed.shift;
   for (Eigen::Matrix3d& edges : part.memory.edges.edges) edges = rotation * edges;
   if (body.material.law == "classical") turn_stresses(part.memory, part.mesh.dimension, rotation);
-  if (!part.held_by.empty())
-    notes.push_back("body " + body.name + " was still held by " + one_of(part.held_by, " and ") + " when its run ended: what they bore is let go at once here. Let it go and settle there, with a withdraw and a settle stage");
+  if (!part.pressed_by.empty())
+    notes.push_back("body " + body.name + " was still pressed by " + one_of(part.pressed_by, " and ") + " when its run ended: what they bore is let go at once here. Let it go and settle there, with a withdraw and a settle stage");
+  std::vector<std::string> let_go;
+  for (const std::string& set : part.held_sets)
+    if (std::none_of(body.boundaries.begin(), body.boundaries.end(), [&](const BoundaryConfig& b) { return b.set == set; })) let_go.push_back(set);
+  if (!let_go.empty())
+    notes.push_back("body " + body.name + " was held at " + one_of(let_go, " and ") + " when its run ended, and is not here: what boundaries bore there is let go at once. Hold it here too, with until if it is to let go slowly, or end those boundaries there and let it settle");
   return {std::move(part.mesh), std::move(part.memory)};
 }
 

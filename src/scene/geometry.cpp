@@ -110,15 +110,13 @@ void check_velocity_field(const BodyConfig& body, const std::string& path, const
   });
 }
 
-/// What is left of a body. A part that falls apart is told.
-bool trim_body(const BodyConfig& body, const std::string& path, Mesh& mesh, std::optional<FormedMemory>& formed, Geometry& geometry) {
+/// What is left of a body.
+bool trim_body(const BodyConfig& body, const std::string& path, Mesh& mesh, std::optional<FormedMemory>& formed, std::vector<Fault>& faults) {
   if (body.trim.empty()) return true;
-  return attempt(path + ".trim", std::to_string(body.trim.size()) + (body.trim.size() == 1 ? " region" : " regions"), geometry.faults, [&] {
+  return attempt(path + ".trim", std::to_string(body.trim.size()) + (body.trim.size() == 1 ? " region" : " regions"), faults, [&] {
     const Remainder left = find_remainder(mesh, body.trim);
     mesh = remaining(mesh, left);
     if (formed) formed = remaining(*formed, left);
-    if (const int pieces = pieces_of(mesh); pieces > 1)
-      geometry.model.notes.push_back("body " + body.name + " is trimmed into " + std::to_string(pieces) + " pieces that have no node in common: what is scrap is to be cut away too, or it goes on as part of the body");
   });
 }
 
@@ -143,10 +141,10 @@ bool make_body(const Scene& scene, std::size_t i, const std::vector<Fault>& know
     }
     if (faults.size() > before) return;
     check_volumes(mesh);
-    if (scene.axisymmetric && mesh.dimension == 2) close_at_axis(mesh);
   });
   if (!made || faults.size() > before) return false;
-  if (!trim_body(body, path, mesh, formed, geometry)) return false;
+  if (!trim_body(body, path, mesh, formed, faults)) return false;
+  if (scene.axisymmetric && mesh.dimension == 2 && !attempt(source, origin, faults, [&] { close_at_axis(mesh); })) return false;
   if (mesh.dimension != scene.dimension && (scene.dimension == 2 || scene.dimension == 3)) {
     faults.push_back({Code::invalid_scene, source, origin + ", whose cells have dimension " + std::to_string(mesh.dimension),
                       scene.dimension == 2 ? "give a mesh of triangles or quadrilaterals, or set dimension to 3" : "give a mesh of tetrahedra or hexahedra (bodies are solids: a surface is to be extruded through the thickness), or set dimension to 2"});

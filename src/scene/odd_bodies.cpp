@@ -14,7 +14,7 @@ namespace {
 
 /// A strip of crossed triangles whose own bending is too soft (docs/elements.md): of cells higher than long, and about the axis of a ring.
 /// The own bending of n cells through a sheet is 1/n^2 of the whole.
-void note_soft_strip(const BodyConfig& config, Model& model) {
+void note_soft_strip(const BodyConfig& config, const Mesh& mesh, Model& model) {
   constexpr double kHigh = 1.2;      // times as high as long
   constexpr double kSheet = 4;       // times as long as thick
   constexpr double kToBeTold = 0.06; // of the stiffness
@@ -22,7 +22,7 @@ void note_soft_strip(const BodyConfig& config, Model& model) {
   const BlankConfig& blank = *config.blank;
   if (!(blank.length > kSheet * blank.thickness)) return;
   const double n = blank.cells_through, high = blank.thickness / n * blank.cells_along / blank.length;
-  const bool at_axis = model.axisymmetric && blank.origin.x() < blank.thickness;
+  const bool at_axis = model.axisymmetric && bounds(mesh).min().x() < blank.thickness;
   const double lost = (at_axis ? 0.9 : high > kHigh ? 0.5 : 0) / (n * n);
   if (lost < kToBeTold) return;
   model.notes.push_back("body " + config.name + " has " + number_text(n) + " cells of crossed triangles through its thickness" +
@@ -41,7 +41,7 @@ void note_stiff_strip(const BodyConfig& config, Model& model) {
 /// A bar whose section, a polygon with its corners on the circle, has less area by what counts.
 void note_polygonal_bar(const BodyConfig& config, const Mesh& mesh, Model& model) {
   constexpr double kToBeTold = 0.01;
-  if (!config.blank || config.blank->shape != "bar") return;
+  if (!config.blank || config.blank->shape != "bar" || !config.trim.empty()) return;
   const BlankConfig& bar = *config.blank;
   const double part = bar.portion == "quarter" ? 0.25 : bar.portion == "half" ? 0.5 : 1, lost = 1 - volume(mesh) / (part * M_PI * bar.radius * bar.radius * bar.length);
   if (lost > kToBeTold)
@@ -94,7 +94,7 @@ void tell_odd_body(const BodyConfig& config, const Mesh& mesh, Model& model) {
   if (const int parts = config.self_contact ? 1 : count_parts(mesh); parts > 1)
     model.notes.push_back("body " + config.name + " consists of " + std::to_string(parts) +
                           " parts that share no node, and they pass through each other: set its self_contact to true, or give them as bodies of their own");
-  note_soft_strip(config, model);
+  note_soft_strip(config, mesh, model);
   note_stiff_strip(config, model);
   note_polygonal_bar(config, mesh, model);
   note_coarse_sheet(config, mesh, model);

@@ -106,6 +106,20 @@ void tell_odd_centres(const Scene& scene, std::vector<std::string>& notes) {
   }
 }
 
+/// A tool that goes away by a displacement takes what is tied to it along.
+void tell_tied_withdrawal(const Scene& scene, std::vector<std::string>& notes) {
+  for (const StageConfig& stage : scene.stages) {
+    if (stage.kind != "withdraw" || stage.displacement.isZero(0)) continue;
+    for (const PairConfig& pair : scene.contact.pairs) {
+      if (pair.kind != "tied") continue;
+      for (const std::string& tool : {pair.first, pair.second})
+        if (std::any_of(scene.tools.begin(), scene.tools.end(), [&](const ToolConfig& t) { return t.name == tool; }) &&
+            (stage.tools.empty() || std::find(stage.tools.begin(), stage.tools.end(), tool) != stage.tools.end()))
+          notes.push_back("tool " + tool + " is withdrawn by a displacement while " + (tool == pair.first ? pair.second : pair.first) + " is tied to it, and pulls it along until it is gone: leave displacement out, and it lets go at once");
+    }
+  }
+}
+
 }  // namespace
 
 void tell_odd_values(const Scene& scene, std::vector<std::string>& notes) {
@@ -113,6 +127,7 @@ void tell_odd_values(const Scene& scene, std::vector<std::string>& notes) {
   tell_odd_speeds(scene, notes);
   tell_odd_friction(scene, notes);
   tell_odd_centres(scene, notes);
+  tell_tied_withdrawal(scene, notes);
   if (scene.time_step.mass_scaling > kMuchScaling)
     notes.push_back("time_step.mass_scaling " + number_text(scene.time_step.mass_scaling) + " makes waves " + three_digits(std::sqrt(scene.time_step.mass_scaling)) +
                     " times as slow: look at kinetic_over_internal_forming, and expect bodies to be squeezed flat where tools are faster than these waves");

@@ -69,8 +69,9 @@ std::string first_difference(const std::string& one, const std::string& other, c
     const bool more_left = bool(std::getline(first, left)), more_right = bool(std::getline(second, right));
     if (!more_left) left = "(end)";
     if (!more_right) right = "(end)";
-    if (left != right || (!more_left && !more_right)) return part + "'" + left + "' " + of_one + ", '" + right + "' " + of_other;
-    if (left.find_first_of(" -") != 0) part = "in " + left.substr(0, left.find(':')) + ": ";
+    const auto indented = [](const std::string& line) { return line.find_first_of(" -") == 0; };
+    if (left != right || (!more_left && !more_right)) return (indented(left) || indented(right) ? part : "") + "'" + left + "' " + of_one + ", '" + right + "' " + of_other;
+    if (!indented(left)) part = "in " + left.substr(0, left.find(':')) + ": ";
   }
 }
 

@@ -29,6 +29,7 @@ const NodeField& Simulation::positions() const { return impl_->x; }
 const NodeField& Simulation::velocities() const { return impl_->v; }
 double Simulation::first_dt() const { return impl_->first_dt; }
 const std::vector<ToolStatus>& Simulation::tools() const { return impl_->tools; }
+std::vector<int> Simulation::tools_on(int body) const { return impl_->contact ? impl_->contact->tools_on(body) : std::vector<int>(); }
 bool Simulation::once_held(int node) const { return std::binary_search(impl_->once_held.begin(), impl_->once_held.end(), node); }
 void Simulation::keep_reactions(const std::vector<int>& nodes) {
   Impl& s = *impl_;
@@ -199,7 +200,7 @@ std::vector<double> Simulation::contact_pressure() const {
 
 std::vector<double> Simulation::contact_gap() const {
   const Impl& s = *impl_;
-  return s.contact ? s.contact->gaps(s.x, s.tool_motions(0)) : std::vector<double>();
+  return s.contact ? s.contact->gaps(s.x, s.tools_now()) : std::vector<double>();
 }
 
 const std::vector<double>& Simulation::contact_slip() const {

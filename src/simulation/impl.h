@@ -106,7 +106,8 @@ struct Simulation::Impl {
   /// Gives those that a force drives a mass where the scene says none. Throws SceneError for one too light.
   void give_tools_mass();
   /// Where the tools stand, and where they will after a step of this dt; what forces drive, where it would without contact.
-  std::vector<ToolMotion> tool_motions(double step_dt) const;
+  void tool_motions(double step_dt, std::vector<ToolMotion>& motions) const;
+  std::vector<ToolMotion> tools_now() const;
   void place_tools();
 
   // step_limit.cpp

@@ -19,22 +19,48 @@ constexpr double kSqueezed = 0.1;    ///< of the forces of tools that are let go
 constexpr double kNext = 0.01;       ///< to nothing, of the energy that a squeezed body had: what is left to fade may do as much in any case
 constexpr double kMoving = 0.3;      ///< of the forces that are let go: more than this sets the body in motion as a whole
 
-/// Extents, m, of what swings: of a sheet those of its mesh, which a plane of symmetry holds at one end; of a compact body twice as much along an axis where a plane of
-/// symmetry ends it on one side.
-Vec3 swinging_size(const BodyModel& body) {
+/// Size squared, m2, of what swings, however it lies: of a box the squares of its lengths together, which are 12 times the second moments of its
+/// volume about its middle. A sheet is held by a plane of symmetry at one end; a compact body goes on beyond one that ends it on one side, where its moments are about that plane.
+double swinging_size_squared(const BodyModel& body) {
   constexpr double kAlong = 0.99;  // cosine
-  if (is_sheet(body.mesh, body.thickness)) return bounds(body.mesh).sizes();
-  bool ends[3][2] = {};
-  for (std::size_t i = 0; i < body.cut.size(); ++i)
-    if (body.cut[i]) {
-      const Vec3 area = area_vector(body.mesh, body.mesh.surface[i]);
-      for (int k = 0; k < 3; ++k)
-        if (std::abs(area[k]) > kAlong * area.norm()) ends[k][area[k] > 0] = true;
+  const Mesh& mesh = body.mesh;
+  const int corners = mesh.dimension + 1;
+  double V = 0;
+  Vec3 first = Vec3::Zero();
+  Mat3 second = Mat3::Zero();  // of a simplex V/((D + 1)(D + 2)) (sum_a x_a x_a + sum_a x_a sum_b x_b)
+  for (const std::array<int, 4>& simplex : mesh.simplices()) {
+    const double v = signed_volume(mesh.nodes, simplex, mesh.dimension);
+    Vec3 sum = Vec3::Zero();
+    Mat3 products = Mat3::Zero();
+    for (int a = 0; a < corners; ++a) {
+      const Vec3 x = mesh.nodes[simplex[a]] - mesh.nodes.front();
+      sum += x;
+      products += x * x.transpose();
     }
-  Vec3 sizes = bounds(body.mesh).sizes();
-  for (int k = 0; k < 3; ++k)
-    if (ends[k][0] != ends[k][1]) sizes[k] *= 2;
-  return sizes;
+    V += v;
+    first += v / corners * sum;
+    second += v / (corners * (corners + 1)) * (products + sum * sum.transpose());
+  }
+  const Vec3 middle = first / V;
+  double moments = second.trace() / V - middle.squaredNorm();
+  if (is_sheet(mesh, body.thickness)) return 12 * moments;
+  struct Plane {
+    Vec3 normal;
+    double away;  ///< of the middle, m
+    bool both = false;  ///< it ends on the other side too
+  };
+  std::vector<Plane> planes;
+  for (std::size_t i = 0; i < body.cut.size(); ++i) {
+    if (!body.cut[i]) continue;
+    const Facet& facet = mesh.surface[i];
+    const Vec3 normal = area_vector(mesh, facet).normalized();
+    const auto known = std::find_if(planes.begin(), planes.end(), [&](const Plane& plane) { return std::abs(plane.normal.dot(normal)) > kAlong; });
+    if (known != planes.end()) known->both = known->both || known->normal.dot(normal) < 0;
+    else planes.push_back({normal, normal.dot(mesh.nodes[facet.nodes[0]] - mesh.nodes.front() - middle)});
+  }
+  for (const Plane& plane : planes)
+    if (!plane.both) moments += plane.away * plane.away;
+  return 12 * moments;
 }
 
 /// Projector of the directions along which a body goes on beyond no plane of symmetry, nor round an axis.
@@ -85,8 +111,8 @@ double Simulation::Impl::stored_in(const std::vector<int>& bodies) const {
 }
 
 double Simulation::Impl::slowness(const BodyModel& body) const {
-  const double size = swinging_size(body).norm(), speed = std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling);
-  return size * size / (body.thickness * speed);
+  const double speed = std::sqrt(body.material.E() / body.material.density / plan.time_step.mass_scaling);
+  return swinging_size_squared(body) / (body.thickness * speed);
 }
 
 bool Simulation::Impl::lets_go_slowly() const {

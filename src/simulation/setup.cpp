@@ -166,6 +166,7 @@ void Simulation::Impl::tell_quick_press() {
   double all = 0;
   for (const StageConfig& stage : plan.stages)
     if (stage.kind == "form") all += stage.duration;
+  if (all == 0) return;
   const std::vector<SurfacePair> pairs = contact->surface_pairs();
   for (const BodyModel& body : model.bodies) {
     const auto rubs = [&](const SurfacePair& p) { return (p.first == body.name || p.second == body.name) && p.friction > 0; };
@@ -231,7 +232,7 @@ void Simulation::Impl::set_up_contact() {
     setup.tools.push_back(std::move(s));
     setup.tool_meshes.push_back(&tool.mesh);
   }
-  contact.emplace(setup, x, tool_motions(0));
+  contact.emplace(setup, x, tools_now());
   for (std::size_t n = 0; n < x.size(); ++n)
     if (contact->nodal_area()[n] > 0) touchable.push_back(static_cast<int>(n));
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -300,9 +301,14 @@ void Simulation::Impl::give_tools_mass() {
   }
 }
 
-std::vector<ToolMotion> Simulation::Impl::tool_motions(double step_dt) const {
+std::vector<ToolMotion> Simulation::Impl::tools_now() const {
   std::vector<ToolMotion> motions;
-  motions.reserve(model.tools.size());
+  tool_motions(0, motions);
+  return motions;
+}
+
+void Simulation::Impl::tool_motions(double step_dt, std::vector<ToolMotion>& motions) const {
+  motions.clear();
   for (int k = 0; k < static_cast<int>(model.tools.size()); ++k) {
     const ToolPose a = stages.pose(k, time);
     ToolMotion motion{a.position, a.position, a.rotation, a.rotation, stages.present(k)};
@@ -319,7 +325,6 @@ std::vector<ToolMotion> Simulation::Impl::tool_motions(double step_dt) const {
     }
     motions.push_back(motion);
   }
-  return motions;
 }
 
 void Simulation::Impl::place_tools() {

@@ -75,7 +75,7 @@ bool Simulation::Impl::stage_over() {
 
 void Simulation::Impl::check_crossings() {
   if (!contact) return;
-  crossings += contact->count_crossings(x, tool_motions(0));
+  crossings += contact->count_crossings(x, tools_now());
   next_crossing_check = stages.progress(time) + 1.0 / kCrossingChecks;
 }
 

@@ -47,21 +47,24 @@ void Simulation::Impl::take_step() {
   find_loads();
   if (stages.settling()) watch_settling();
   slow_tools();
-  const NodeField* then = by_cells() ? nullptr : &departure.then();
-  double departed = 0;  // squared
+  struct {
+    const NodeField* then;
+    double departed;  // squared
+  } way{by_cells() ? nullptr : &departure.then(), 0};
   if (contact) {
-    const ContactStep done = contact->advance(
-        time, dt, x, v, v_before, [&](double step_dt, NodeField& v_star) { predict(step_dt, v_star); },
-        [&](double step_dt, const NodeField& with, NodeField& at) { departed = move_nodes(elements.team(), step_dt, with, then, at); },
-        [&](double step_dt) { return tool_motions(step_dt); }, full_dt(), damping_rate());
+    // Each asks for no more than two pointers, which a std::function has room for.
+    const ContactStep& done = contact->advance(
+        time, dt, x, v, v_before, [this](double step_dt, NodeField& v_star) { predict(step_dt, v_star); },
+        [this, &way](double step_dt, const NodeField& with, NodeField& at) { way.departed = move_nodes(elements.team(), step_dt, with, way.then, at); },
+        [this](double step_dt, std::vector<ToolMotion>& motion) { tool_motions(step_dt, motion); }, full_dt(), damping_rate());
     dt = done.dt;
     book(done);
   } else {
     v.swap(v_before);
-    const BoundarySet::Prescription prescribed = boundaries.prescription(time, dt);
+    const BoundarySet::Prescription& prescribed = boundaries.prescription(time, dt);
     const auto hold = [&](long first, long last) { boundaries.apply_velocity(prescribed, x, first, last, v); };
-    const KickedAndMoved moved = kick_and_move_nodes(elements.team(), kick_of(dt), v_before, forces(), elements.nodal_mass(), hold, dt, then, v, x);
-    departed = moved.apart;
+    const KickedAndMoved moved = kick_and_move_nodes(elements.team(), kick_of(dt), v_before, forces(), elements.nodal_mass(), hold, dt, way.then, v, x);
+    way.departed = moved.apart;
     resting = moved.resting;
   }
   book_loads();
@@ -72,7 +75,7 @@ void Simulation::Impl::take_step() {
   ++steps;
   place_tools();
   most = std::max(most, work + initial);
-  if (then) departure.step(departed, elements.slowest_wave());
+  if (way.then) departure.step(way.departed, elements.slowest_wave());
 }
 
 void Simulation::Impl::book(const ContactStep& done) {
@@ -94,6 +97,7 @@ void Simulation::Impl::book(const ContactStep& done) {
          << " s up to which the explicit contact is stable: set time_step.maximum to a fifth of contact.explicit_stable_dt_s, or contact.method to implicit";
     warnings.push_back(text.str());
   }
+  if (!done.told.empty() && std::find(warnings.begin(), warnings.end(), done.told) == warnings.end()) warnings.push_back(done.told);
   const double kick = 0.5 * (previous_dt + done.dt);  // in which impulses of contact act as forces do
   if (done.active > 0 || contact->ties() || pressed) mean_contact_force(kick);
   for (std::size_t k = 0; k < tools.size(); ++k) {

@@ -41,7 +41,7 @@ struct Corner {
 
 TEST(Alike, OneBearsWhatThreeDo) {
   Corner c;
-  join_alike(c.work, c.pairs, c.rubs);
+  AlikePairs().join(c.work, c.pairs, c.rubs);
   EXPECT_EQ(c.pairs[0].stiffness, 9);
   EXPECT_EQ(c.pairs[0].impulse, 15);
   EXPECT_EQ(c.pairs[0].w, 2);
@@ -61,7 +61,7 @@ TEST(Alike, OneBearsWhatThreeDo) {
 TEST(Alike, EdgesWithoutTheirVertex) {
   Corner c;
   c.pairs.erase(c.pairs.begin());
-  join_alike(c.work, c.pairs, c.rubs);
+  AlikePairs().join(c.work, c.pairs, c.rubs);
   EXPECT_EQ(c.pairs[0].stiffness, 6);
   EXPECT_EQ(c.pairs[1].stiffness, 0);
 }
@@ -80,7 +80,7 @@ TEST(Alike, WhatDiffersStays) {
   for (std::size_t k = 0; k < differences.size(); ++k) {
     Corner c;
     differences[k](c);
-    join_alike(c.work, c.pairs, c.rubs);
+    AlikePairs().join(c.work, c.pairs, c.rubs);
     EXPECT_EQ(c.pairs[1].stiffness, 3) << k;
     EXPECT_EQ(c.pairs[1].impulse, 5) << k;
   }

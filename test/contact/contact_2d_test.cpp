@@ -272,9 +272,9 @@ TEST(Contact2D, HalvingsOfStepsInARowCountTogether) {
     NodeField v_before;
     const auto predict = [&](double, NodeField& v_star) { v_star = world.v; };
     const auto move = [](double, const NodeField&, NodeField&) {};
-    const auto tools = [&](double h) {
+    const auto tools = [&](double h, std::vector<ToolMotion>& motion) {
       ++tried;
-      return world.motion(0, h);
+      motion = world.motion(0, h);
     };
     try {
       contact.advance(0, dt, world.x, world.v, v_before, predict, move, tools, std::ldexp(dt, halved_before));

@@ -118,7 +118,7 @@ struct World {
           static Team alone(1);
           move_nodes(alone, h, with, nullptr, at);
         },
-        [&](double h) { return motion(time, time + h); });
+        [&](double h, std::vector<ToolMotion>& now) { now = motion(time, time + h); });
     for (size_t i = 0; i < x.size(); ++i) {
       const Node j = mass[i] * (v[i] - kicked[i]);
       const double w = j.dot(0.5 * (v[i] + v_before[i]));

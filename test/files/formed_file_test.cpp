@@ -17,7 +17,8 @@ FormedPart part_of(CellKind kind, const std::string& name) {
   part.name = name;
   part.material = "density: 1\n";
   part.pressure_average = "cell";
-  part.held_by = {"tool punch"};
+  part.pressed_by = {"tool punch"};
+  part.held_sets = {"left", "corner"};
   part.mesh = block_of(kind);
   const BodyModel body = body_of(part.mesh, aluminium(true));
   NodeField x = positions_of(body.mesh), v(x.size(), Node::Zero()), f = v;
@@ -35,7 +36,9 @@ void expect_same(const FormedPart& a, const FormedPart& b) {
   EXPECT_EQ(a.material, b.material);
   EXPECT_EQ(a.pressure_average, b.pressure_average);
   EXPECT_EQ(a.axisymmetric, b.axisymmetric);
-  EXPECT_EQ(a.held_by, b.held_by);
+  EXPECT_EQ(a.pressed_by, b.pressed_by);
+  EXPECT_EQ(a.held_sets, b.held_sets);
+  EXPECT_EQ(a.memory.nodal_ratio, b.memory.nodal_ratio);
   EXPECT_EQ(a.mesh.dimension, b.mesh.dimension);
   EXPECT_EQ(a.mesh.nodes, b.mesh.nodes);
   EXPECT_EQ(a.mesh.sets, b.mesh.sets);

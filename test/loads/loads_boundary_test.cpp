@@ -49,20 +49,20 @@ std::string refusal(const std::vector<ResolvedBoundary>& boundaries, int dimensi
 }
 
 TEST(BoundarySet, fixes_axes_and_leaves_the_others) {
-  const BoundarySet set({fixed({"y"}, {3, 1}), fixed({}, {5})}, 3);
+  BoundarySet set({fixed({"y"}, {3, 1}), fixed({}, {5})}, 3);
   EXPECT_EQ(set.nodes(), (std::vector<int>{1, 3, 5}));
   EXPECT_EQ(set.projector(0) * Vec3(1, 2, 3), Vec3(1, 0, 3));
   EXPECT_EQ(set.projector(2) * Vec3(1, 2, 3), Vec3(0, 0, 0));
 }
 
 TEST(BoundarySet, all_axes_in_plane_strain_are_x_and_y) {
-  const BoundarySet set({fixed({}, {0})}, 2);
+  BoundarySet set({fixed({}, {0})}, 2);
   EXPECT_EQ(set.projector(0), Mat3(Vec3(0, 0, 1).asDiagonal()));
 }
 
 TEST(BoundarySet, merges_skew_planes_of_symmetry) {
   const Vec3 first(1, 2, 2), second(1, 0, 1);
-  const BoundarySet set({symmetric(first, {4}), symmetric(second, {4})}, 3);
+  BoundarySet set({symmetric(first, {4}), symmetric(second, {4})}, 3);
   const Mat3 p = set.projector(0);
   EXPECT_LT((p * p - p).norm(), 1e-14);
   EXPECT_LT((p - p.transpose()).norm(), 1e-15);
@@ -80,7 +80,7 @@ TEST(BoundarySet, merges_skew_planes_of_symmetry) {
 }
 
 TEST(BoundarySet, prescribes_velocity_along_its_axes_only) {
-  const BoundarySet set({driven({2, 7, 0}, {4, 7, 0}, {"x"}, {0, 2})}, 3);
+  BoundarySet set({driven({2, 7, 0}, {4, 7, 0}, {"x"}, {0, 2})}, 3);
   NodeField v(3, Node(1, 1, 1, 0));
   EXPECT_DOUBLE_EQ(set.apply_velocity(1, 0, v, v), 3);
   EXPECT_EQ(v[0], Node(3, 1, 1, 0));
@@ -97,7 +97,7 @@ TEST(BoundarySet, goes_as_far_as_its_table) {
   turn.config.velocities.clear();
   turn.places = {Vec3(1, 0, 0)};
   turn.config.spins_deg_s = {Vec3(0, 0, 50), Vec3(0, 0, 50), Vec3::Zero(), Vec3::Zero()};
-  const BoundarySet moved({jump}, 2), turned({turn}, 2);
+  BoundarySet moved({jump}, 2), turned({turn}, 2);
   Vec3 way = Vec3::Zero(), x(1, 0, 0);
   for (int k = 0; k < 7; ++k) {
     way += 0.3 * moved.prescribed(0, 0.3 * k, 0.3, Vec3::Zero());
@@ -109,7 +109,7 @@ TEST(BoundarySet, goes_as_far_as_its_table) {
 }
 
 TEST(BoundarySet, a_part_of_the_nodes_at_a_time_is_all_of_them) {
-  const BoundarySet set({driven({2, 7, 0}, {4, 7, 0}, {"x"}, {0, 2, 3, 7}), symmetric(Vec3(1, 1, 0), {4, 8})}, 3);
+  BoundarySet set({driven({2, 7, 0}, {4, 7, 0}, {"x"}, {0, 2, 3, 7}), symmetric(Vec3(1, 1, 0), {4, 8})}, 3);
   const NodeField at_random{{1, 2, 3, 0}, {4, 5, 6, 0}, {7, 8, 9, 0}, {1, 4, 7, 0}, {2, 5, 8, 0}, {3, 6, 9, 0}, {9, 7, 5, 0}, {8, 6, 4, 0}, {7, 5, 3, 0}};
   NodeField whole = at_random, parts = at_random;
   const double fastest = set.apply_velocity(1, 0, whole, whole);
@@ -129,7 +129,7 @@ TEST(BoundarySet, a_drive_and_a_skew_plane_hold_both) {
     std::vector<ResolvedBoundary> boundaries{driven({3, 0, 0}, {3, 0, 0}, {"x"}, {0}),
                                              symmetric(normal, {0})};
     if (plane_first) std::swap(boundaries[0], boundaries[1]);
-    const BoundarySet set(boundaries, 3);
+    BoundarySet set(boundaries, 3);
     NodeField v{Node(9, 9, 9, 0)};
     set.apply_velocity(0.5, 0, v, v);
     EXPECT_LT((v[0] - Node(3, -3, 9, 0)).norm(), 1e-13);
@@ -195,7 +195,7 @@ double work_of(const BoundarySet& set, const NodeField& f, const std::vector<dou
 
 TEST(BoundarySet, work_closes_the_balance_of_kinetic_energy) {
   // Nodes under arbitrary forces, one driven on a skew plane, one held, one free.
-  const BoundarySet set(
+  BoundarySet set(
       {driven({3, 0, 1}, {-5, 0, 2}, {"x", "z"}, {0}), symmetric({1, 2, 0.5}, {1}), fixed({}, {2})}, 3);
   const std::vector<double> mass{0.5, 2, 3, 1};
   const double dt = 1e-2;
@@ -222,7 +222,7 @@ TEST(BoundarySet, work_closes_the_balance_of_kinetic_energy) {
 }
 
 TEST(BoundarySet, a_plane_of_symmetry_does_no_work) {
-  const BoundarySet set({symmetric({1, 2, -1}, {0})}, 3);
+  BoundarySet set({symmetric({1, 2, -1}, {0})}, 3);
   const std::vector<double> mass{2};
   NodeField v{Node(1, 0, 1, 0)};  // on the plane
   const NodeField f{Node(5, -3, 8, 0)}, before = v;
@@ -253,7 +253,7 @@ TEST(BoundarySet, a_turning_set_keeps_its_shape_and_goes_with_its_centre) {
   const std::vector<Vec3> places{{1, 0, 0}, {0.3, -1, 2.5}, {-2, 0.1, 4}};
   ResolvedBoundary boundary = turning(360 * axis, centre, {}, places);
   boundary.config.velocities = {along};
-  const BoundarySet set({boundary}, 3);
+  BoundarySet set({boundary}, 3);
   NodeField x, v(3, Node(9, 9, 9, 0));
   for (const Vec3& place : places) x.push_back(node(place));
   const double dt = 0.02;
@@ -271,7 +271,7 @@ TEST(BoundarySet, a_turning_set_keeps_its_shape_and_goes_with_its_centre) {
 }
 
 TEST(BoundarySet, a_turning_set_leaves_other_axes_free) {
-  const BoundarySet set({turning({0, 0, 180}, {0, 0, 0}, {"x", "y"}, {{2, 0, 1}})}, 3);
+  BoundarySet set({turning({0, 0, 180}, {0, 0, 0}, {"x", "y"}, {{2, 0, 1}})}, 3);
   NodeField v{Node(5, 5, 5, 0)};
   const NodeField x{Node(2, 0, 1, 0)};
   EXPECT_NEAR(set.apply_velocity(0, 0, x, v), 2 * M_PI, 1e-12);  // dt = 0: w x r

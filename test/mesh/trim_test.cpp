@@ -4,6 +4,7 @@
 #include "forming_sim/config/fault.h"
 #include "forming_sim/mesh/generate.h"
 #include "forming_sim/mesh/measure.h"
+#include "forming_sim/mesh/seams.h"
 #include "forming_sim/mesh/trim.h"
 
 namespace forming_sim {
@@ -104,9 +105,9 @@ TEST(Trim, SetsKeepWhatIsLeftOfThem) {
 }
 
 TEST(Trim, CountsThePieces) {
-  EXPECT_EQ(pieces_of(plate()), 1);
-  EXPECT_EQ(pieces_of(cut(plate(), {box(Vec3(1, -1, -1), Vec3(2, 9, 9))})), 2);
-  EXPECT_EQ(pieces_of(cut(strip(), {box(Vec3(1, -1, 0), Vec3(1.5, 9, 0)), box(Vec3(3, -1, 0), Vec3(3.5, 9, 0))})), 3);
+  EXPECT_EQ(count_parts(plate()), 1);
+  EXPECT_EQ(count_parts(cut(plate(), {box(Vec3(1, -1, -1), Vec3(2, 9, 9))})), 2);
+  EXPECT_EQ(count_parts(cut(strip(), {box(Vec3(1, -1, 0), Vec3(1.5, 9, 0)), box(Vec3(3, -1, 0), Vec3(3.5, 9, 0))})), 3);
 }
 
 TEST(Trim, SaysWhatIsWrong) {

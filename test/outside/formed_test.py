@@ -165,6 +165,45 @@ class Formed(SceneRun):
         spun['bodies'][0]['formed']['turn_deg'] = [90, 0, 0]
         self.assertIn('bodies[0].formed.turn_deg: given [90, 0, 0]', self.refused(spun))
 
+    def test_what_lets_go_takes_the_same_time_however_the_part_lies(self):
+        plate = {'name': 'strip', 'material': PERFECT, 'blank': {'shape': 'plate', 'length': 0.02, 'width': 0.02, 'thickness': 1e-3, 'cells_along': 8, 'cells_across': 8, 'cells_through': 2, 'pattern': 'one_point'},
+                 'boundaries': [{'set': 'left', 'kind': 'fixed'}, {'set': 'right', 'kind': 'velocity', 'times': [0, 1e-4, 2e-4], 'velocities': [[0, 0, 0], [0, 0, -20], [0, 0, 0]]}]}
+        self.run_scene({'name': 'bent', 'dimension': 3, 'bodies': [plate], 'stages': [{'kind': 'form', 'duration': 3e-4}], 'output': {'frames': 2, 'formed': True}}, 'bent')
+        ends = []
+        for turn in (0, 45):
+            data = self.next_scene(held=[{'set': 'left', 'kind': 'fixed'}, {'set': 'right', 'kind': 'fixed', 'until': 'settle'}], turn=turn)
+            data.update(dimension=3, stages=[{'kind': 'form', 'duration': 1e-5}] + data['stages'])
+            ends.append(self.run_scene(data, 'next')['sim_time_s'])
+        print(f'  a plate let go has come to rest after {ends[0] * 1e3:.3f} ms, turned by 45 degrees after {ends[1] * 1e3:.3f} ms')
+        self.assertAlmostEqual(ends[1] / ends[0], 1, delta=0.02)
+
+    def test_a_part_is_not_written_over_itself(self):
+        self.bend_quickly()
+        data = self.next_scene(held=HELD)
+        data['output']['formed'] = True
+        with open(self.path('scene.yaml'), 'w') as file:
+            yaml.safe_dump(data, file)
+        run = subprocess.run([OFFLINE, self.path('scene.yaml'), '--output', self.path('bent'), '--quiet'], stderr=subprocess.PIPE, text=True)
+        self.assertIn('is read from', run.stderr)
+        self.assertIn('give another output directory', run.stderr)
+        with open(self.path('bent/summary.json')) as file:
+            self.assertEqual(json.load(file)['scene'], 'bent')
+
+    def test_a_cut_keeps_pressures_also_where_nodes_have_them(self):
+        # Upset by a tenth with the faces held: single triangles change their volumes by as much, and nodes make up for it.
+        sets = [{'name': 'lower', 'choose': 'plane', 'point': [0, 0, 0], 'normal': [0, 1, 0]}, {'name': 'upper', 'choose': 'plane', 'point': [0, 0.005, 0], 'normal': [0, 1, 0]}]
+        blank = {'shape': 'strip', 'length': 0.01, 'thickness': 0.005, 'cells_along': 12, 'cells_through': 6}
+        block = {'name': 'strip', 'blank': blank, 'pressure_average': 'node', 'material': PERFECT, 'sets': sets, 'boundaries': [
+            {'set': 'lower', 'kind': 'fixed', 'until': 'settle'},
+            {'set': 'upper', 'kind': 'velocity', 'until': 'settle', 'times': [0, 1e-4, 2e-4], 'velocities': [[0, 0, 0], [0, -5, 0], [0, 0, 0]]}]}
+        self.run_scene({'name': 'upset', 'dimension': 2, 'bodies': [block], 'stages': [{'kind': 'form', 'duration': 2e-4}, {'kind': 'settle', 'limit': 0.05}], 'output': {'frames': 2, 'formed': True}}, 'bent')
+        _, (_, whole) = self.frames('bent')
+        summary = self.run_scene(self.next_scene([{'choose': 'plane', 'point': [0.004, 0, 0], 'normal': [1, 0, 0]}], pressure_average='node'), 'next')
+        _, (first, _) = self.frames('next')
+        self.assertLess(len(first['stress']), len(whole['stress']))
+        self.assertLess(numpy.abs(first['stress']).max(), 1.05 * numpy.abs(whole['stress']).max())
+        self.assertLess(summary['energy_J']['plastic'], 0.05 * summary['energy_J']['initial'])
+
     def test_what_is_still_held_is_told(self):
         data = bent(self.curvature, (20, 2))
         data['tools'] = [{'name': 'table', 'normal': [0, 1, 0], 'point': [0, -1e-6, 0]}]
@@ -174,7 +213,10 @@ class Formed(SceneRun):
         self.run_scene(data, 'bent')
         self.run_scene(self.next_scene(held=HELD[:1]), 'next')
         with open(self.path('next/summary.json')) as file:
-            self.assertTrue(any('was still held by tool table when its run ended' in w for w in json.load(file)['warnings']))
+            self.assertTrue(any('was still pressed by tool table when its run ended' in w for w in json.load(file)['warnings']))
+        self.run_scene(self.next_scene(), 'next')
+        with open(self.path('next/summary.json')) as file:
+            self.assertTrue(any('was held at left when its run ended, and is not here' in w for w in json.load(file)['warnings']))
 
 
 if __name__ == '__main__':

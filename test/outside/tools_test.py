@@ -220,6 +220,25 @@ class Tools(SceneRun):
         self.assertGreater(ends['sliding'], 10 * abs(ends['frictionless']))
         self.assertLess(ends['sliding'], ends['tied'])
 
+    def test_what_ties_hold_twice_is_held_once(self):
+        """A block on a bed, tied to it and to a wall at its side, which moves: the corner is told to be in two places. Then a folding machine, whose plates part at a strip's middle cell."""
+        def box(least, greatest):
+            (x, y), (u, v) = least, greatest
+            return {'start': [x, y, 0.0], 'pieces': [{'to': [float(a), float(b), 0.0]} for a, b in ((u, y), (u, v), (x, v))], 'closed': True}
+        bed = {'name': 'bed', 'profile': box((-0.01, -0.01), (0.02, 0.0))}
+        wall = {'name': 'wall', 'profile': box((-0.01, -0.0001), (0.0, 0.03)), 'motion': {'kind': 'trajectory', 'times': [0, 2e-4], 'positions': [[0, 0, 0], [0, 2e-5, 0]]}}
+        block = body(blank={'shape': 'strip', 'length': 0.01, 'thickness': 0.02, 'cells_along': 4, 'cells_through': 8})
+        ties = {'pairs': [{'first': 'body', 'second': tool, 'kind': 'tied'} for tool in ('bed', 'wall')]}
+        corner = self.run_scene(scene(block, tools=[bed, wall], contact=ties, duration=2e-4), 'corner')
+        plates = [{'name': 'bed', 'profile': box((-0.03, -0.01), (0.0, 0.0))},
+                  {'name': 'wall', 'profile': box((0.0, -0.01), (0.03, 0.0)), 'motion': {'kind': 'trajectory', 'times': [0, 2e-4], 'positions': [[0, 0, 0], [0, 0, 0]], 'rotations_deg': [[0, 0, 0], [0, 0, 0.2]]}}]
+        strip = body(blank={'shape': 'strip', 'origin': [-0.0205, 0.0], 'length': 0.041, 'thickness': 0.002, 'cells_along': 41, 'cells_through': 2})
+        fold = self.run_scene(scene(strip, tools=plates, contact=ties, duration=2e-4), 'fold')
+        for run in (corner, fold):
+            energy = run['energy_J']
+            self.assertAlmostEqual(energy['work'] / (energy['elastic'] + energy['kinetic']), 1, delta=0.01)
+        self.assertTrue(any('body and tool wall are tied, and part where other ties' in w for w in corner['warnings']), corner['warnings'])
+
     def test_bodies_that_touch_are_parted_and_push_each_other(self):
         lower, upper = body('strip'), body('strip', initial_velocity=[0.0, -5.0, 0.0])
         lower['boundaries'] = [{'set': 'bottom', 'kind': 'fixed'}]

@@ -10,8 +10,21 @@
 
 namespace forming_sim {
 
-/// Of pairs that are alike the one of a vertex, or else the first, gets stiffness, impulse and friction of all; the others bear nothing in
-/// this step and are there. pairs: in the order of their keys, with what they start from.
-void join_alike(const Workspace& work, LargeArray<ContactPair>& pairs, std::vector<Rub>& rubs);
+class AlikePairs {
+ public:
+  /// Of pairs that are alike the one of a vertex, or else the first, gets stiffness, impulse and friction of all; the others bear nothing in
+  /// this step and are there. pairs: in the order of their keys, with what they start from.
+  void join(const Workspace& work, LargeArray<ContactPair>& pairs, std::vector<Rub>& rubs);
+
+ private:
+  /// The first pair of two edges of which one ends at this vertex and the other is this edge.
+  struct First {
+    int vertex = -1, edge = -1;
+    ContactPair* pair = nullptr;
+  };
+  /// The place of what is known of them, or of what will be.
+  First& first_of(int vertex, int edge);
+  std::vector<First> table_;  ///< by a hash of both, then the next free place; at most half full
+};
 
 }  // namespace forming_sim

@@ -9,11 +9,11 @@ class Books {
  public:
   /// Fills tool impulses, tool_work, held_work, friction_work and active of the step,
   /// which start at 0.
-  Books(const Workspace& work, const std::vector<Rub>& rubs, int bodies, int tools, ContactStep& step);
+  Books(const Workspace& work, const std::vector<Rub>& rubs, int bodies, ContactStep& step) : work_(work), rubs_(rubs), bodies_(bodies), step_(step) {}
   void add(const TiePair& tie);
   void add(const ContactPair& pair);
-  /// What another thread has booked of the same step.
-  void add(const Books& share);
+  /// What other books of the same step have, with their normal_work().
+  void add(const ContactStep& more, double normal_work);
   /// Of the impulses along the normals, and of ties, on the relative motion, J.
   double normal_work() const { return normal_; }
 

@@ -95,7 +95,20 @@ struct ContactStep {
   double stable_dt = 0;           ///< explicit only: the step up to which the layer as it stands is stable, s; 0: nothing is in it
   std::vector<Vec3> tool_impulse;          ///< on each tool by the bodies, N s
   std::vector<Vec3> tool_angular_impulse;  ///< about the world's origin, N m s
+  std::string told;                        ///< what is to be warned of; mostly nothing
   std::vector<double> tool_push;           ///< velocity along its guide that contact gave each tool that a force drives, m/s; 0 of others
+
+  /// All of it 0, for the next step of so many tools.
+  void begin(std::size_t tools) {
+    ContactStep next;
+    next.tool_impulse.swap(tool_impulse);  // with their memory
+    next.tool_angular_impulse.swap(tool_angular_impulse);
+    next.tool_push.swap(tool_push);
+    next.tool_impulse.assign(tools, Vec3::Zero());
+    next.tool_angular_impulse.assign(tools, Vec3::Zero());
+    next.tool_push.assign(tools, 0.0);
+    *this = std::move(next);
+  }
 };
 
 /// Two surfaces that can meet, or are tied.
@@ -127,8 +140,8 @@ class Contact {
   using Predict = std::function<void(double dt, NodeField& v_star)>;
   /// x += dt v.
   using Move = std::function<void(double dt, const NodeField& v, NodeField& x)>;
-  /// The tools' poses now and after dt.
-  using ToolsAt = std::function<std::vector<ToolMotion>(double dt)>;
+  /// The tools' poses now and after dt, in the place of what is there.
+  using ToolsAt = std::function<void(double dt, std::vector<ToolMotion>& motion)>;
 
   /// Finishes the step that starts at `time` (named in messages only).
   /// In: x at n, v before the kick. Out: v after kick and contact, x + dt v, and in
@@ -139,7 +152,7 @@ class Contact {
   /// full_dt: the step that could be taken had none been halved lately, 0: dt. All halvings since count.
   /// damping: alpha of the kick, 1/s. It acts on what contact makes of the velocities too, m v (1 + a/2) = m v_before (1 - a/2) + kick f + J,
   /// a = alpha kick: so J is kick times the force that f is balanced by, however alpha changes, and what damping takes is a m ((v_before + v)/2)^2.
-  ContactStep advance(double time, double dt, NodeField& x, NodeField& v, NodeField& v_before, const Predict& predict, const Move& move, const ToolsAt& tools, double full_dt = 0, double damping = 0);
+  const ContactStep& advance(double time, double dt, NodeField& x, NodeField& v, NodeField& v_before, const Predict& predict, const Move& move, const ToolsAt& tools, double full_dt = 0, double damping = 0);
 
   /// Independent check: edges of one surface that pierce facets of another
   /// (2D: crossing segments), nodes behind a plane, and parts wholly inside.
@@ -150,6 +163,8 @@ class Contact {
 
   /// Bodies that are tied, or pressed on each other in the last step.
   std::set<std::pair<int, int>> bodies_that_hold_each_other() const;
+  /// Of a body: tools that pressed on it in the last step, or that it is tied to, rising.
+  std::vector<int> tools_on(int body) const;
   /// Is anything tied?
   bool ties() const;
   /// Adds the normal impulses that the last step put on the bodies' nodes, N s, below 0 where ties pull; sum: one per node.

@@ -37,6 +37,7 @@ class Mixing {
   Sums products_with(const Numbers& other);
 
   Team& team_;
+  std::vector<Sums> of_chunk_;             ///< room for products_with()
   Numbers weight_, x_, g_, f_;             ///< of the last sweep
   Numbers dF_[kColumns], dG_[kColumns];
   int columns_ = 0, newest_ = -1;          ///< in use; in turns

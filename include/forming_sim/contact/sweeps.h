@@ -78,6 +78,7 @@ class Sweeps {
   const PairKernels& kernels_;
   std::vector<Tile> tiles_;            ///< the first tile_count_ are in use; the others keep their memory
   long tile_count_ = 0, tile_size_ = 0, tiles_of_a_thread_ = 1;
+  std::vector<int> colour_of_;         ///< of the tiles
   std::vector<long> order_;            ///< of the tiles, by colour
   std::vector<long> colour_ends_;      ///< places in order_
   std::vector<std::uint64_t> taken_;   ///< per node: colours of its tiles, then of its pairs in a tile; one bit each

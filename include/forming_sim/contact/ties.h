@@ -67,6 +67,11 @@ void keep_ties(const Features& features, const NodeField& x, const NodeField& pl
 TiePair link_tie(const Tie& tie, int index, const int* entries);
 void prepare_tie(const Workspace& work, TiePair& pair);
 
+/// Takes those out of `ties` that hold what is held already, and returns them: all their nodes are tools' that go as they are told, held or driven by
+/// boundaries, or follow from other ties. Where these part, no impulse brings all to rest, and the sweeps would add up without end. told: of an
+/// entry of the workspace beyond the bodies', whether its tool goes as it is told.
+std::vector<TiePair> take_out_doubled(const Workspace& work, const std::vector<bool>& told, std::vector<TiePair>& ties);
+
 /// Sets `missing` and `press`, and what turns, for a step that starts at work.x; motion: of the tools.
 void aim_tie(const Tie& tie, const Workspace& work, const std::vector<ToolMotion>& motion, TiePair& pair);
 

@@ -17,6 +17,8 @@ struct ToolSet {
   /// Places of all tool vertices with the tools at position0, rotation0.
   void place_all(const Features& features, const std::vector<ToolMotion>& motion, NodeField& place) const;
   std::vector<PlanePose> planes(const std::vector<ToolMotion>& motion) const;
+  /// The same in the memory of others.
+  void place_planes(const std::vector<ToolMotion>& motion, std::vector<PlanePose>& planes) const;
   static std::vector<bool> present(const std::vector<ToolMotion>& motion);
 };
 

@@ -151,6 +151,7 @@ class Elements {
   std::vector<double> point_ratios(const Group& g, const NodeField& x) const;  ///< V/V0, [point] at edges
   /// The body goes on from this memory, which was that of its cells at x, and perhaps of more.
   void take_up(const BodyModel& body, const FormedMemory& memory, const NodeField& x);
+  void take_up_nodes(const BodyModel& body, const std::vector<double>& ratio, const NodeField& x);
   void take_up_points(const BodyModel& body, const FormedEdges& formed, const NodeField& x, Group& g);
   void keep_shares(const NodeField& X);
   void add_bytes(const Group& group, GroupPlan& plan) const;

@@ -31,6 +31,7 @@ struct FormedMemory {
   std::vector<Vec3> reference;    ///< [node] where it was while the elements were free of stress, m
   std::vector<FormedCells> cells; ///< one a block of Mesh::cells
   FormedEdges edges;
+  std::vector<double> nodal_ratio;  ///< [node] V/V0 of nodal pressures where the part stands; empty where it has none
 };
 
 /// Of what is left of its part.

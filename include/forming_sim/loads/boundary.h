@@ -55,11 +55,11 @@ class BoundarySet {
     std::vector<Vec3> u;  ///< of each group that does not turn
     std::vector<double> speed;  ///< |u|
   };
-  Prescription prescription(double t, double dt) const;
+  const Prescription& prescription(double t, double dt);
   /// v <- P v + u of those of the nodes [first, last) that are held or driven. Returns the largest prescribed speed, m/s.
   double apply_velocity(const Prescription& step, const NodeField& x, long first, long last, NodeField& v) const;
   /// Of all nodes.
-  double apply_velocity(double t, double dt, const NodeField& x, NodeField& v) const;
+  double apply_velocity(double t, double dt, const NodeField& x, NodeField& v);
 
   /// What the prescription pushed on nodes()[k] in a step, N s:
   /// R = (I - P) [m (v_after - v_before) - dt f], f all other forces, before projection.
@@ -101,6 +101,7 @@ class BoundarySet {
   void check(const Group& group, const std::vector<int>& members, const std::vector<ResolvedBoundary>& boundaries, int node, const Vec3& place) const;
   Vec3 prescribed(const Group& group, double t, double dt, const Vec3& x) const;
 
+  Prescription step_;
   std::vector<RigidVelocity> motions_;  ///< one per boundary; at rest where it holds
   std::vector<Group> groups_;
   std::vector<int> nodes_, group_;  ///< group_[k] of nodes_[k]

@@ -21,7 +21,4 @@ Remainder find_remainder(const Mesh& mesh, const std::vector<TrimConfig>& region
 /// The mesh of it: its nodes in their order, sets without what is gone (empty ones left out), its surface.
 Mesh remaining(const Mesh& mesh, const Remainder& left);
 
-/// Of so many pieces it consists that have no node in common.
-int pieces_of(const Mesh& mesh);
-
 }  // namespace forming_sim

@@ -26,6 +26,7 @@ class Gauge {
   Gauge(const Simulation& simulation, const std::vector<ProbeConfig>& probes);
   const std::vector<Probe>& probes() const { return probes_; }
   const Measures& at(const Simulation& simulation);
+  std::optional<double> initial_thickness() const { return sheets_.initial(); }  ///< smallest of the sheets while they were free of stress, m
 
  private:
   std::vector<Probe> probes_;

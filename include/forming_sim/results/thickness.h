@@ -11,6 +11,9 @@
 
 namespace forming_sim {
 
+/// The smallest of the numbers that are not NaN; none: nullopt.
+std::optional<double> smallest(const std::vector<double>& values);
+
 class Thickness {
  public:
   Thickness() = default;
@@ -22,6 +25,7 @@ class Thickness {
   /// Per node of the model, m: that of a node of `top`, and below it that of the nearest node of `top` at the start.
   /// NaN on bodies that are no sheets, or are lost to numbers that are not finite. Positions in the joined numbering.
   std::vector<double> at(const NodeField& positions) const;
+  std::optional<double> initial() const { return smallest(start_); }  ///< the least at the start, m
   /// 1 - t/t0 of what at() gave, t0 at the start: 0.2 where a fifth is gone, below 0 where the sheet is thicker.
   std::vector<double> thinning(const std::vector<double>& thickness) const;
 
@@ -34,13 +38,13 @@ class Thickness {
     std::vector<int> above;                  ///< per node of the body: place in top
     std::vector<int> below;                  ///< per node of top: a facet of bottom that lay near it at the start
     std::vector<Vec3> top_start, bottom_start;  ///< where they were, of facets their first nodes, m
+    std::vector<char> stands;                ///< per node of top: some of bottom was below it; else it has no thickness
     std::vector<double> reach;               ///< per node of top: of a facet that counts, from start to start, m
   };
+  class BottomGrid;
+  void find_overhangs(const Model& model, const NodeField& start, Sheet& sheet) const;
   std::vector<Sheet> sheets_;
   std::vector<double> start_;  ///< at() of the start
 };
-
-/// The smallest of the numbers that are not NaN; none: nullopt.
-std::optional<double> smallest(const std::vector<double>& values);
 
 }  // namespace forming_sim
