@@ -84,6 +84,7 @@ Thickness::Thickness(const Model& model) {
     const auto top = mesh.sets.find("top"), bottom = mesh.sets.find("bottom");
     if (top == mesh.sets.end() || bottom == mesh.sets.end() || top->second.empty()) continue;
     Sheet sheet;
+    sheet.body = static_cast<int>(&body - model.bodies.data());
     sheet.first_node = body.first_node;
     sheet.corners = mesh.dimension;
     const auto in_bottom = [&](int node) { return std::binary_search(bottom->second.begin(), bottom->second.end(), node); };
@@ -127,7 +128,7 @@ Thickness::Thickness(const Model& model) {
 // Where the bottom has been trimmed away the nearest of it lies beside a node of the top, not below it: nothing of it is near the place a thickness inwards.
 void Thickness::find_overhangs(const Model& model, const NodeField& start, Sheet& sheet) const {
   constexpr double kNearBelow = 0.5;  // thicknesses
-  const BodyModel& body = *std::find_if(model.bodies.begin(), model.bodies.end(), [&](const BodyModel& b) { return b.first_node == sheet.first_node; });
+  const BodyModel& body = model.bodies[sheet.body];
   const std::vector<int>& top = body.mesh.sets.at("top");
   const auto place = [&](int n) -> const Node& { return start[sheet.first_node + n]; };
   NodeField outward(body.mesh.nodes.size(), Node::Zero());

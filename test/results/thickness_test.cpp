@@ -121,6 +121,23 @@ TEST(Thickness, BelowTheTopIsThatOfTheNearestNodeThere) {
   }
 }
 
+// Of a sheet whose lower half has been trimmed away at one end: what is left of the bottom lies beside the nodes there, not below them.
+TEST(Thickness, WhereTheBottomIsGoneThereIsNone) {
+  const int cells = 40;
+  const double t = 0.1;
+  Mesh mesh = strip(cells, t);
+  for (int i = cells; i > 0; --i) mesh.surface.push_back({{cells + 1 + i, cells + i, -1}, 0});
+  mesh.sets["bottom"].resize(cells / 2 + 1);
+  const Thickness thickness(model_of(mesh));
+  NodeField flat;
+  for (const Vec3& x : mesh.nodes) flat.push_back(node(x));
+  const std::vector<double> found = thickness.at(flat);
+  for (int i = 0; i <= cells / 2; ++i) EXPECT_DOUBLE_EQ(found[cells + 1 + i], t) << i;
+  for (int i = cells / 2 + 3; i <= cells; ++i) EXPECT_TRUE(std::isnan(found[cells + 1 + i])) << i << ": " << found[cells + 1 + i];
+  EXPECT_LT(std::count_if(found.begin(), found.end(), [&](double value) { return value > 1.2 * t; }), 2);
+  EXPECT_DOUBLE_EQ(thickness.initial().value(), t);
+}
+
 TEST(Thickness, NeedsBothSetsAndFacetsOfTheBottom) {
   Mesh mesh = strip(4, 0.1);
   mesh.surface.resize(0);

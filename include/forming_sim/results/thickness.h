@@ -31,7 +31,7 @@ class Thickness {
 
  private:
   struct Sheet {
-    int first_node = 0;
+    int body = 0, first_node = 0;
     std::vector<int> top;
     int corners = 3;                         ///< of a facet
     std::vector<std::array<int, 3>> bottom;  ///< a segment repeats its second node
