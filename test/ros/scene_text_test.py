@@ -31,6 +31,35 @@ class SceneTextTest(ServerTest):
         with h5py.File(self.path('text/result.h5'), 'r') as result:
             self.assertEqual(result['scene_text'][()].decode(), text)
 
+    def test_a_goal_goes_on_with_the_parts_of_another(self):
+        first = scenes.pulled_strip()
+        first['output']['formed'] = True
+        state, result = run(first, output_directory=self.path('first'))
+        self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
+        self.assertIn('formed.h5', result.files)
+        with h5py.File(self.path('first/result.h5'), 'r') as file:
+            frame = file['frames'][sorted(file['frames'])[-1]]
+            positions, strain = frame['positions'][:], frame['plastic_strain'][:]
+        strip = first['bodies'][0]
+        second = {'name': 'trimmed', 'dimension': 2, 'bodies': [{
+            'name': 'strip', 'material': strip['material'], 'formed': {'url': self.path('first/formed.h5'), 'shift': [0.0, 0.25, 0.0]},
+            'trim': [{'choose': 'plane', 'point': [0.005, 0.0, 0.0], 'normal': [1.0, 0.0, 0.0]}]}],
+            'stages': [{'kind': 'settle', 'limit': 1e-3}], 'output': {'frames': 2}}
+        state, result = run(second, output_directory=self.path('second'))
+        self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
+        self.assertNotIn('formed.h5', result.files)
+        with h5py.File(self.path('second/result.h5'), 'r') as file:
+            start, kept = file['topology/initial_positions'][:], file['frames/000000/plastic_strain'][:]
+        self.assertLess(len(start), len(positions))
+        for place in start - [0.0, 0.25, 0.0]:
+            self.assertLess(abs(positions - place).max(axis=1).min(), 1e-12)
+        for value in kept:  # to what flows in a step
+            self.assertLess(abs(strain - value).min(), 1e-5)
+        second['bodies'][0]['formed']['url'] = 'first/formed.h5'
+        state, result = run(second, output_directory=self.path('third'))
+        self.assertEqual(state, GoalStatus.REJECTED)
+        self.assertEqual(result.faults[0].field, 'bodies[0].formed.url')
+
     def test_faults_of_a_text_are_those_of_a_file(self):
         scene = scenes.pressed_strip()
         scene['bodies'][0]['blank']['lenght'] = scene['bodies'][0]['blank'].pop('length')
