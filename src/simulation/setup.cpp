@@ -97,20 +97,7 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
   for (const BodyModel& body : model.bodies) resting_bodies.push_back(resting_body(body));
   begin_stage();
   choose_dt();
-  initial -= first_kick_energy();
-  most = initial;
   told_at_start = warnings.size();
-}
-
-// The leapfrog's energy of a swing that is let go at rest, of amplitude a, is 1/2 omega^2 a^2 (1 - (omega dt/2)^2): by dt^2/8 f.M^-1 f less than the elastic one.
-double Simulation::Impl::first_kick_energy() {
-  if (std::none_of(model.bodies.begin(), model.bodies.end(), [](const BodyModel& body) { return body.formed.has_value(); })) return 0;
-  NodeField f(x.size());
-  elements.forces(x, v, 0, 0, f);
-  for (std::size_t k = 0; k < boundaries.nodes().size(); ++k) f[boundaries.nodes()[k]] = node(Vec3(boundaries.projector(static_cast<int>(k)) * vec3(f[boundaries.nodes()[k]])));
-  double sum = 0;
-  for (std::size_t i = 0; i < f.size(); ++i) sum += f[i].squaredNorm() / elements.nodal_mass()[i];
-  return 0.125 * dt * dt * sum;
 }
 
 // Cells of a strain pull a node by c^2 strain/h, h = c dt: of a strain of 1e-14, and of four times what rounding of their places is for the smallest.
