@@ -4,7 +4,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <map>
 #include <random>
+#include <set>
 
 #include "forming_sim/element/one_point.h"
 #include "support/moved.h"
@@ -312,7 +314,7 @@ TEST(OnePoint, NoStepGivesBackPlasticWork) {
 }
 
 // A face of two hexahedra that are numbered differently is divided along different diagonals, and
-// lies inside all the same.
+// lies inside all the same. On the surface diagonals meet, so that a facet is one of its cell's nodes, if not of one simplex.
 TEST(OnePoint, FacesOfHexahedraLieInsideHoweverTheyAreNumbered) {
   Mesh mesh = block_of(CellKind::hex1, 2);
   std::vector<int>& nodes = mesh.cells[0].nodes;
@@ -323,12 +325,57 @@ TEST(OnePoint, FacesOfHexahedraLieInsideHoweverTheyAreNumbered) {
   }
   find_surface(mesh);
   EXPECT_EQ(mesh.surface.size(), 6u * 4 * 2);
-  const auto simplices = mesh.simplices();
+  const int parts = shape_of(CellKind::hex1).simplices;
   for (const Facet& facet : mesh.surface)
     for (int n : facet.nodes) {
-      const auto& s = simplices[facet.element];
-      EXPECT_NE(std::find(s.begin(), s.end(), n), s.end());
+      const auto first = nodes.begin() + facet.element / parts * 8;
+      EXPECT_NE(std::find(first, first + 8, n), first + 8);
     }
+  // Around a node in the middle of a side four diagonals end, or none.
+  std::map<int, int> facets_at;
+  for (const Facet& facet : mesh.surface)
+    for (int n : facet.nodes) ++facets_at[n];
+  int stars = 0;
+  for (const auto& [n, count] : facets_at) {
+    const Vec3& x = mesh.nodes[n];
+    const auto outside = [](double c, double length) { return c < 1e-9 || c > length - 1e-9; };
+    if (outside(x.x(), 1) + outside(x.y(), .8) + outside(x.z(), .8) != 1) continue;
+    EXPECT_TRUE(count == 4 || count == 8) << count;
+    ++stars;
+  }
+  EXPECT_EQ(stars, 6);
+}
+
+// What is symmetric about a plane has a surface that is: facets mirrored are facets.
+TEST(OnePoint, TheSurfaceOfAPlateIsAsSymmetricAsThePlate) {
+  BlankConfig plate;
+  plate.shape = "plate";
+  plate.pattern = "one_point";
+  plate.length = 4, plate.width = 2, plate.thickness = 1;
+  plate.origin = Vec3(-2, -1, 0);
+  plate.cells_along = 8, plate.cells_across = 4, plate.cells_through = 2;
+  const Mesh mesh = generate_blank(plate);
+  const auto places = [&](double sx, double sy) {
+    std::set<std::set<std::array<double, 3>>> all;
+    for (const Facet& facet : mesh.surface) {
+      std::set<std::array<double, 3>> corners;
+      for (int n : facet.nodes) corners.insert({std::round(sx * mesh.nodes[n].x() * 1e6) + 0., std::round(sy * mesh.nodes[n].y() * 1e6) + 0., std::round(mesh.nodes[n].z() * 1e6) + 0.});
+      all.insert(corners);
+    }
+    return all;
+  };
+  EXPECT_EQ(places(-1, 1), places(1, 1));
+  EXPECT_EQ(places(1, -1), places(1, 1));
+  double area = 0;
+  Vec3 sum = Vec3::Zero();
+  for (const Facet& facet : mesh.surface) {
+    const Vec3 own = area_vector(mesh, facet), middle = (mesh.nodes[facet.nodes[0]] + mesh.nodes[facet.nodes[1]] + mesh.nodes[facet.nodes[2]]) / 3;
+    area += own.norm();
+    sum += own;
+    EXPECT_GT(own.dot(middle - Vec3(0, 0, .5)), 0) << "outwards";
+  }
+  EXPECT_NEAR(area, 2 * (4 * 2 + 4 * 1 + 2 * 1), 1e-12);
+  EXPECT_LT(sum.norm(), 1e-12);
 }
 
 }  // namespace
