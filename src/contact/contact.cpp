@@ -268,7 +268,7 @@ const std::vector<std::string>& Contact::warnings() const { return impl_->warnin
 namespace {
 constexpr std::uint64_t kMagic = 0x41746361746e6f43u;  // "ContactA"
 struct SavedHeader {
-  std::uint64_t magic, vertices, facets, records, drags, tools, slip, steady, delayed;
+  std::uint64_t magic, vertices, facets, records, drags, tools, slip, steady, delayed, parted;
   double potential, previous_dt;
 
   std::size_t size() const;
@@ -279,7 +279,7 @@ static_assert(std::is_trivially_copyable<PairRecord>::value && std::is_trivially
 constexpr std::size_t kPose = 12;
 
 std::size_t SavedHeader::size() const {
-  return sizeof *this + records * sizeof(PairRecord) + drags * sizeof(Drag) + (tools * kPose + slip + steady + delayed) * sizeof(double);
+  return sizeof *this + records * sizeof(PairRecord) + drags * sizeof(Drag) + (tools * kPose + slip + steady + delayed) * sizeof(double) + parted;
 }
 
 template <class Items> void append(const Items& items, std::vector<char>& data) {
@@ -297,7 +297,7 @@ template <class Items> void take(std::size_t count, const char*& from, Items& it
 std::vector<char> Contact::save() const {
   const Impl& m = *impl_;
   const std::vector<double> steady = m.waves.save();
-  const SavedHeader header{kMagic, static_cast<std::uint64_t>(m.features.vertex_count), m.features.facets.size(), m.records.pairs.size(), m.records.drags.size(), m.previous_motion.size(), m.slip.size(), steady.size(), m.delay.delayed().size(), m.potential, m.previous_dt};
+  const SavedHeader header{kMagic, static_cast<std::uint64_t>(m.features.vertex_count), m.features.facets.size(), m.records.pairs.size(), m.records.drags.size(), m.previous_motion.size(), m.slip.size(), steady.size(), m.delay.delayed().size(), m.parted.size(), m.potential, m.previous_dt};
   std::vector<double> poses;
   for (const ToolMotion& tool : m.previous_motion) {
     poses.insert(poses.end(), tool.position0.data(), tool.position0.data() + 3);
@@ -312,6 +312,7 @@ std::vector<char> Contact::save() const {
   append(m.slip, data);
   append(steady, data);
   append(m.delay.delayed(), data);
+  append(m.parted, data);
   return data;
 }
 
@@ -340,6 +341,7 @@ void Contact::restore(const std::vector<char>& data) {
   take(header.steady, from, steady);
   m.waves.restore(steady);
   take(header.delayed, from, m.delay.delayed());
+  take(header.parted, from, m.parted);
   m.potential = header.potential;
   m.previous_dt = header.previous_dt;
   m.listed = false;

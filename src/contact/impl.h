@@ -2,7 +2,6 @@
 // What a Contact holds, and the parts of a step that its methods share.
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -57,14 +56,14 @@ struct Contact::Impl {
   ShearWaves waves;
   FrictionDelay delay;
   ShearLimit shear_limit;
+  std::vector<char> parted; ///< of every tie: it held what was held already, that has parted, and it is given up
   double previous_dt = 0;   ///< of the step before, s; 0 at the start
   std::vector<ToolMotion> previous_motion;  ///< of the tools: position0, rotation0 at the start of the step before
   // ---- the list and how much of its margin is used
   NearList list;
   Workspace work;
   std::vector<TiePair> tie_pairs;
-  std::vector<TiePair> doubled;            ///< ties that hold what is held already (take_out_doubled), and do nothing
-  std::set<std::pair<int, int>> parted_told;  ///< surfaces of those of them that have parted, as has been told
+  std::vector<TiePair> doubled;            ///< ties that do nothing: they hold what is held already (take_out_doubled), or have parted
   std::size_t feet = 0;                    ///< of planes and of ties, the last entries of the workspace
   bool listed = false;
   long builds = 0;
@@ -74,7 +73,7 @@ struct Contact::Impl {
   ContactTimes* times = nullptr;
   NodeField x_at_build;     ///< of the bodies' surface vertices, in their order
   std::vector<ToolMotion> motion_at_build;
-  // ---- the running step, and scratch that keeps its memory from step to step
+  // ---- the running step, and scratch that keeps memory from step to step
   ContactStep step;
   std::vector<ToolMotion> motion;
   std::vector<PlanePose> planes;
@@ -83,8 +82,8 @@ struct Contact::Impl {
   struct Chunk {
     ContactStep step;
     RelaxedPotential end;
-    double normal_work, start, thickest;
-    long kept;  ///< records, at the place of the chunk's first pair
+    double normal_work = 0, start = 0, thickest = 0;
+    long kept = 0;  ///< records, at the place of the chunk's first pair
   };
   std::vector<Chunk> chunks;
   AlikePairs alike;
@@ -104,8 +103,10 @@ struct Contact::Impl {
   void check_reach(const NodeField& x, double radius) const;
   /// A list that holds every pair of features nearer than `reach`.
   void ensure_list(const NodeField& x, double reach, double step_bound);
+  /// The ties of the list: those that act, and those that do not.
   void link_ties();
-  void tell_parted_ties();
+  /// Of those that do not act, at the start of a step; a warning tells it, once for two surfaces.
+  void give_up_parted_ties();
   void set_inertia(double wanted);
   /// Into the workspace: x at the start, v_star, v before the kick (of tools: over the step before).
   void gather(const NodeField& x, const NodeField& v, const NodeField& v_star, double dt);

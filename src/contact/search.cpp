@@ -110,33 +110,42 @@ void Contact::Impl::link_ties() {
   std::vector<bool> told;  // of the entries of tools
   for (std::size_t i = work.body_entries; i < work.vertex.size(); ++i) told.push_back(work.vertex[i] < 0 || motion[features.vertex_surface[work.vertex[i]] - features.bodies].inverse_mass == 0);
   feet = list.planes.size();
+  std::vector<TiePair> given_up;
+  parted.resize(ties.size(), 0);
   for (const NearList::TieEntry& entry : list.ties) {
-    tie_pairs.push_back(link_tie(ties[entry.tie], entry.tie, entry.node));
-    TiePair& tie = tie_pairs.back();
+    TiePair tie = link_tie(ties[entry.tie], entry.tie, entry.node);
     prepare_tie(work, tie);
-    if (!tie.to_tool) continue;
-    ++feet;
-    told[tie.node[1] - work.body_entries] = motion[tie.tool].inverse_mass == 0;
+    if (tie.to_tool) {
+      ++feet;
+      told[tie.node[1] - work.body_entries] = motion[tie.tool].inverse_mass == 0;
+    }
+    (parted[entry.tie] ? given_up : tie_pairs).push_back(tie);
   }
   doubled = take_out_doubled(work, told, tie_pairs);
+  doubled.insert(doubled.end(), given_up.begin(), given_up.end());
 }
 
-// Those that were left out, as long as all that they hold goes together, are kept all the same.
-void Contact::Impl::tell_parted_ties() {
+// What goes together goes on being tied, also where it hangs on other ties for a while; what has parted is given up for good: tied again it would snap shut.
+void Contact::Impl::give_up_parted_ties() {
+  const auto surfaces_of = [&](const Tie& tie) -> std::pair<int, int> {
+    const int first = features.vertex_surface[tie.node[0]], second = tie.to_tool() ? features.bodies + tie.tool : features.vertex_surface[tie.node[tie.nodes - 1]];
+    return std::minmax({first, second});
+  };
   for (TiePair& pair : doubled) {
+    if (parted[pair.tie]) continue;
     const Tie& tie = ties[pair.tie];
-    const int first = features.vertex_surface[tie.node[0]], second = pair.to_tool ? features.bodies + pair.tool : features.vertex_surface[tie.node[tie.nodes - 1]];
-    const std::pair<int, int> both = std::minmax({first, second});
-    if (parted_told.count(both) > 0) continue;
     aim_tie(tie, work, motion, pair);
     if (!(pair.missing.norm() > layer)) continue;
-    parted_told.insert(both);
+    const std::pair<int, int> both = surfaces_of(tie);
+    bool known = false;
+    for (std::size_t t = 0; t < ties.size(); ++t) known = known || (parted[t] && surfaces_of(ties[t]) == both);
+    parted[pair.tie] = 1;
+    if (known) continue;
     const auto name = [&](int s) { return s < features.bodies ? "body " + body_names[s] : "tool " + tools.names[s - features.bodies]; };
     std::ostringstream text;
     text << name(both.first) << " and " << name(both.second) << " are tied, and part where other ties or boundaries hold them, at " << name_of_vertex(tie.node[0])
          << " first: what is told to be in two places is left where the others have it. Keep ties off what is held or driven otherwise";
     step.told = text.str();
-    return;
   }
 }
 
@@ -191,7 +200,7 @@ void Contact::Impl::gather(const NodeField& x, const NodeField& v, const NodeFie
     std::copy(work.v.begin() + work.body_entries, work.v.end(), work.steady.begin() + work.body_entries);
   }
   for (TiePair& tie : tie_pairs) aim_tie(ties[tie.tie], work, motion, tie);
-  tell_parted_ties();
+  give_up_parted_ties();
 }
 
 void Contact::Impl::moved_by(double way) {

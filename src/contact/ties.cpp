@@ -355,7 +355,8 @@ void prepare_tie(const Workspace& work, TiePair& pair) {
 }
 
 std::vector<TiePair> take_out_doubled(const Workspace& work, const std::vector<bool>& told, std::vector<TiePair>& ties) {
-  const auto counts = [](const TiePair& tie, int k) { return std::abs(tie.weight[k]) > kTouches; };
+  constexpr double kCounts = 1e-3;  // a weight: a node of less could follow only in leaps
+  const auto counts = [](const TiePair& tie, int k) { return std::abs(tie.weight[k]) > kCounts; };
   std::vector<bool> follows(work.body_entries, false);
   for (const int i : work.fixed) follows[i] = true;
   follows.insert(follows.end(), told.begin(), told.end());

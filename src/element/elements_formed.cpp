@@ -5,6 +5,7 @@
 #include <map>
 
 #include "element/group.h"
+#include "forming_sim/config/fault.h"
 #include "forming_sim/element/edge_points.h"
 #include "forming_sim/element/formed.h"
 
@@ -28,6 +29,10 @@ void put_by_cells(const std::vector<double>& values, const std::vector<int>& ord
   const std::size_t cells = order.size(), blocks = (cells + kLanes - 1) / kLanes, numbers = lanes.size() / blocks;
   for (std::size_t at = 0; at < blocks * kLanes; ++at)
     for (std::size_t k = 0; k < numbers; ++k) lanes[at / kLanes * numbers + k][at % kLanes] = values[order[std::min(at, cells - 1)] * numbers + k];
+}
+
+void require_same(int then, int now, const BodyModel& body) {
+  if (then != now) throw Error(Code::mesh_error, "the formed part that body " + body.name + " goes on from was kept by another version: it has " + std::to_string(then) + " numbers where " + std::to_string(now) + " are remembered now; form it anew");
 }
 
 /// G^11, G^22, G^33, G^12 (G^23, G^31) as a matrix, and back.
@@ -106,6 +111,9 @@ void Elements::take_up(const BodyModel& body, const FormedMemory& memory, const 
     while (group->body != body.name || group->at_edges) ++group;
     Group& g = *group++;
     const FormedCells& of = memory.cells[k];
+    require_same(of.points, g.cell_simplices, body);
+    require_same(of.items, g.items, body);
+    require_same(of.hourglass_items, g.hourglass_items, body);
     put_by_cells(of.memory, g.order, g.memory_storage);
     put_by_cells(of.hourglass, g.order, g.hourglass_storage);
     const LargeArray<Lane> first = g.weight_ratio;
@@ -132,6 +140,7 @@ void Elements::take_up_nodes(const BodyModel& body, const std::vector<double>& r
 // The mean of the simplices around an edge is another where some of them are cut away: the elastic strain that the point had stays,
 // J^(-2/3) B with B = x_m x_k G^mk, and so do the places of fibres. Rubber has none to keep: its stress is that of its shape.
 void Elements::take_up_points(const BodyModel& body, const FormedEdges& formed, const NodeField& x, Group& g) {
+  require_same(formed.items, g.items, body);
   if (g.solid.law == Law::hyperelastic) return;
   std::map<std::array<int, 2>, std::size_t> at;
   for (std::size_t e = 0; e < formed.ends.size(); ++e) at[formed.ends[e]] = e;

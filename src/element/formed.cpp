@@ -1,7 +1,5 @@
 #include "forming_sim/element/formed.h"
 
-#include <algorithm>
-
 namespace forming_sim {
 
 namespace {
@@ -44,7 +42,9 @@ FormedMemory remaining(const FormedMemory& memory, const Remainder& left) {
   return rest;
 }
 
-void turn_stresses(FormedMemory& memory, int dimension, const Mat3& rotation) {
+void turn(FormedMemory& memory, const std::string& law, int dimension, const Mat3& rotation) {
+  for (Eigen::Matrix3d& edges : memory.edges.edges) edges = rotation * edges;
+  if (law != "classical") return;
   for (FormedCells& cells : memory.cells)
     for (std::size_t at = 0; at < cells.memory.size(); at += cells.items) {
       double* S = &cells.memory[at];  // xx yy zz xy (yz zx)

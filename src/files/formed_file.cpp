@@ -1,7 +1,5 @@
 #include "forming_sim/files/formed_file.h"
 
-#include <cstdio>
-
 #include "config/archive.h"
 #include "forming_sim/config/fault.h"
 #include "forming_sim/files/hdf5_file.h"

@@ -17,7 +17,7 @@
 namespace forming_sim {
 namespace {
 
-/// formed.h5 is written at the end: not over one that is read, nor where it cannot be.
+/// formed.h5 is written at the end: not over one that is read, nor where a directory has its name.
 void require_room_for_parts(const Scene& scene, const std::string& directory) {
   if (!scene.output.formed) return;
   const std::string path = in_directory(directory, "formed.h5");
@@ -48,6 +48,7 @@ Outcome run_valid(const Scene& scene, const std::string& directory, int threads,
   // Of another run; this one's come later.
   std::filesystem::remove(in_directory(directory, "summary.json"), unknown);
   if (!checkpoint) std::filesystem::remove(in_directory(directory, "checkpoint.h5"), unknown);
+  if (!checkpoint && scene.output.formed) std::filesystem::remove(in_directory(directory, "formed.h5"), unknown);
   RunFiles files = open_run_files(simulation, scene, directory, checkpoint ? &*checkpoint : nullptr);
   for (const auto& observer : files.observers) simulation.add(*observer);
   for (Observer* observer : extra) simulation.add(*observer);

@@ -250,7 +250,7 @@ void FormingServer::run(Goal& goal, Answer& answer) {
   result.directory = directory;
   answer.begun = observer.begun();
   if (!answer.begun) return;  // what is in the directory is of other runs
-  result.files = run_files(directory);
+  result.files = run_files(directory, scene.output.formed);
   try {
     result.summary = read_summary(directory);
   } catch (const Error& error) {

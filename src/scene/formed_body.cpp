@@ -46,8 +46,7 @@ FormedBody load_formed_body(const Scene& scene, const BodyConfig& body, const st
   if (faults.size() > before) return {};
   const Mat3 rotation = rotation_matrix(kRadiansPerDegree * formed.turn_deg);
   for (Vec3& x : part.mesh.nodes) x = rotation * (x - formed.turn_centre) + formed.turn_centre + formed.shift;
-  for (Eigen::Matrix3d& edges : part.memory.edges.edges) edges = rotation * edges;
-  if (body.material.law == "classical") turn_stresses(part.memory, part.mesh.dimension, rotation);
+  turn(part.memory, body.material.law, part.mesh.dimension, rotation);
   if (!part.pressed_by.empty())
     notes.push_back("body " + body.name + " was still pressed by " + one_of(part.pressed_by, " and ") + " when its run ended: what they bore is let go at once here. Let it go and settle there, with a withdraw and a settle stage");
   std::vector<std::string> let_go;

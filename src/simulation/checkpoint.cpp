@@ -11,7 +11,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f6600000016u;
+constexpr std::uint64_t kLayout = 0x6d726f6600000017u;
 
 template <class T> std::size_t mark_of(const T* values, std::size_t count) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(values), count * sizeof(T)});
@@ -29,7 +29,7 @@ std::vector<std::size_t> marks_of(const Model& model, const NodeField& X) {
       numbers.push_back(static_cast<int>(nodes.size()));
       numbers.insert(numbers.end(), nodes.begin(), nodes.end());
     }
-    marks.push_back(mark_of(X.data() + body.first_node, static_cast<std::size_t>(body.node_count)) ^ mark_of(numbers.data(), numbers.size()));
+    marks.push_back(mark_of(X.data() + body.first_node, static_cast<std::size_t>(body.node_count)) ^ mark_of(numbers.data(), numbers.size()) ^ (body.formed ? mark_of(body.reference().data(), body.reference().size()) : 0));
   }
   for (const ToolModel& tool : model.tools) {
     std::vector<int> corners;

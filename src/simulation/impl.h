@@ -140,7 +140,7 @@ struct Simulation::Impl {
   void tell_fall(int tool);
   void book_reactions(double kick);
   double kinetic() const;
-  double first_kick_energy() const;  ///< J, of what formed parts bear at the start
+  double first_kick_energy() const;  ///< J/s2, over the step's square, of what formed parts bear at the start
   /// Mass-proportional damping now, 1/s.
   double damping_rate() const;
 

@@ -44,7 +44,7 @@ void Simulation::Impl::take_step() {
   if (control.longer) ++longer_steps;
   go_on_letting_go();
   elements.find_forces(x, v, previous_dt, previous_kick);
-  if (steps == 0) initial -= first_kick_energy();
+  const double first_kick = steps == 0 ? first_kick_energy() : 0;
   find_loads();
   if (stages.settling()) watch_settling();
   slow_tools();
@@ -68,6 +68,7 @@ void Simulation::Impl::take_step() {
     way.departed = moved.apart;
     resting = moved.resting;
   }
+  initial -= first_kick * dt * dt;
   book_loads();
   if (stages.settling()) see_rest();
   time += dt;
@@ -87,7 +88,7 @@ double Simulation::Impl::first_kick_energy() const {
   for (std::size_t k = 0; k < boundaries.nodes().size(); ++k) f[boundaries.nodes()[k]] = node(Vec3(boundaries.projector(static_cast<int>(k)) * vec3(f[boundaries.nodes()[k]])));
   double sum = 0;
   for (std::size_t i = 0; i < f.size(); ++i) sum += f[i].squaredNorm() / elements.nodal_mass()[i];
-  return 0.125 * dt * dt * sum;
+  return 0.125 * sum;
 }
 
 void Simulation::Impl::book(const ContactStep& done) {

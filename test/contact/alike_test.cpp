@@ -1,6 +1,7 @@
 // Pairs that are one contact act as one, and no others.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "forming_sim/contact/alike.h"
@@ -83,6 +84,40 @@ TEST(Alike, WhatDiffersStays) {
     AlikePairs().join(c.work, c.pairs, c.rubs);
     EXPECT_EQ(c.pairs[1].stiffness, 3) << k;
     EXPECT_EQ(c.pairs[1].impulse, 5) << k;
+  }
+}
+
+// Many corners, each a group of its own, and the table is used again, larger and smaller.
+TEST(Alike, EachOfManyCornersFindsItsOwn) {
+  AlikePairs alike;
+  for (const int corners : {1, 7, 400, 3, 1000}) {
+    Workspace work;
+    LargeArray<ContactPair> pairs;
+    std::vector<Rub> rubs;
+    const Node up(0, 0, 1, 0);
+    work.body_entries = 0;
+    for (int c = 0; c < corners; ++c)
+      for (int n = 0; n < 5; ++n) work.vertex.push_back(5 * c + n);
+    for (int c = 0; c < corners; ++c)
+      for (const int tool_edge : {10000 + 2 * c, 10001 + 2 * c}) {  // two edges that end at a vertex, over the edge c of a body
+        ContactPair pair{PairKey::make(PairKey::edge_edge, tool_edge, 0, c), 1, 0, 1e-5, false, up};
+        pair.link({5 * c + 2, 5 * c + 3 + tool_edge % 2, 5 * c, 5 * c + 1}, 1, 0, -.4, -.6);
+        pair.layer = 1.1e-5;
+        pair.stiffness = 3;
+        pair.w = 2;
+        pair.movers = 0b1100;
+        pair.rub = -1;
+        pairs.push_back(pair);
+      }
+    std::sort(pairs.begin(), pairs.end(), [](const ContactPair& a, const ContactPair& b) { return a.key < b.key; });
+    alike.join(work, pairs, rubs);
+    int bearing = 0, none = 0;
+    for (const ContactPair& pair : pairs) {
+      bearing += pair.stiffness == 6;
+      none += pair.stiffness == 0 && pair.w == 0;
+    }
+    EXPECT_EQ(bearing, corners);
+    EXPECT_EQ(none, corners);
   }
 }
 

@@ -140,4 +140,79 @@ TEST(Ties, OfSurfacesThatDoNotTouchGiveNoEnergy) {
   }
 }
 
+/// A workspace of so many nodes of bodies, then of tools, and ties between them.
+struct Doubled {
+  Workspace work;
+  std::vector<TiePair> ties;
+  std::vector<bool> told;
+
+  Doubled(int of_bodies, std::vector<bool> of_tools) : told(std::move(of_tools)) {
+    work.body_entries = of_bodies;
+    Share free;
+    free.inverse_mass = 1;
+    work.share.assign(of_bodies + told.size(), free);
+    work.projector.assign(work.share.size(), nullptr);
+  }
+  /// Node a on a tool, at entry b.
+  void to_tool(int a, int b) {
+    tie({a, b}, {1, -1});
+    ties.back().to_tool = true;
+  }
+  void tie(const std::vector<int>& nodes, const std::vector<double>& weights) {
+    TiePair pair;
+    pair.nodes = static_cast<int>(nodes.size());
+    std::copy(nodes.begin(), nodes.end(), pair.node);
+    std::copy(weights.begin(), weights.end(), pair.weight);
+    pair.tie = static_cast<int>(ties.size());
+    ties.push_back(pair);
+  }
+  std::vector<int> taken_out() {
+    std::vector<int> numbers;
+    for (const TiePair& pair : take_out_doubled(work, told, ties)) numbers.push_back(pair.tie);
+    return numbers;
+  }
+};
+
+TEST(ties, of_a_node_on_two_tools_the_second_is_left_out) {
+  Doubled two(3, {true, true});
+  two.to_tool(0, 3);
+  two.to_tool(1, 3);
+  two.to_tool(0, 4);
+  EXPECT_EQ(two.taken_out(), std::vector<int>{2});
+  EXPECT_EQ(two.ties.size(), 2u);
+}
+
+TEST(ties, to_a_tool_that_a_force_drives_all_hold) {
+  Doubled driven(2, {true, false});
+  driven.to_tool(0, 2);
+  driven.to_tool(0, 3);
+  EXPECT_TRUE(driven.taken_out().empty());
+}
+
+TEST(ties, what_boundaries_hold_is_held) {
+  Doubled held(3, {true});
+  held.work.fixed = {0, 1};
+  held.to_tool(0, 3);               // on a tool what a boundary holds
+  held.tie({2, 0, 1}, {1, -.5, -.5});  // holds node 2
+  held.to_tool(2, 3);               // comes first all the same
+  EXPECT_EQ(held.taken_out(), (std::vector<int>{0, 1}));
+}
+
+TEST(ties, a_chain_is_followed_to_its_end) {
+  Doubled chain(4, {true, true});
+  chain.tie({4, 0, 1}, {1, -.5, -.5});  // a tool's vertex on the edge of 0 and 1: open until 0 is told
+  chain.tie({2, 1}, {1, -1});
+  chain.tie({3, 2}, {1, -1});
+  chain.tie({5, 3, 2}, {1, -.5, -.5});  // by then 2 and 3 follow
+  chain.to_tool(0, 4);
+  EXPECT_EQ(chain.taken_out(), std::vector<int>{3});
+}
+
+TEST(ties, a_node_of_next_to_no_weight_does_not_count) {
+  Doubled grazing(2, {true});
+  grazing.work.fixed = {0};
+  grazing.tie({2, 0, 1}, {1, -(1 - 1e-6), -1e-6});
+  EXPECT_EQ(grazing.taken_out(), std::vector<int>{0});
+}
+
 }  // namespace contact_test

@@ -135,8 +135,7 @@ TEST_P(OfEveryKind, TurnsWithItsStresses) {
   const bool flat = part.mesh.dimension == 2;
   const Mat3 R = Eigen::AngleAxisd(1.1, flat ? Vec3::UnitZ() : Vec3(1, 2, -2).normalized()).toRotationMatrix();
   for (Vec3& x : part.mesh.nodes) x = R * x + Vec3(3, -2, 0);
-  for (Eigen::Matrix3d& edges : part.formed->edges.edges) edges = R * edges;
-  if (part.material.law == "classical") turn_stresses(*part.formed, part.mesh.dimension, R);
+  turn(*part.formed, part.material.law, part.mesh.dimension, R);
   const Next next(part, first.options);
   for (std::size_t i = 0; i < f.size(); ++i) EXPECT_LT((R * vec3(f[i]) - vec3(next.f[i])).norm(), 1e-9 * largest(f)) << "node " << i;
 }

@@ -238,6 +238,16 @@ class Tools(SceneRun):
             energy = run['energy_J']
             self.assertAlmostEqual(energy['work'] / (energy['elastic'] + energy['kinetic']), 1, delta=0.01)
         self.assertTrue(any('body and tool wall are tied, and part where other ties' in w for w in corner['warnings']), corner['warnings'])
+        # What has parted stays parted when the bed leaves: it would snap shut.
+        leaving = scene(block, tools=[bed, wall], contact=ties, duration=2e-4)
+        leaving['stages'] += [{'kind': 'withdraw', 'tools': ['bed'], 'duration': 1e-5}, {'kind': 'settle', 'limit': 5e-3}]
+        energy = self.run_scene(leaving, 'leaving')['energy_J']
+        self.assertAlmostEqual(energy['work'], corner['energy_J']['work'], delta=0.1 * corner['energy_J']['work'])
+        # What has parted stays parted when the bed leaves: it would snap shut.
+        leaving = scene(block, tools=[bed, wall], contact=ties, duration=2e-4)
+        leaving['stages'] += [{'kind': 'withdraw', 'tools': ['bed'], 'duration': 1e-5}, {'kind': 'settle', 'limit': 5e-3}]
+        energy = self.run_scene(leaving, 'leaving')['energy_J']
+        self.assertAlmostEqual(energy['work'], corner['energy_J']['work'], delta=0.1 * corner['energy_J']['work'])
 
     def test_bodies_that_touch_are_parted_and_push_each_other(self):
         lower, upper = body('strip'), body('strip', initial_velocity=[0.0, -5.0, 0.0])

@@ -8,7 +8,7 @@ namespace forming_sim {
 class Books {
  public:
   /// Fills tool impulses, tool_work, held_work, friction_work and active of the step,
-  /// which start at 0.
+  /// as ContactStep::begin() leaves them.
   Books(const Workspace& work, const std::vector<Rub>& rubs, int bodies, ContactStep& step) : work_(work), rubs_(rubs), bodies_(bodies), step_(step) {}
   void add(const TiePair& tie);
   void add(const ContactPair& pair);

@@ -95,10 +95,10 @@ struct ContactStep {
   double stable_dt = 0;           ///< explicit only: the step up to which the layer as it stands is stable, s; 0: nothing is in it
   std::vector<Vec3> tool_impulse;          ///< on each tool by the bodies, N s
   std::vector<Vec3> tool_angular_impulse;  ///< about the world's origin, N m s
-  std::string told;                        ///< what is to be warned of; mostly nothing
   std::vector<double> tool_push;           ///< velocity along its guide that contact gave each tool that a force drives, m/s; 0 of others
+  std::string told;                        ///< what is to be warned of; mostly nothing
 
-  /// All of it 0, for the next step of so many tools.
+  /// As a new one of so many tools, in the memory of the last.
   void begin(std::size_t tools) {
     ContactStep next;
     next.tool_impulse.swap(tool_impulse);  // with their memory
@@ -145,7 +145,7 @@ class Contact {
 
   /// Finishes the step that starts at `time` (named in messages only).
   /// In: x at n, v before the kick. Out: v after kick and contact, x + dt v, and in
-  /// v_before what v was. On an error x and v stay as they were, v_before does not.
+  /// v_before what v was. On an error x and v stay as they were, v_before does not. What it returns holds until the next call.
   /// The step is halved, and `predict` and `tools` asked again, while a pair
   /// would cross. Throws Error(contact_error) naming the pair when that does
   /// not help, or when a node that nothing can move is run over.
@@ -163,7 +163,7 @@ class Contact {
 
   /// Bodies that are tied, or pressed on each other in the last step.
   std::set<std::pair<int, int>> bodies_that_hold_each_other() const;
-  /// Of a body: tools that pressed on it in the last step, or that it is tied to, rising.
+  /// Of a body: tools that pressed on it in the last step, or whose ties to it act, rising.
   std::vector<int> tools_on(int body) const;
   /// Is anything tied?
   bool ties() const;

@@ -69,7 +69,7 @@ void prepare_tie(const Workspace& work, TiePair& pair);
 
 /// Takes those out of `ties` that hold what is held already, and returns them: all their nodes are tools' that go as they are told, held or driven by
 /// boundaries, or follow from other ties. Where these part, no impulse brings all to rest, and the sweeps would add up without end. told: of an
-/// entry of the workspace beyond the bodies', whether its tool goes as it is told.
+/// entry of the workspace beyond the bodies', whether its tool goes as it is told; one that a force drives counts as free, across its guide too.
 std::vector<TiePair> take_out_doubled(const Workspace& work, const std::vector<bool>& told, std::vector<TiePair>& ties);
 
 /// Sets `missing` and `press`, and what turns, for a step that starts at work.x; motion: of the tools.

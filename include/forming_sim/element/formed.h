@@ -3,6 +3,7 @@
 // other threads, other vectors or fewer cells, goes on from it.
 #include <Eigen/Core>
 #include <array>
+#include <string>
 #include <vector>
 
 #include "forming_sim/mesh/trim.h"
@@ -37,7 +38,7 @@ struct FormedMemory {
 /// Of what is left of its part.
 FormedMemory remaining(const FormedMemory& memory, const Remainder& left);
 
-/// The part is turned: stresses that a law keeps in space, those of the classical method, turn with it.
-void turn_stresses(FormedMemory& memory, int dimension, const Mat3& rotation);
+/// The part is turned: what is kept in space turns with it, the edge vectors of points at edges, and the stresses of the classical method.
+void turn(FormedMemory& memory, const std::string& law, int dimension, const Mat3& rotation);
 
 }  // namespace forming_sim

@@ -49,7 +49,7 @@ class BoundarySet {
   /// zero along free directions.
   Vec3 prescribed(int k, double t, double dt, const Vec3& x) const;
 
-  /// What the boundaries prescribe in the step from t to t + dt.
+  /// What the boundaries prescribe in the step from t to t + dt; it holds until the next is asked for.
   struct Prescription {
     double t, dt;
     std::vector<Vec3> u;  ///< of each group that does not turn

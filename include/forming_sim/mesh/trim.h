@@ -1,6 +1,5 @@
 #pragma once
 // Cells cut away: those whose middle lies in a region. What is cut is whole cells, so that the edge follows the mesh.
-#include <string>
 #include <vector>
 
 #include "forming_sim/mesh/config.h"

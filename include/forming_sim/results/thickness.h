@@ -23,10 +23,10 @@ class Thickness {
   std::vector<int> top() const;
 
   /// Per node of the model, m: that of a node of `top`, and below it that of the nearest node of `top` at the start.
-  /// NaN on bodies that are no sheets, or are lost to numbers that are not finite. Positions in the joined numbering.
+  /// NaN on bodies that are no sheets, or are lost to numbers that are not finite, and where the bottom has been trimmed away. Positions in the joined numbering.
   std::vector<double> at(const NodeField& positions) const;
   std::optional<double> initial() const { return smallest(start_); }  ///< the least at the start, m
-  /// 1 - t/t0 of what at() gave, t0 at the start: 0.2 where a fifth is gone, below 0 where the sheet is thicker.
+  /// 1 - t/t0 of what at() gave, t0 while the body was free of stress: 0.2 where a fifth is gone, below 0 where the sheet is thicker.
   std::vector<double> thinning(const std::vector<double>& thickness) const;
 
  private:

@@ -12,6 +12,6 @@ namespace forming_sim {
 RunSummary read_summary(const std::string& directory);
 
 /// Files of a run that are in the directory, by name.
-std::vector<std::string> run_files(const std::string& directory);
+std::vector<std::string> run_files(const std::string& directory, bool formed);
 
 }  // namespace forming_sim

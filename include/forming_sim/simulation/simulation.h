@@ -73,7 +73,7 @@ class Simulation {
   double balance_error() const;      ///< |residual| now over the largest work + initial so far, and no less than the energy of a strain of 1e-12
   ContactStatus contact_status() const;
   const std::vector<ToolStatus>& tools() const;
-  std::vector<int> tools_on(int body) const;  ///< that pressed on it in the last step, or that it is tied to
+  std::vector<int> tools_on(int body) const;  ///< that pressed on it in the last step, or whose ties to it act
   /// Sum over those of the nodes that boundaries hold or drive, or have, and that keep_reactions() names; axisymmetric: what goes along the axis.
   Reaction reaction(const std::vector<int>& nodes) const;
   /// The reactions of these nodes alone are kept from now on: those that nobody asks for cost time in every step. Before it is called, all are.
