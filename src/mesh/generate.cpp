@@ -66,6 +66,13 @@ Mesh generate_strip(const BlankConfig& blank, CellKind kind) {
   return mesh;
 }
 
+/// By so many quarter turns about the third direction the corners of a cell of a plate are numbered on: 0, 1, 2, 3 in the quarters of its face, one after the other. A face that
+/// stays whole is divided as the tetrahedra of hex6 are, from its first corner on, and diagonals that all run one way let what is symmetric drift in contact: these mirror about both middles of the plate.
+int quarter_of(int i, int j, int nx, int ny) {
+  const bool right = 2 * i >= nx, behind = 2 * j >= ny;
+  return behind ? (right ? 2 : 3) : (right ? 1 : 0);
+}
+
 Mesh generate_plate(const BlankConfig& blank, CellKind kind) {
   const Vec3 extent(length_of("length", blank.length), length_of("width", blank.width),
                     length_of("thickness", blank.thickness));
@@ -78,11 +85,10 @@ Mesh generate_plate(const BlankConfig& blank, CellKind kind) {
     for (int j = 0; j < grid.ny; ++j)
       for (int i = 0; i < grid.nx; ++i) {
         Hex hex;
+        const int turn = kind == CellKind::hex1 ? quarter_of(i, j, grid.nx, grid.ny) : 0;
         for (int up = 0; up < 2; ++up) {
-          hex[4 * up] = grid.node(i, j, k + up);
-          hex[4 * up + 1] = grid.node(i + 1, j, k + up);
-          hex[4 * up + 2] = grid.node(i + 1, j + 1, k + up);
-          hex[4 * up + 3] = grid.node(i, j + 1, k + up);
+          const int corners[4] = {grid.node(i, j, k + up), grid.node(i + 1, j, k + up), grid.node(i + 1, j + 1, k + up), grid.node(i, j + 1, k + up)};
+          for (int a = 0; a < 4; ++a) hex[4 * up + a] = corners[(a + turn) % 4];
         }
         hexes.push_back(hex);
       }

@@ -1,6 +1,6 @@
 // The surface of a body: the facets that belong to one simplex only. The two triangles of a face of
 // a hexahedron that stays whole go by the corners of the face, since its neighbour may be
-// divided along the other diagonal; on the surface their diagonals cross those of their neighbours.
+// divided along the other diagonal.
 #include <algorithm>
 #include <sstream>
 
@@ -95,53 +95,6 @@ bool same_side(const Mesh& mesh, const Candidate* one, const Candidate* other) {
   throw Error(Code::mesh_error, text.str());
 }
 
-/// The two triangles of a quadrilateral r p s q, r p q and s q p, whose diagonal is from p to q.
-struct Halves {
-  Facet *first, *second;
-  int r, p, s, q;
-
-  Halves(Facet& a, Facet& b) : first(&a), second(&b) {
-    const auto in = [](const Facet& of, int n) { return std::count(of.nodes.begin(), of.nodes.end(), n) > 0; };
-    int k = 0, l = 0;
-    while (in(b, a.nodes[k])) ++k;
-    while (in(a, b.nodes[l])) ++l;
-    r = a.nodes[k], p = a.nodes[(k + 1) % 3], q = a.nodes[(k + 2) % 3];
-    s = b.nodes[l];
-  }
-  void take_other_diagonal() {
-    first->nodes = {r, p, s};
-    second->nodes = {s, q, r};
-  }
-};
-
-/// Diagonals of the faces of hexahedra that stay whole: those that all run one way make a sheet stiffer and its contact nearer on one side, and what is symmetric
-/// drifts. So they join every second node, by colours that change along every edge where the faces let them: of a grid it is as symmetric as the grid.
-void cross_diagonals(std::vector<Halves>& faces, std::size_t nodes) {
-  std::vector<std::vector<int>> next(nodes);
-  for (const Halves& face : faces) {
-    const int loop[4] = {face.r, face.p, face.s, face.q};
-    for (int k = 0; k < 4; ++k) {
-      next[loop[k]].push_back(loop[(k + 1) % 4]);
-      next[loop[(k + 1) % 4]].push_back(loop[k]);
-    }
-  }
-  std::vector<char> colour(nodes, -1);
-  std::vector<int> look;
-  for (std::size_t n = 0; n < nodes; ++n) {
-    if (colour[n] >= 0 || next[n].empty()) continue;
-    colour[n] = 0;
-    look.assign(1, static_cast<int>(n));
-    for (std::size_t at = 0; at < look.size(); ++at)
-      for (int other : next[look[at]]) {
-        if (colour[other] >= 0) continue;
-        colour[other] = 1 - colour[look[at]];
-        look.push_back(other);
-      }
-  }
-  for (Halves& face : faces)
-    if (colour[face.r] == 0 && colour[face.s] == 0) face.take_other_diagonal();
-}
-
 }  // namespace
 
 void find_surface(Mesh& mesh) {
@@ -151,21 +104,15 @@ void find_surface(Mesh& mesh) {
   });
 
   std::vector<Candidate> once;
-  std::vector<std::size_t> quadrilaterals;  // places of the first of two
   for (std::size_t i = 0; i < all.size();) {
     std::size_t end = i + 1;
     while (end < all.size() && all[end].key == all[i].key) ++end;
     const std::size_t of_a_side = all[i].key[0] >= 0 ? 2 : 1, sides = (end - i) / of_a_side;
     if (sides > 2) refuse_shared(mesh, all[i], static_cast<int>(sides));
-    if (sides == 1) {
-      if (of_a_side == 2) quadrilaterals.push_back(once.size());
-      once.insert(once.end(), all.begin() + i, all.begin() + end);
-    } else if (same_side(mesh, &all[i], &all[end - of_a_side])) refuse_folded(mesh, all[i].facet, all[end - 1].facet);
+    if (sides == 1) once.insert(once.end(), all.begin() + i, all.begin() + end);
+    else if (same_side(mesh, &all[i], &all[end - of_a_side])) refuse_folded(mesh, all[i].facet, all[end - 1].facet);
     i = end;
   }
-  std::vector<Halves> faces;
-  for (std::size_t i : quadrilaterals) faces.emplace_back(once[i].facet, once[i + 1].facet);
-  cross_diagonals(faces, mesh.nodes.size());
   std::sort(once.begin(), once.end(), [](const Candidate& a, const Candidate& b) { return a.order < b.order; });
   mesh.surface.clear();
   mesh.surface.reserve(once.size());

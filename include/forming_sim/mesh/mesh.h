@@ -44,7 +44,7 @@ struct Cells {
 
 /// Boundary facet: segment (2 nodes) or triangle (3), ordered so that its normal
 /// points out of the body; `element` is the simplex it belongs to (numbered
-/// through all cells in order; of a hexahedron that stays whole one of its cell's), -1 for a rigid tool. Unused node: -1.
+/// through all cells in order), -1 for a rigid tool. Unused node: -1.
 struct Facet {
   std::array<int, 3> nodes{-1, -1, -1};
   int element = -1;
@@ -63,7 +63,7 @@ struct Mesh {
 };
 
 /// Fills `surface` with the facets that belong to one simplex only; a face of hex1 becomes two
-/// triangles, with diagonals that meet at every second node of a grid, so that what is symmetric has a symmetric surface.
+/// triangles, also where that of its neighbour is divided the other way.
 /// Throws Error(mesh_error) naming a facet shared by more than two.
 void find_surface(Mesh& mesh);
 
