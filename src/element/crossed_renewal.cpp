@@ -1,4 +1,5 @@
 // Weights of crossed triangles that follow the shape of their cells (element/crossed.h).
+#include <algorithm>
 #include <cmath>
 
 #include "element/group.h"
@@ -21,6 +22,11 @@ void Elements::Group::set_weights(int block) {
   } else {
     std::copy(items.begin(), items.end(), constants_storage.begin() + static_cast<std::ptrdiff_t>(set) * kCrossedItems);
   }
+}
+
+void Elements::Group::set_changed_weights(const LargeArray<Lane>& ratio_before) {
+  for (std::size_t block = 0; block < ratio_before.size(); ++block)
+    if (!std::equal(ratio_before[block].value, ratio_before[block].value + kLanes, weight_ratio[block].value)) set_weights(static_cast<int>(block));
 }
 
 Eigen::Matrix2d Elements::Group::law_edges(int block, int l, const Vec3* corners, int s) const {

@@ -113,19 +113,24 @@ std::vector<double> Elements::edge_rates(const NodalView& view) const {
   return {omega2.data()->value, omega2.data()->value + points_};
 }
 
-void Elements::report_edge_inversion(const NodeField& x) const {
+std::vector<double> Elements::point_ratios(const Group& g, const NodeField& x) const {
   const NodalView view{x.data()->data(), nullptr, nullptr, nullptr, 0, 0};
+  std::vector<Lane> S(static_cast<std::size_t>(g.blocks) * 6), ratio(g.blocks);
+  std::vector<double> energy(g.blocks);
+  kernels_.edge.observe(g, view, 0, g.blocks, S.data()->value, ratio.data()->value, energy.data());
+  return {ratio.data()->value, ratio.data()->value + g.cells};
+}
+
+void Elements::report_edge_inversion(const NodeField& x) const {
   for (const Group& g : groups_) {
     if (!g.at_edges) continue;
-    std::vector<Lane> S(static_cast<std::size_t>(g.blocks) * 6), ratio(g.blocks);
-    std::vector<double> energy(g.blocks);
-    kernels_.edge.observe(g, view, 0, g.blocks, S.data()->value, ratio.data()->value, energy.data());
+    const std::vector<double> ratio = point_ratios(g, x);
     for (int cell = 0; cell < g.cells; ++cell) {
-      if (!(ratio[cell / kLanes][cell % kLanes] <= 0)) continue;
+      if (!(ratio[cell] <= 0)) continue;
       const std::array<int, 2> ends = g.edge_ends[cell];
       std::ostringstream what;
       what << "the elements of body " << g.body << " around the edge from node " << ends[0] << " to node " << ends[1] << " at ("
-           << vec3(x[ends[0]]).transpose() << ") m are so distorted that their mean turned inside out: V/V0 = " << ratio[cell / kLanes][cell % kLanes]
+           << vec3(x[ends[0]]).transpose() << ") m are so distorted that their mean turned inside out: V/V0 = " << ratio[cell]
            << "; a finer mesh there, larger tool radii or slower tools avoid it";
       throw Error(Code::mesh_error, what.str());
     }

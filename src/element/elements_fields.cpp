@@ -205,8 +205,7 @@ const double* Elements::read_state(const double* from) {
       take(reinterpret_cast<double*>(storage->data()), storage->size() * kLanes);
     take(g.plastic.data(), g.plastic.size());
     take(g.viscous.data(), g.viscous.size());
-    for (std::size_t block = 0; block < ratios.size(); ++block)
-      if (!std::equal(ratios[block].value, ratios[block].value + kLanes, g.weight_ratio[block].value)) g.set_weights(static_cast<int>(block));
+    g.set_changed_weights(ratios);
   }
   return from;
 }

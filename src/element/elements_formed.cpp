@@ -64,14 +64,6 @@ Eigen::Matrix3d Elements::point_edges(const Group& g, int point, const NodeField
   return y;
 }
 
-std::vector<double> Elements::point_ratios(const Group& g, const NodeField& x) const {
-  const NodalView view{x.data()->data(), nullptr, nullptr, nullptr, 0, 0};
-  std::vector<Lane> S(static_cast<std::size_t>(g.blocks) * 6), ratio(g.blocks);
-  std::vector<double> energy(g.blocks);
-  kernels_.edge.observe(g, view, 0, g.blocks, S.data()->value, ratio.data()->value, energy.data());
-  return {ratio.data()->value, ratio.data()->value + g.cells};
-}
-
 FormedMemory Elements::memory_of(const BodyModel& body, const NodeField& x) const {
   FormedMemory memory;
   auto group = groups_.begin();
@@ -118,8 +110,7 @@ void Elements::take_up(const BodyModel& body, const FormedMemory& memory, const 
     put_by_cells(of.hourglass, g.order, g.hourglass_storage);
     const LargeArray<Lane> first = g.weight_ratio;
     put_by_cells(of.ratio, g.order, g.weight_ratio);
-    for (int block = 0; block < static_cast<int>(first.size()); ++block)
-      if (!std::equal(first[block].value, first[block].value + kLanes, g.weight_ratio[block].value)) g.set_weights(block);
+    g.set_changed_weights(first);
   }
   for (Group& g : groups_)
     if (g.at_edges && g.body == body.name) {

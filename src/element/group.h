@@ -66,6 +66,8 @@ struct Elements::Group : CellGroup {
   const std::array<Vec3, 5>& first_corners_of(int block, int lane) const { return first_corners[std::min(block * kLanes + lane, cells - 1)]; }
   /// The weights of a block as its weight_ratio says, in a set of its own.
   void set_weights(int block);
+  /// Likewise of the blocks whose weight_ratio is no more what it was.
+  void set_changed_weights(const LargeArray<Lane>& ratio_before);
   /// The two edges of the law of triangle s of a cell of crossed triangles, as columns; corners: places of the cell's nodes.
   Eigen::Matrix2d law_edges(int block, int lane, const Vec3* corners, int s) const;
   /// Of a cell of crossed triangles with its nodes at `corners`, J of what the law sees of a triangle over J of the cell, the least of the four.

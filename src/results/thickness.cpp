@@ -113,8 +113,9 @@ Thickness::Thickness(const Model& model) {
   }
   if (!any()) return;
   start_ = at(start);
-  for (Sheet& sheet : sheets_) find_overhangs(model, start, sheet);
-  start_ = at(start);
+  bool any_hangs_over = false;
+  for (Sheet& sheet : sheets_) any_hangs_over = find_overhangs(model, start, sheet) || any_hangs_over;
+  if (any_hangs_over) start_ = at(start);
   for (Sheet& sheet : sheets_) {
     for (std::size_t i = 0; i < sheet.top.size(); ++i) {
       const auto& c = sheet.bottom[sheet.below[i]];
@@ -126,7 +127,7 @@ Thickness::Thickness(const Model& model) {
 }
 
 // Where the bottom has been trimmed away the nearest of it lies beside a node of the top, not below it: nothing of it is near the place a thickness inwards.
-void Thickness::find_overhangs(const Model& model, const NodeField& start, Sheet& sheet) const {
+bool Thickness::find_overhangs(const Model& model, const NodeField& start, Sheet& sheet) const {
   constexpr double kNearBelow = 0.5;  // thicknesses
   const BodyModel& body = model.bodies[sheet.body];
   const std::vector<int>& top = body.mesh.sets.at("top");
@@ -139,12 +140,15 @@ void Thickness::find_overhangs(const Model& model, const NodeField& start, Sheet
     for (auto n = facet.nodes.begin(); n != last; ++n) outward[*n] += normal;
   }
   const BottomGrid bottom(sheet, start);
+  bool any = false;
   for (std::size_t i = 0; i < top.size(); ++i) {
     const double thickness = start_[sheet.top[i]], length = outward[top[i]].norm();
     if (std::isnan(thickness) || length == 0) continue;
     const Node inside = place(top[i]) - thickness / length * outward[top[i]];
     sheet.stands[i] = bottom.nearest(inside, sheet.below[i], [](int, double distance) { return distance; }) <= kNearBelow * thickness;
+    any = any || !sheet.stands[i];
   }
+  return any;
 }
 
 std::vector<int> Thickness::top() const {

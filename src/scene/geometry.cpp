@@ -126,8 +126,9 @@ bool make_body(const Scene& scene, std::size_t i, const std::vector<Fault>& know
   const std::string path = body_path(i);
   const bool one_source = int(body.blank.has_value()) + int(body.mesh.has_value()) + int(body.formed.has_value()) == 1;
   if (!one_source) return false;
-  for (const char* part : {".blank", ".mesh", ".formed", ".trim", ".material"})
-    if (has_faults(known, path + part) && (body.formed || std::string(part) != ".material")) return false;
+  for (const char* part : {".blank", ".mesh", ".formed", ".trim"})
+    if (has_faults(known, path + part)) return false;
+  if (body.formed && has_faults(known, path + ".material")) return false;  // with which that of then is compared
   const std::string source = path + (body.blank ? ".blank" : body.formed ? ".formed.url" : body.mesh->url.empty() ? ".mesh" : ".mesh.url");
   const std::string origin = body.formed ? given_text(body.formed->url) : origin_of(body.mesh, "this blank");
   const std::size_t before = faults.size();

@@ -20,18 +20,18 @@ namespace {
 constexpr double kLightest = 1e-3;  ///< mass of a tool that a force drives, over that of all bodies
 constexpr double kQuick = 40;       ///< T of contact/shear_waves.h: a press that takes less feels by percents what keeps swings down
 
-NodeField initial_positions_of(const Model& model) {
+/// Of all bodies, in the joined numbering. places_of: a body's nodes, m.
+template <class PlacesOf> NodeField joined(const Model& model, PlacesOf&& places_of) {
   NodeField x;
   for (const BodyModel& body : model.bodies)
-    for (const Vec3& X : body.mesh.nodes) x.push_back(node(X));
+    for (const Vec3& X : places_of(body)) x.push_back(node(X));
   return x;
 }
-
+NodeField initial_positions_of(const Model& model) {
+  return joined(model, [](const BodyModel& body) -> const std::vector<Vec3>& { return body.mesh.nodes; });
+}
 NodeField references_of(const Model& model) {
-  NodeField x;
-  for (const BodyModel& body : model.bodies)
-    for (const Vec3& X : body.reference()) x.push_back(node(X));
-  return x;
+  return joined(model, [](const BodyModel& body) -> const std::vector<Vec3>& { return body.reference(); });
 }
 
 /// What lies on the axis of symmetry does not move away from it.

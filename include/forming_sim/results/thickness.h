@@ -42,7 +42,7 @@ class Thickness {
     std::vector<double> reach;               ///< per node of top: of a facet that counts, from start to start, m
   };
   class BottomGrid;
-  void find_overhangs(const Model& model, const NodeField& start, Sheet& sheet) const;
+  bool find_overhangs(const Model& model, const NodeField& start, Sheet& sheet) const;
   std::vector<Sheet> sheets_;
   std::vector<double> start_;  ///< at() of the start
 };
