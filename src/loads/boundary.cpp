@@ -76,7 +76,7 @@ std::vector<SymmetryPlane> symmetry_planes(const std::vector<BoundaryConfig>& bo
     if (boundary.kind == "symmetric") normal = boundary.normal;
     else if (boundary.kind == "fixed" && boundary.axes.size() == 1) normal = Vec3::Unit(boundary.axes[0][0] - 'x');
     else continue;
-    if (boundary.until.empty() && !(axisymmetric && normal.x() != 0)) planes.push_back({boundary.set, normal});
+    if (boundary.since.empty() && boundary.until.empty() && !(axisymmetric && normal.x() != 0)) planes.push_back({boundary.set, normal});
   }
   return planes;
 }
@@ -87,7 +87,7 @@ BoundarySet::BoundarySet(const std::vector<ResolvedBoundary>& boundaries, int di
   for (size_t b = 0; b < boundaries.size(); ++b) {
     const BoundaryConfig& config = boundaries[b].config;
     try {
-      motions_.push_back(config.kind == "velocity" ? RigidVelocity(config) : RigidVelocity());
+      motions_.push_back(config.kind == "velocity" ? RigidVelocity(config, boundaries[b].clock) : RigidVelocity());
     } catch (const Error& error) {
       throw Error(error.code(), name_of(boundaries[b]) + ": " + error.what());
     }
@@ -117,7 +117,7 @@ BoundarySet::Group BoundarySet::merge(const std::vector<int>& members,
   Group group;
   for (int b : members) {
     if (motions_[b].turns()) group.turns = true;
-    if (!motions_[b].times().empty()) group.driven = true;
+    if (motions_[b].moves()) group.driven = true;
     int motion = b;
     for (int other : members)
       if (other < motion && boundaries[other].config.kind == "velocity" && same_motion(boundaries[other].config, boundaries[b].config)) motion = other;
@@ -132,7 +132,7 @@ BoundarySet::Group BoundarySet::merge(const std::vector<int>& members,
           }
         terms.push_back({of, weight});
       };
-      if (!motions_[motion].times().empty()) add(motion, direction);
+      if (motions_[motion].moves()) add(motion, direction);
       for (const Direction& fixed : group.directions) {
         const double share = direction.dot(fixed.axis);
         rest -= share * fixed.axis;

@@ -49,7 +49,8 @@ ResolvedLoad resolve(const LoadConfig& config, const std::string& body, const Me
 
 void DeadLoadSet::add(double t, NodeField& f) const {
   for (const ResolvedLoad& load : loads_) {
-    const Node value = node(load.value.at(t));
+    if (!load.clock.runs()) continue;
+    const Node value = node(load.value.at(load.clock.at(t)));
     for (std::size_t i = 0; i < load.nodes.size(); ++i) f[load.nodes[i]] += load.share[i] * value;
   }
 }

@@ -43,7 +43,7 @@ ForceDrive::ForceDrive(const MotionConfig& config) : guide_(guide_of(config)), m
 
 double ForceDrive::free_speed(double t, double kick) const {
   const double a = braking(kick);
-  return ((1 - a) * momentum_ + kick * force_.at(t) / mass_) / (1 + a);
+  return ((1 - a) * momentum_ + kick * force(t) / mass_) / (1 + a);
 }
 
 double ForceDrive::inverse_mass(double kick) const { return 1 / (mass_ * (1 + braking(kick))); }
@@ -57,7 +57,7 @@ void ForceDrive::take(double t, double kick, double dt, double push, double answ
 }
 
 double ForceDrive::fallen(double t) const {
-  const double F = force_.at(t), along = F < 0 ? pressed_at_ - way_ : way_ - pressed_at_;
+  const double F = force(t), along = F < 0 ? pressed_at_ - way_ : way_ - pressed_at_;
   return F != 0 && along > 0 ? along : 0;
 }
 

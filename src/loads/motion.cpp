@@ -130,7 +130,14 @@ Mat3 RigidMotion::turned(double t) const {
   return magnus_step(spin_, turns_->times[k], t, turns_->rotations[k]);
 }
 
-Pose RigidMotion::at(double t) const {
+RigidMotion RigidMotion::beginning(double t) const {
+  RigidMotion later = *this;
+  later.began_ = t;
+  return later;
+}
+
+Pose RigidMotion::at(double time) const {
+  const double t = time - began_;
   Pose pose;
   pose.translation = path_.at(t);
   pose.velocity = path_.slope(t);

@@ -32,7 +32,8 @@ PressureSet::PressureSet(std::vector<ResolvedPressure> pressures, bool axisymmet
 
 void PressureSet::add(double t, const NodeField& x, NodeField& f) const {
   for (const ResolvedPressure& pressure : pressures_) {
-    const double p = pressure.profile.at(t);
+    if (!pressure.clock.runs()) continue;
+    const double p = pressure.profile.at(pressure.clock.at(t));
     if (p == 0) continue;
     for (const Face& face : pressure.faces)
       for (int k = 0; k < face.corners; ++k) f[face.nodes[k]] -= node(p * area_share(face, k, x, axisymmetric_));

@@ -7,7 +7,7 @@
 
 namespace forming_sim {
 
-RigidVelocity::RigidVelocity(const BoundaryConfig& config) : centre_(config.centre) {
+RigidVelocity::RigidVelocity(const BoundaryConfig& config, const CourseClock& clock) : clock_(clock), centre_(config.centre) {
   if (!config.velocities.empty()) velocity_ = VelocityProfile(config.times, config.velocities, config.profile);
   if (config.spins_deg_s.empty()) return;
   std::vector<Vec3> spins;
@@ -15,7 +15,8 @@ RigidVelocity::RigidVelocity(const BoundaryConfig& config) : centre_(config.cent
   spin_ = VelocityProfile(config.times, spins, config.profile);
 }
 
-Vec3 RigidVelocity::at(double t, double dt, const Vec3& x) const {
+Vec3 RigidVelocity::at(double time, double dt, const Vec3& x) const {
+  const double t = clock_.at(time);
   const Vec3 v = velocity_.of_step(t, dt);
   if (!turns()) return v;
   const Vec3 w = spin_.of_step(t, dt), turn = w.cross(x - centre_ - velocity_.displacement(0, t));
@@ -26,7 +27,7 @@ Vec3 RigidVelocity::at(double t, double dt, const Vec3& x) const {
 }
 
 bool same_motion(const BoundaryConfig& a, const BoundaryConfig& b) {
-  return a.times == b.times && a.velocities == b.velocities && a.spins_deg_s == b.spins_deg_s && a.profile == b.profile &&
+  return a.since == b.since && a.times == b.times && a.velocities == b.velocities && a.spins_deg_s == b.spins_deg_s && a.profile == b.profile &&
          (a.centre == b.centre || a.spins_deg_s.empty());
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forming_sim/config/fault.h"
 #include "forming_sim/mesh/cell_tables.h"
+#include "forming_sim/mesh/measure.h"
 #include "mesh/region.h"
 
 namespace forming_sim {

@@ -1,6 +1,8 @@
 #include "forming_sim/mesh/trim.h"
 
+#include "forming_sim/config/fault.h"
 #include "forming_sim/config/reflect.h"
+#include "forming_sim/mesh/measure.h"
 #include "mesh/region.h"
 
 namespace forming_sim {

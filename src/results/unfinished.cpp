@@ -23,11 +23,14 @@ class Unfinished {
   /// until: the stage at whose beginning it ends, or their number.
   template <class Config> void tell(const std::string& what, const Config& config, int until) const {
     const bool at_end = until == count();
-    const double last = last_change(config), ended = at_end ? end_ : begun(until), planned = longest_time({stages_.begin(), stages_.begin() + until});
+    const int since = first_stage(config.since, stages_);
+    const double last = last_change(config), began = begun(since), ended = (at_end ? end_ : begun(until)) - began,
+                 planned = longest_time({stages_.begin() + since, stages_.begin() + until});
     constexpr double kRounding = 1 + 1e-9;
     if (last <= ended * kRounding || last > planned * kRounding) return;
-    warnings_.push_back(what + " goes to " + number_text(last) + " s, and " + (at_end ? "the run ended at " : "stage " + stages_[until].title() + ", which ends it, began at ") + three_digits(ended) +
-                        " s: its times count from the start of the run, and a settle stage ends when the bodies rest, unless it has `ends: limit`, a stage with until_stopped when its tool has stopped");
+    warnings_.push_back(what + " goes to " + number_text(last) + " s, and " + (at_end ? "the run ended at " : "stage " + stages_[until].title() + ", which ends it, began at ") + three_digits(ended) + " s: its times count from the start of " +
+                        (since == 0 ? "the run, or of a stage that its `since` names" : "stage " + stages_[since].title()) +
+                        ", and a settle stage ends when the bodies rest, unless it has `ends: limit`, a stage with until_stopped when its tool has stopped");
   }
 
  private:

@@ -5,7 +5,7 @@
 
 #include "forming_sim/config/words.h"
 #include "forming_sim/loads/course.h"
-#include "forming_sim/simulation/stage_times.h"
+#include "forming_sim/simulation/release.h"
 #include "geometry.h"
 
 namespace forming_sim {
@@ -78,8 +78,9 @@ void tell_odd_speeds(const Scene& scene, std::vector<std::string>& notes) {
 
 /// Loads and motions that go on when the stages are over.
 void tell_late(const Scene& scene, double end, std::vector<std::string>& notes) {
+  const std::vector<StageConfig> stages = named(scene.stages);
   const auto tell = [&](const std::string& what, const auto& config) {
-    const double last = last_change(config);
+    const double last = latest_begin(config.since, stages) + last_change(config);
     if (last <= end * (1 + 1e-9)) return;
     notes.push_back(what + " goes on to " + three_digits(last) + " s and the stages end at " + three_digits(end) + " s: what comes later does not happen");
   };

@@ -42,6 +42,9 @@ void check_as_many(const std::vector<T>& values, const std::vector<double>& time
   faults.add(path, std::to_string(values.size()) + " entries", "give one for each of the " + std::to_string(times.size()) + " times");
 }
 
+/// The name of the stage numbered `least` or of one after it, or empty. stages: named. Returns whether it is.
+bool check_stage_name(const std::string& name, const std::vector<StageConfig>& stages, std::size_t least, const std::string& path, FaultList& faults);
+
 /// Sets that a generated blank has.
 std::vector<std::string> predefined_sets(const BlankConfig& blank);
 /// Names of all sets of a body, where they are known without opening a file.

@@ -153,18 +153,16 @@ void check_bodies(const Scene& scene, FaultList& faults) {
     };
     const auto check_acting = [&](const auto& load, const std::string& here) {  // what acts on a set over time
       check_set(load.set, here);
+      check_stage_name(load.since, stages, 0, here + ".since", faults);
       check_times(load.times, here + ".times", faults);
     };
     for (std::size_t k = 0; k < body.boundaries.size(); ++k) {
       const BoundaryConfig& boundary = body.boundaries[k];
       const std::string here = join_path(path + ".boundaries", k);
       check_set(boundary.set, here);
-      if (!boundary.until.empty() && release_stage(boundary.until, stages) == static_cast<int>(stages.size())) {
-        std::vector<std::string> later;
-        for (std::size_t s = 1; s < stages.size(); ++s) later.push_back(stages[s].name);
-        faults.add(here + ".until", given_text(boundary.until),
-                   later.empty() ? "leave it out: there is no stage after the first" : "the stages after the first are " + one_of(later, ", ") + did_you_mean(boundary.until, later));
-      }
+      const bool begins = check_stage_name(boundary.since, stages, 0, here + ".since", faults), ends = check_stage_name(boundary.until, stages, 1, here + ".until", faults);
+      if (begins && ends && first_stage(boundary.since, stages) >= release_stage(boundary.until, stages))
+        faults.add(here + ".until", given_text(boundary.until), "name a stage after that of since, " + boundary.since + ": the boundary lets go when it begins");
       if (boundary.kind != "velocity") continue;
       check_times(boundary.times, here + ".times", faults);
       check_as_many(boundary.velocities, boundary.times, here + ".velocities", faults);

@@ -32,7 +32,7 @@ template <class Config> void check_plane(const Config& config, const std::string
         faults.each(value, [&](std::size_t i) { check_vector(value[i], join_path(here, i), field, faults); });
       }
     } else if constexpr (std::is_same_v<T, Vec3>) {
-      const bool corner_of_box = (std::is_same_v<Config, SetConfig> || std::is_same_v<Config, TrimConfig>) && (name == "min" || name == "max");
+      const bool corner_of_box = std::is_base_of_v<PlaceConfig, Config> && (name == "min" || name == "max");
       const bool through_the_plane = corner_of_box || std::is_same_v<Config, AnisotropyConfig>;  // rules_bodies.cpp knows what is right
       if (!through_the_plane) check_vector(value, here, field, faults);
     }

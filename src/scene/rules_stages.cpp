@@ -1,6 +1,6 @@
 #include <set>
 
-#include "forming_sim/simulation/stage_times.h"
+#include "forming_sim/simulation/release.h"
 #include "rules.h"
 
 namespace forming_sim {
@@ -44,6 +44,15 @@ void check_stopping(const StageConfig& stage, const std::string& path, const std
 }
 
 }  // namespace
+
+bool check_stage_name(const std::string& name, const std::vector<StageConfig>& stages, std::size_t least, const std::string& path, FaultList& faults) {
+  std::vector<std::string> possible = names_of(stages);
+  possible.erase(possible.begin(), possible.begin() + std::min(least, possible.size()));
+  if (name.empty() || holds(possible, name)) return true;
+  faults.add(path, given_text(name),
+             possible.empty() ? "leave it out: there is no stage after the first" : (least == 0 ? "the stages are " : "the stages after the first are ") + one_of(possible, ", ") + did_you_mean(name, possible));
+  return false;
+}
 
 int body_of(const ProbeConfig& probe, const Scene& scene) {
   if (probe.body.empty()) return scene.bodies.empty() ? -1 : 0;

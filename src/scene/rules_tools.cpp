@@ -1,4 +1,5 @@
 #include "forming_sim/loads/force_drive.h"
+#include "forming_sim/simulation/release.h"
 #include "rules.h"
 
 namespace forming_sim {
@@ -60,12 +61,18 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
 }  // namespace
 
 void check_tools(const Scene& scene, FaultList& faults) {
+  const std::vector<StageConfig> stages = named(scene.stages);
   for (std::size_t i = 0; i < scene.tools.size(); ++i) {
     const ToolConfig& tool = scene.tools[i];
     check_source(tool, tool_path(i), scene.dimension, faults);
     if (tool.motion && tool.motion->kind == "force" && scene.contact.method != "implicit")
       faults.add(tool_path(i) + ".motion.kind", "force, with contact.method " + given_text(scene.contact.method), "set contact.method to implicit: only that finds how fast the tool goes together with what presses on it");
-    if (tool.motion) check_motion(*tool.motion, tool_path(i) + ".motion", faults);
+    if (!tool.motion) continue;
+    check_motion(*tool.motion, tool_path(i) + ".motion", faults);
+    const std::string since = tool_path(i) + ".motion.since";
+    if (!check_stage_name(tool.motion->since, stages, 0, since, faults)) continue;
+    for (int k = 0; !tool.motion->since.empty() && k <= first_stage(tool.motion->since, stages); ++k)
+      if (takes_away(stages[k], tool.name)) faults.add(since, given_text(tool.motion->since), "name a stage before " + stages[k].name + ", which takes the tool away");
   }
 }
 

@@ -61,7 +61,7 @@ thickness of the sheet and its thinning in the results.
 A boundary of kind `velocity` moves a set as a rigid body would: with `velocities`, about a `centre` with `spins_deg_s`, or
 both, and only along its `axes`. A bar is twisted by an end with `spins_deg_s: [[0, 0, w], ...]` and `axes: [x, y]`, so
 that it may get longer or shorter; a sheet is bent by turning an end section. `until` names the stage with which a boundary
-lets go: what was clamped in forming springs back when it is cut free. What boundaries push with is in
+lets go, `since` that with which it takes hold: what was clamped in forming springs back when it is cut free. What boundaries push with is in
 `history.csv`, where a probe is on their set.
 
 A pressure follows the surface and stays normal to it. A load (`loads`) keeps its direction: a `traction` acts on the faces of a set, per area that they
@@ -110,7 +110,8 @@ Its place is in `history.csv`. A `withdraw` stage takes it away like any other t
 
 ## Stages
 
-A run is a list of stages. Times of motions, boundaries, pressures and loads count from the start of the run, not of a stage.
+A run is a list of stages. Motions, boundaries, pressures and loads begin with the run, and their times count from its start; with `since: STAGE` they begin with that
+stage, whenever that is, and their times count from there. Until then a tool stands still, a boundary holds nothing, and a pressure or a load is none.
 
 - `form` runs for `duration`, or until a tool has stopped (`until_stopped`).
 - `withdraw` moves tools away from where they stand by `displacement`, smoothly, in `duration`; then they are gone.
@@ -120,7 +121,7 @@ A run is a list of stages. Times of motions, boundaries, pressures and loads cou
   springback. Tools that forces drive and that press on them rest with them, and it does not end while a motion, a pressure or a load is between two of its
   times (in the last stage also where these are still to come). It ends at `limit` at the latest, and the result then says so. Forces come to rest as the root of it: with
   the default of 1e-5 to some .3 %, of a sheet that sags by its own weight .1 %; who reads a static force from the end of a run gives 1e-8 (.004 % of that sheet).
-  Where another operation follows, `ends: limit` makes it as long as its limit, so that the times of that operation are known.
+  What comes after it is given with `since`; `ends: limit` makes it as long as its limit.
 
 Slow processes are simulated faster than they are: give the tools speeds of some m/s, or scale the mass, and judge
 what it costs by kinetic over internal energy in `summary.json`, which should stay below a few percent.

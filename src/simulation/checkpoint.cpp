@@ -11,7 +11,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f6600000017u;
+constexpr std::uint64_t kLayout = 0x6d726f6600000018u;
 
 template <class T> std::size_t mark_of(const T* values, std::size_t count) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(values), count * sizeof(T)});
@@ -140,7 +140,8 @@ void Simulation::restore(const std::vector<char>& data) {
   s.stages = StageRunner(s.plan.stages, s.model);
   s.stages.exchange_drives(in);
   s.stages.replay(starts, stops);
-  s.release_boundaries();
+  s.change_boundaries();
+  s.begin_loads();
   s.exchange(in);
   in.list(memory);
   std::vector<double> expected;

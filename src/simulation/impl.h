@@ -33,7 +33,7 @@ struct Simulation::Impl {
   std::vector<double> physical_mass;
   std::vector<ResolvedBoundary> all_boundaries;
   BoundarySet boundaries;           ///< that hold in the running stage
-  std::size_t holding = 0;          ///< how many of all do
+  std::vector<std::size_t> holding;  ///< which of all do
   std::vector<int> once_held;       ///< nodes that a boundary holds or has held, increasing
   std::vector<Reaction> reactions;  ///< of once_held, since the start
   std::vector<char> kept;           ///< of once_held: its reaction is asked for
@@ -98,8 +98,13 @@ struct Simulation::Impl {
   void set_up_contact();
   /// Warns where a press is over within some ways of a wave of shear through the thickness.
   void tell_quick_press();
+  /// Those of all boundaries that hold in a stage.
+  std::vector<std::size_t> holding_in(int stage) const;
+  void hold(std::vector<std::size_t> those);
   /// Leaves those boundaries that hold in the running stage. True where some have ended.
-  bool release_boundaries();
+  bool change_boundaries();
+  /// Pressures and loads act from the beginning of their stages on.
+  void begin_loads();
   void tell_contact_what_is_held();
   /// Which of the held nodes book_reactions() looks at.
   void choose_booked();

@@ -61,14 +61,18 @@ bool Simulation::Impl::still_driven() const { return stages.stage().ends != "lim
 bool Simulation::Impl::driven_on() const {
   const bool last = stages.index() + 1 == static_cast<int>(plan.stages.size());
   const double until = last ? time + stages.remaining(time) : time;
-  const auto any = [&](const auto& configs) { return std::any_of(configs.begin(), configs.end(), [&](const auto& config) { return changes(config, time, until); }); };
+  const auto on_its_way = [&](const auto& config) {
+    const double began = stages.began(config.since);
+    return changes(config, time - began, until - began);
+  };
+  const auto any = [&](const auto& configs) { return std::any_of(configs.begin(), configs.end(), on_its_way); };
   for (const BodyLoads& body : plan.bodies) {
     if (any(body.pressures) || any(body.loads)) return true;
     for (const BoundaryConfig& b : body.boundaries)
-      if (release_stage(b.until, plan.stages) > stages.index() && changes(b, time, until)) return true;
+      if (holds_in(stages.index(), b, plan.stages) && on_its_way(b)) return true;
   }
   for (std::size_t k = 0; k < tools.size(); ++k)
-    if (model.tools[k].motion && tools[k].present && !stages.stopped(static_cast<int>(k)) && changes(*model.tools[k].motion, time, until)) return true;
+    if (model.tools[k].motion && tools[k].present && !stages.stopped(static_cast<int>(k)) && on_its_way(*model.tools[k].motion)) return true;
   return false;
 }
 
@@ -94,7 +98,7 @@ std::string Simulation::Impl::what_moves() const {
     if (tools[k].present && !stages.drive(static_cast<int>(k)) && tools[k].velocity.norm() > 0) return "tool " + model.tools[k].name + " still moves";
   for (std::size_t b = 0; b < plan.bodies.size(); ++b)
     for (const BoundaryConfig& boundary : plan.bodies[b].boundaries)
-      if (release_stage(boundary.until, plan.stages) > stages.index() && (goes_on(boundary.velocities) || goes_on(boundary.spins_deg_s))) return "set " + boundary.set + " of body " + model.bodies[b].name + " is still driven";
+      if (holds_in(stages.index(), boundary, plan.stages) && (goes_on(boundary.velocities) || goes_on(boundary.spins_deg_s))) return "set " + boundary.set + " of body " + model.bodies[b].name + " is still driven";
   return "";
 }
 

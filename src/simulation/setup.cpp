@@ -120,10 +120,21 @@ void Simulation::Impl::set_up_loads() {
     const VelocityField field(loads.initial_velocity_field);
     for (int i = body.first_node; i < body.first_node + body.node_count; ++i)
       v[i] = node(loads.initial_velocity + spin.cross(vec3(X[i]) - loads.spin_centre) + field.at(vec3(X[i])));
-    for (const BoundaryConfig& c : loads.boundaries) held.push_back(resolve(c, body.name, body.mesh, body.first_node));
+    for (const BoundaryConfig& c : loads.boundaries) {
+      const int stage = first_stage(c.since, plan.stages);
+      held.push_back(resolve(c, body.name, body.mesh, body.first_node));
+      held.back().clock = CourseClock(stage);
+      held.back().clock.begin(stage, latest_begin(c.since, plan.stages));
+    }
     if (model.axisymmetric) hold_at_axis(body, held);
-    for (const PressureConfig& c : loads.pressures) pressed.push_back(resolve(c, body.name, body.mesh, body.first_node));
-    for (const LoadConfig& c : loads.loads) loaded.push_back(resolve(c, body.name, body.mesh, body.first_node, model.axisymmetric));
+    for (const PressureConfig& c : loads.pressures) {
+      pressed.push_back(resolve(c, body.name, body.mesh, body.first_node));
+      pressed.back().clock = CourseClock(first_stage(c.since, plan.stages));
+    }
+    for (const LoadConfig& c : loads.loads) {
+      loaded.push_back(resolve(c, body.name, body.mesh, body.first_node, model.axisymmetric));
+      loaded.back().clock = CourseClock(first_stage(c.since, plan.stages));
+    }
     for (Face face : faces_of(body.mesh)) {
       for (int k = 0; k < face.corners; ++k) face.nodes[k] += body.first_node;
       faces.push_back(face);
@@ -134,12 +145,14 @@ void Simulation::Impl::set_up_loads() {
       surface.push_back(facet);
     }
   }
-  boundaries = BoundarySet(held, model.dimension);
+  for (int stage = static_cast<int>(plan.stages.size()) - 1; stage >= 0; --stage)  // all, so that what contradicts itself in a later one is told now
+    if (std::vector<std::size_t> those = holding_in(stage); those != holding) hold(std::move(those));
   pressures = PressureSet(std::move(pressed), model.axisymmetric);
   dead_loads = DeadLoadSet(std::move(loaded));
   boundaries.apply_velocity(0, 0, x, v);
-  holding = held.size();
-  once_held = boundaries.nodes();
+  for (const ResolvedBoundary& boundary : held) once_held.insert(once_held.end(), boundary.nodes.begin(), boundary.nodes.end());
+  std::sort(once_held.begin(), once_held.end());
+  once_held.erase(std::unique(once_held.begin(), once_held.end()), once_held.end());
   reactions.resize(once_held.size());
   kept.assign(once_held.size(), true);
   choose_booked();
@@ -232,19 +245,42 @@ void Simulation::Impl::set_up_contact() {
   tell_quick_press();
 }
 
-bool Simulation::Impl::release_boundaries() {
-  if (stages.finished()) return false;
+std::vector<std::size_t> Simulation::Impl::holding_in(int stage) const {
+  std::vector<std::size_t> those;
+  for (std::size_t b = 0; b < all_boundaries.size(); ++b)
+    if (holds_in(stage, all_boundaries[b].config, plan.stages)) those.push_back(b);
+  return those;
+}
+
+void Simulation::Impl::hold(std::vector<std::size_t> those) {
   std::vector<ResolvedBoundary> held;
-  for (const ResolvedBoundary& boundary : all_boundaries)
-    if (release_stage(boundary.config.until, plan.stages) > stages.index()) held.push_back(boundary);
-  if (held.size() == holding) return false;
-  holding = held.size();
+  for (std::size_t b : those) held.push_back(all_boundaries[b]);
   boundaries = BoundarySet(held, model.dimension);
+  holding = std::move(those);
+}
+
+bool Simulation::Impl::change_boundaries() {
+  if (stages.finished()) return false;
+  std::vector<std::size_t> now = holding_in(stages.index());
+  if (now == holding) return false;
+  const bool ended = !std::includes(now.begin(), now.end(), holding.begin(), holding.end());
+  for (std::size_t b : now) {
+    const int stage = first_stage(all_boundaries[b].config.since, plan.stages);
+    all_boundaries[b].clock.begin(stage, stages.starts()[stage]);
+  }
+  hold(std::move(now));
   choose_booked();
   if (contact) tell_contact_what_is_held();
   global.forget();  // what is let go swings faster than what is held
   control.hurry();
-  return true;
+  return ended;
+}
+
+void Simulation::Impl::begin_loads() {
+  for (std::size_t stage = 0; stage < stages.starts().size(); ++stage) {
+    pressures.begin(static_cast<int>(stage), stages.starts()[stage]);
+    dead_loads.begin(static_cast<int>(stage), stages.starts()[stage]);
+  }
 }
 
 // The nodes of both lists increase. What stands does no work.

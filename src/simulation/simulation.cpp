@@ -21,7 +21,8 @@ void Simulation::Impl::begin_stage() {
   const BoundarySet held_before = boundaries;
   std::vector<Vec3> impulses_on_held(held_before.nodes().size(), Vec3::Zero());  // of contact and ties
   if (contact) contact->add_held_impulses(impulses_on_held);
-  const bool ended = release_boundaries();
+  const bool ended = change_boundaries();
+  begin_loads();
   if (steps > 0 && !stages.finished()) {
     let_go(held_before, impulses_on_held, ended);
     // What is free at once begins to swing, often faster than what the last step was for: its first kick is that of its own steps. A longer one would give it energy.

@@ -11,8 +11,8 @@ namespace forming_sim {
 StageRunner::StageRunner(const std::vector<StageConfig>& stages, const Model& model) : stages_(stages), model_(&model) {
   for (const ToolModel& tool : model.tools) {
     const bool by_force = tool.motion && tool.motion->kind == "force";
-    motions_.push_back(tool.motion && !by_force ? RigidMotion(*tool.motion, model.dimension) : RigidMotion());
-    stop_force_.push_back(tool.motion && !by_force ? tool.motion->stop_force : 0);
+    motions_.push_back(tool.motion ? stay(by_force ? Pose() : RigidMotion(*tool.motion, model.dimension).at(0)) : RigidMotion());
+    stop_force_.push_back(0);
     drives_.push_back(by_force ? std::optional<ForceDrive>(*tool.motion) : std::nullopt);
   }
   present_.assign(model.tools.size(), 1);
@@ -24,9 +24,26 @@ StageRunner::StageRunner(const std::vector<StageConfig>& stages, const Model& mo
 
 bool StageRunner::leaves(const StageConfig& stage, int tool) const { return takes_away(stage, model_->tools[tool].name); }
 
+double StageRunner::began(const std::string& since) const {
+  const std::size_t stage = first_stage(since, stages_);
+  return stage < starts_.size() ? starts_[stage] : std::numeric_limits<double>::infinity();
+}
+
+void StageRunner::begin_motion(int tool, double t) {
+  const MotionConfig& motion = *model_->tools[tool].motion;
+  if (drives_[tool]) {
+    motions_[tool] = RigidMotion();
+    drives_[tool]->begin(t);
+    return;
+  }
+  motions_[tool] = RigidMotion(motion, model_->dimension).beginning(t);
+  stop_force_[tool] = motion.stop_force;
+}
+
 void StageRunner::begin(double t) {
   known_.assign(motions_.size(), {});
   for (std::size_t k = 0; k < motions_.size(); ++k) {
+    if (present_[k] && model_->tools[k].motion && first_stage(model_->tools[k].motion->since, stages_) == index_) begin_motion(static_cast<int>(k), t);
     if (!present_[k] || !leaves(stages_[index_], static_cast<int>(k))) continue;
     const Vec3& displacement = stages_[index_].displacement;
     const ForceDrive* by = drive(static_cast<int>(k));

@@ -34,6 +34,8 @@ class StageRunner {
   /// What drives a tool now; null: no force does.
   const ForceDrive* drive(int tool) const { return driven(tool) ? &*drives_[tool] : nullptr; }
   ForceDrive* drive(int tool) { return driven(tool) ? &*drives_[tool] : nullptr; }
+  /// When what has this `since` began; infinity: it has not.
+  double began(const std::string& since) const;
   bool present(int tool) const { return present_[tool]; }
   /// Force at which the tool stops, N; 0: none does, or it has stopped or is on its way off.
   double stop_force(int tool) const { return stop_force_[tool]; }
@@ -60,7 +62,8 @@ class StageRunner {
 
  private:
   void begin(double t);
-  bool driven(int tool) const { return drives_[tool] && motions_[tool].rests(); }  ///< until it is withdrawn
+  void begin_motion(int tool, double t);
+  bool driven(int tool) const { return drives_[tool] && motions_[tool].rests(); }  ///< from when its motion begins until it is withdrawn
 
   std::vector<StageConfig> stages_;
   const Model* model_;

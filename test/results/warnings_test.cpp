@@ -182,6 +182,7 @@ bodies:
 tools:
   - {name: early, point: [0, 0.01], normal: [0, -1], motion: {kind: trajectory, times: [0, 1e-4], positions: [[0, 0], [0, -0.001]]}}
   - {name: late, point: [0, 0.01], normal: [0, -1], motion: {kind: trajectory, times: [4.1e-3, 4.3e-3], positions: [[0, 0], [0, -0.001]]}}
+  - {name: after, point: [0, 0.01], normal: [0, -1], motion: {kind: trajectory, since: second, times: [0, 3e-4], positions: [[0, 0], [0, -0.001]]}}
   - {name: on, point: [0, 0.01], normal: [0, -1], motion: {kind: trajectory, times: [4.1e-3, 9e-3], positions: [[0, 0], [0, -0.001]]}}
 stages:
   - {kind: form, duration: 1e-4}

@@ -158,6 +158,17 @@ TEST(OddScene, OddValuesAreTold) {
     return drive;
   };
   told("set left of body plate is driven with 2000 m/s", [&](Scene& s) { s.bodies[0].boundaries.push_back(driven(2000, 1e-6)); });
+  const double end = plate_scene().stages.back().duration;
+  const auto after = [&](double until) {
+    return [&, until](Scene& s) {
+      s.stages.push_back(s.stages.back());
+      s.stages.back().name = "later";
+      s.bodies[0].boundaries.push_back(driven(1, until));
+      s.bodies[0].boundaries.back().since = "later";
+    };
+  };
+  told("the motion of set left of body plate goes on to", after(1.01 * end));
+  EXPECT_TRUE(notes_of(after(0.99 * end)).empty());
   told("the motion of set left of body plate goes on to 1000 s", [&](Scene& s) { s.bodies[0].boundaries.push_back(driven(1, 1000)); });
   told("the pressure on set top of body plate goes on to 1000 s", [](Scene& s) {
     PressureConfig pressure;

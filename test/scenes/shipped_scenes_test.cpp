@@ -11,6 +11,7 @@
 #include "forming_sim/scene/build.h"
 #include "forming_sim/scene/validate.h"
 #include "forming_sim/scene/yaml.h"
+#include "forming_sim/simulation/release.h"
 #include "forming_sim/simulation/simulation.h"
 
 namespace forming_sim {
@@ -66,7 +67,8 @@ TEST_P(ShippedScene, starts_with_its_tools_at_rest_in_their_places) {
     if (stage.kind != "form")
       for (const ToolModel& tool : model.tools)
         if (is_moved(tool)) {
-          EXPECT_LT(RigidMotion(*tool.motion, model.dimension).at(time).velocity.norm(), 1e-9)
+          const RigidMotion motion = RigidMotion(*tool.motion, model.dimension).beginning(latest_begin(tool.motion->since, named(scene.stages)));
+          EXPECT_LT(motion.at(time).velocity.norm(), 1e-9)
               << tool.name << " at the start of " << stage.name;
         }
     if (stage.kind == "settle") break;  // it ends when the body rests, not at a time that is known

@@ -17,6 +17,7 @@ struct ResolvedBoundary {
   std::string body;  ///< for messages
   std::vector<int> nodes;
   std::vector<Vec3> places = {};  ///< of the nodes at the start; asked for where the set turns
+  CourseClock clock = {};
 };
 
 /// Looks up the set of a boundary in its body's mesh.
@@ -24,7 +25,7 @@ struct ResolvedBoundary {
 ResolvedBoundary resolve(const BoundaryConfig& config, const std::string& body, const Mesh& mesh,
                          int first_node);
 
-/// A boundary that holds one direction and nothing else, to the end, counts as a plane of symmetry across that direction; of an axisymmetric body along the axis alone.
+/// A boundary that holds one direction and nothing else, from the start to the end, counts as a plane of symmetry across that direction; of an axisymmetric body along the axis alone.
 std::vector<SymmetryPlane> symmetry_planes(const std::vector<BoundaryConfig>& boundaries, bool axisymmetric);
 
 /// All held or driven nodes of a model. A node may be in several boundaries:

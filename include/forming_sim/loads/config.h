@@ -21,7 +21,7 @@ struct BoundaryConfig {
   std::vector<Vec3> spins_deg_s;    ///< velocity: angular velocities at the knots
   Vec3 centre = Vec3::Zero();       ///< velocity: about which the set turns
   std::string profile = "linear";   ///< velocity between knots: linear | smooth
-  std::string until;                ///< stage at whose beginning it lets go; empty: it stays
+  std::string since, until;         ///< stages at whose beginning it takes hold and lets go; empty: from the start on; it stays
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(set), Field().required().doc("name of a set of this body"));
@@ -33,6 +33,7 @@ struct BoundaryConfig {
     visit(FORMING_SIM_FIELD(spins_deg_s), Field().unit("deg/s").when("kind", {"velocity"}).doc("angular velocity about the centre at each knot. Give velocities, spins_deg_s or both"));
     visit(FORMING_SIM_FIELD(centre), Field().unit("m").when("kind", {"velocity"}).doc("centre of rotation at the start; it moves with the velocities"));
     visit(FORMING_SIM_FIELD(profile), Field().choices({"linear", "smooth"}).when("kind", {"velocity"}).doc("between knots: linear, or smooth (cubic with zero acceleration at the knots)"));
+    visit(FORMING_SIM_FIELD(since), Field().computed("the start of the run").doc("name of a stage: the boundary takes hold of its nodes when that begins, and its times count from there"));
     visit(FORMING_SIM_FIELD(until), Field().computed("it stays").doc("name of a later stage: when that begins, the boundary lets its nodes go"));
   }
 };
@@ -42,12 +43,14 @@ struct PressureConfig {
   std::string set;
   std::vector<double> times, values;
   std::string profile = "linear";  ///< between knots: linear | smooth
+  std::string since;               ///< stage from whose beginning on it acts; empty: from the start on
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(set), Field().required().doc("name of a set: the pressure acts on the surface faces all of whose nodes are in it"));
     visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().doc("times of the knots, increasing; level before the first and after the last"));
     visit(FORMING_SIM_FIELD(values), Field().unit("Pa").required().doc("pressure at each knot, positive pushes into the body"));
     visit(FORMING_SIM_FIELD(profile), Field().choices({"linear", "smooth"}).doc("between knots: linear, or smooth (cubic, level at the knots: a load that starts and stops so sets off no swing)"));
+    visit(FORMING_SIM_FIELD(since), Field().computed("the start of the run").doc("name of a stage: it acts from when that begins, and its times count from there"));
   }
 };
 
@@ -59,6 +62,7 @@ struct LoadConfig {
   std::vector<Vec3> tractions;   ///< traction
   std::vector<Vec3> forces;      ///< force
   std::string profile = "linear";  ///< between knots: linear | smooth
+  std::string since;               ///< stage from whose beginning on it acts; empty: from the start on
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(set), Field().required().doc("name of a set of this body"));
@@ -67,6 +71,7 @@ struct LoadConfig {
     visit(FORMING_SIM_FIELD(tractions), Field().unit("Pa").required().when("kind", {"traction"}).doc("force per initial area at each knot; it keeps its direction as the surface turns"));
     visit(FORMING_SIM_FIELD(forces), Field().unit("N").required().when("kind", {"force"}).doc("force at each knot; plane strain: N/m; axisymmetric: summed around the whole circle, also what goes outward along x"));
     visit(FORMING_SIM_FIELD(profile), Field().choices({"linear", "smooth"}).doc("between knots: linear, or smooth (cubic, level at the knots: a load that starts and stops so sets off no swing)"));
+    visit(FORMING_SIM_FIELD(since), Field().computed("the start of the run").doc("name of a stage: it acts from when that begins, and its times count from there"));
   }
 };
 
@@ -85,6 +90,7 @@ struct MotionConfig {
   double stop_force = 0;            ///< trajectory, velocity; 0: none
   Vec3 centre = Vec3::Zero();
   std::string profile = "smooth";
+  std::string since;                ///< stage at whose beginning it begins; empty: at the start
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(kind), Field().required().choices({"trajectory", "velocity", "force"}).doc("trajectory: displacements and rotations at given times; velocity: velocities and spins at given times; force: forces at given times, and the tool goes where they and the bodies push it, along their line and without a turn: a blank holder, a hammer"));
@@ -100,6 +106,7 @@ struct MotionConfig {
     visit(FORMING_SIM_FIELD(stop_force), Field().unit("N").at_least(0).when("kind", {"trajectory", "velocity"}).computed("it goes its whole way").doc("the tool stops for good where it is when the force against its way (of a tool that only turns: the whole force), the mean over some 50 steps, has reached this; plane strain: N/m; axisymmetric: along the axis, of the whole circle. stages[].until_stopped ends a stage with it"));
     visit(FORMING_SIM_FIELD(centre), Field().unit("m").when("kind", {"trajectory", "velocity"}).doc("centre of rotation at the start; it moves with the tool"));
     visit(FORMING_SIM_FIELD(profile), Field().choices({"smooth", "linear", "spline"}).doc("smooth: from rest to rest between knots (quintic trajectory, cubic velocity and force); linear: straight lines; spline: a trajectory that passes the inner knots without stopping"));
+    visit(FORMING_SIM_FIELD(since), Field().computed("the start of the run").doc("name of a stage: the tool stands still until that begins, at its first position, and its times count from there"));
   }
 };
 

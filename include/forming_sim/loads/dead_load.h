@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "forming_sim/loads/config.h"
+#include "forming_sim/loads/course_clock.h"
 #include "forming_sim/loads/curve.h"
 #include "forming_sim/mesh/mesh.h"
 
@@ -14,6 +15,7 @@ struct ResolvedLoad {
   Curve value;                ///< Pa or N over time
   std::vector<int> nodes;
   std::vector<double> share;  ///< of each node: of a traction its area at the start, m2 (m in 2D); of a force its part, all together 1
+  CourseClock clock = {};
 };
 
 /// Areas are those that the faces with all their nodes in the set give their corners (mesh/faces.h). A force on a set without a
@@ -28,6 +30,10 @@ class DeadLoadSet {
   explicit DeadLoadSet(std::vector<ResolvedLoad> loads) : loads_(std::move(loads)) {}
 
   bool empty() const { return loads_.empty(); }
+  /// A stage begins at time t.
+  void begin(int stage, double t) {
+    for (ResolvedLoad& load : loads_) load.clock.begin(stage, t);
+  }
   /// f += forces at time t.
   void add(double t, NodeField& f) const;
 

@@ -27,6 +27,9 @@ class ForceDrive {
   /// along one line or all zero, and as ScalarProfile does.
   explicit ForceDrive(const MotionConfig& config);
 
+  /// Its times count from the time t of the run on.
+  void begin(double t) { began_ = t; }
+
   const Vec3& guide() const { return guide_; }
   /// V* of a step from t on, along the guide, m/s.
   double free_speed(double t, double kick) const;
@@ -35,7 +38,7 @@ class ForceDrive {
   /// The step has been done, dt long, with V = V* + push; J: `answer`, N s along the guide.
   void take(double t, double kick, double dt, double push, double answer);
 
-  double force(double t) const { return force_.at(t); }  ///< F, N
+  double force(double t) const { return force_.at(t - began_); }  ///< F, N
   double mass() const { return mass_; }                  ///< M, kg
   /// Adds `rate` to alpha, 1/s, until it is told another: in settle stages.
   void slow_down(double rate) { settling_ = rate; }
@@ -56,6 +59,7 @@ class ForceDrive {
   Vec3 guide_;
   ScalarProfile force_;  ///< along guide_, N
   double mass_, damping_, settling_ = 0;
+  double began_ = 0;     ///< s
   double way_ = 0, speed_ = 0;
   double pressed_at_ = std::numeric_limits<double>::quiet_NaN();  ///< way_ when it last pressed
   double momentum_ = 0;  ///< over M: V as J says, m/s; speed_ is as near to it as contact searches, and no impulse is lost

@@ -44,7 +44,9 @@ class RigidMotion {
   /// Throws Error(invalid_scene) with field, value and remedy.
   RigidMotion(const MotionConfig& config, int dimension);
 
-  Pose at(double t) const;
+  /// The same from the time t of the run on.
+  RigidMotion beginning(double t) const;
+  Pose at(double time) const;
   bool rests() const;  ///< has no knots: the same pose at all times
 
  private:
@@ -61,6 +63,7 @@ class RigidMotion {
   Curve rotation_vector_;               ///< rad: trajectories, and spins about one axis
   Curve spin_;                          ///< rad/s: spins of changing axis
   std::shared_ptr<const Turns> turns_;  ///< with spin_ only
+  double began_ = 0;                    ///< time of the run from which its own counts, s
   Mat3 base_ = Mat3::Identity();        ///< orientation before rotation_vector_ acts
 };
 

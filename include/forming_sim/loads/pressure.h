@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "forming_sim/loads/config.h"
+#include "forming_sim/loads/course_clock.h"
 #include "forming_sim/loads/profile.h"
 #include "forming_sim/mesh/faces.h"
 #include "forming_sim/tensor/vec.h"
@@ -14,6 +15,7 @@ namespace forming_sim {
 struct ResolvedPressure {
   ScalarProfile profile;
   std::vector<Face> faces;
+  CourseClock clock = {};
 };
 
 /// Takes the surface faces all of whose nodes are in the set.
@@ -33,6 +35,10 @@ class PressureSet {
   explicit PressureSet(std::vector<ResolvedPressure> pressures, bool axisymmetric = false);
 
   bool empty() const { return pressures_.empty(); }
+  /// A stage begins at time t.
+  void begin(int stage, double t) {
+    for (ResolvedPressure& pressure : pressures_) pressure.clock.begin(stage, t);
+  }
   /// f += forces at time t on positions x.
   void add(double t, const NodeField& x, NodeField& f) const;
 

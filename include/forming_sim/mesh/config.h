@@ -60,48 +60,48 @@ struct MeshConfig {
   }
 };
 
-/// A named set of a body's nodes, chosen by where they are.
-struct SetConfig {
-  std::string name;
+/// Where something of a body is: a plane, a box, a cylinder or a sphere.
+struct PlaceConfig {
   std::string choose;           ///< plane | box | cylinder | sphere
   Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
   Vec3 axis = Vec3::Zero();     ///< of a cylinder; zero: z
   double radius = 0;
   Vec3 min = Vec3::Zero(), max = Vec3::Zero();
+
+  /// What `choose` and `normal` mean is told by whose place it is.
+  template <class Visitor> static void declare_place(Visitor& visit, const char* choosing, const char* which_normal) {
+    visit(FORMING_SIM_FIELD(choose), Field().required().choices({"plane", "box", "cylinder", "sphere"}).doc(choosing));
+    visit(FORMING_SIM_FIELD(point), Field().unit("m").when("choose", {"plane", "cylinder", "sphere"}).doc("a point of the plane or of the cylinder's axis, the sphere's centre"));
+    visit(FORMING_SIM_FIELD(normal), Field().when("choose", {"plane"}).required().doc(which_normal));
+    visit(FORMING_SIM_FIELD(axis), Field().when("choose", {"cylinder"}).computed("[0, 0, 1]").doc("direction of the cylinder's axis, any length; in dimension 2 it is z"));
+    visit(FORMING_SIM_FIELD(radius), Field().unit("m").above(0).required().when("choose", {"cylinder", "sphere"}).doc("radius of the cylinder or sphere"));
+    visit(FORMING_SIM_FIELD(min), Field().unit("m").when("choose", {"box"}).doc("least corner of the box"));
+    visit(FORMING_SIM_FIELD(max), Field().unit("m").when("choose", {"box"}).doc("greatest corner of the box; in dimension 2 z is ignored"));
+  }
+};
+
+/// A named set of a body's nodes, chosen by where they are.
+struct SetConfig : PlaceConfig {
+  std::string name;
   double tolerance = 0;
   bool surface_only = false;
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(name), Field().required().doc("name by which boundaries, loads and probes refer to the set"));
-    visit(FORMING_SIM_FIELD(choose), Field().required().choices({"plane", "box", "cylinder", "sphere"}).doc("plane: nodes on a plane; box: nodes inside an axis-parallel box; cylinder, sphere: nodes on one, in dimension 2 on a circle, and centres of hexahedra's faces whose corners are (initial positions)"));
-    visit(FORMING_SIM_FIELD(point), Field().unit("m").when("choose", {"plane", "cylinder", "sphere"}).doc("a point of the plane or of the cylinder's axis, the sphere's centre"));
-    visit(FORMING_SIM_FIELD(normal), Field().when("choose", {"plane"}).required().doc("normal of the plane, any length but zero"));
-    visit(FORMING_SIM_FIELD(axis), Field().when("choose", {"cylinder"}).computed("[0, 0, 1]").doc("direction of the cylinder's axis, any length; in dimension 2 it is z"));
-    visit(FORMING_SIM_FIELD(radius), Field().unit("m").above(0).required().when("choose", {"cylinder", "sphere"}).doc("radius of the cylinder or sphere"));
-    visit(FORMING_SIM_FIELD(min), Field().unit("m").when("choose", {"box"}).doc("least corner of the box"));
-    visit(FORMING_SIM_FIELD(max), Field().unit("m").when("choose", {"box"}).doc("greatest corner of the box; in dimension 2 z is ignored"));
+    declare_place(visit, "plane: nodes on a plane; box: nodes inside an axis-parallel box; cylinder, sphere: nodes on one, in dimension 2 on a circle, and centres of hexahedra's faces whose corners are (initial positions)",
+                  "normal of the plane, any length but zero");
     visit(FORMING_SIM_FIELD(tolerance), Field().unit("m").at_least(0).computed("1e-6 of the body's size").doc("distance up to which a node counts as on the surface or in the box"));
     visit(FORMING_SIM_FIELD(surface_only), Field().doc("take only nodes on the body's surface"));
   }
 };
 
 /// What is cut away from a body: the cells whose middle lies in a region.
-struct TrimConfig {
-  std::string choose;           ///< plane | box | cylinder | sphere
-  Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
-  Vec3 axis = Vec3::Zero();     ///< of a cylinder; zero: z
-  double radius = 0;
-  Vec3 min = Vec3::Zero(), max = Vec3::Zero();
+struct TrimConfig : PlaceConfig {
   bool outside = false;
 
   template <class Visitor> static void declare(Visitor&& visit) {
-    visit(FORMING_SIM_FIELD(choose), Field().required().choices({"plane", "box", "cylinder", "sphere"}).doc("plane: cut away what lies on the side to which its normal points; box, cylinder (in dimension 2 a circle), sphere: what lies inside"));
-    visit(FORMING_SIM_FIELD(point), Field().unit("m").when("choose", {"plane", "cylinder", "sphere"}).doc("a point of the plane or of the cylinder's axis, the sphere's centre"));
-    visit(FORMING_SIM_FIELD(normal), Field().when("choose", {"plane"}).required().doc("normal of the plane, any length but zero: towards what is cut away"));
-    visit(FORMING_SIM_FIELD(axis), Field().when("choose", {"cylinder"}).computed("[0, 0, 1]").doc("direction of the cylinder's axis, any length; in dimension 2 it is z"));
-    visit(FORMING_SIM_FIELD(radius), Field().unit("m").above(0).required().when("choose", {"cylinder", "sphere"}).doc("radius of the cylinder or sphere"));
-    visit(FORMING_SIM_FIELD(min), Field().unit("m").when("choose", {"box"}).doc("least corner of the box"));
-    visit(FORMING_SIM_FIELD(max), Field().unit("m").when("choose", {"box"}).doc("greatest corner of the box; in dimension 2 z is ignored"));
+    declare_place(visit, "plane: cut away what lies on the side to which its normal points; box, cylinder (in dimension 2 a circle), sphere: what lies inside",
+                  "normal of the plane, any length but zero: towards what is cut away");
     visit(FORMING_SIM_FIELD(outside), Field().when("choose", {"box", "cylinder", "sphere"}).doc("true: cut away what lies outside, and keep what lies inside"));
   }
 };

@@ -82,7 +82,7 @@ struct Scene {
     visit(FORMING_SIM_FIELD(gravity), Field().unit("m/s2").doc("acceleration of gravity"));
     visit(FORMING_SIM_FIELD(contact), Field().doc("parameters of the mild contact; they are chosen from the mesh and the material"));
     visit(FORMING_SIM_FIELD(time_step), Field().doc("time step, viscosity, damping, mass scaling"));
-    visit(FORMING_SIM_FIELD(stages), Field().required().doc("what happens, one stage after the other; times of motions and loads count from the start of the run"));
+    visit(FORMING_SIM_FIELD(stages), Field().required().doc("what happens, one stage after the other; times of motions and loads count from the start of the run, or of the stage that their since names"));
     visit(FORMING_SIM_FIELD(output), Field().doc("what is written"));
   }
 };

@@ -1,11 +1,13 @@
 #pragma once
-// What stages are called, when a boundary lets go, and which tools a stage takes away.
+// What stages are called, when what a scene gives begins and a boundary lets go, and which tools a stage takes away.
 #include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "forming_sim/loads/config.h"
 #include "forming_sim/simulation/config.h"
+#include "forming_sim/simulation/stage_times.h"
 
 namespace forming_sim {
 
@@ -30,6 +32,22 @@ inline int release_stage(const std::string& until, const std::vector<StageConfig
   for (int k = 1; k < count && !until.empty(); ++k)
     if (stages[k].title() == until) return k;
   return count;
+}
+
+/// The stage with whose beginning what has this `since` begins: 0 where it is empty, or the number of stages where it names none.
+/// stages: named.
+inline int first_stage(const std::string& since, const std::vector<StageConfig>& stages) {
+  return since.empty() || (!stages.empty() && stages[0].title() == since) ? 0 : release_stage(since, stages);
+}
+
+/// The boundary holds in this stage. stages: named.
+inline bool holds_in(int stage, const BoundaryConfig& boundary, const std::vector<StageConfig>& stages) {
+  return first_stage(boundary.since, stages) <= stage && stage < release_stage(boundary.until, stages);
+}
+
+/// When what has this `since` begins at the latest, s. stages: named.
+inline double latest_begin(const std::string& since, const std::vector<StageConfig>& stages) {
+  return longest_time({stages.begin(), stages.begin() + first_stage(since, stages)});
 }
 
 /// The stage takes the tool of this name away.
