@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "contact/impl.h"
+#include "forming_sim/config/words.h"
 #include "forming_sim/contact/impulse.h"
 #include "forming_sim/contact/crossing.h"
 
@@ -24,7 +25,10 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
     m.body_vertices.insert(m.body_vertices.end(), own.begin(), own.end());
   }
   m.layer = setup.config.layer > 0 ? setup.config.layer : std::min(0.05 * m.features.smallest_edge, 1e-3 * setup.thinnest);
-  if (const double clearance = setup.config.layer > 0 ? 0 : clearance_of_bodies(m.layer, setup, m.features, at); clearance > 0) m.layer = std::min(m.layer, kOfClearance * clearance);
+  if (const double clearance = setup.config.layer > 0 ? 0 : clearance_of_bodies(m.layer, setup, m.features, at); clearance > 0 && kOfClearance * clearance < m.layer) {
+    m.layer = kOfClearance * clearance;
+    m.warnings.push_back("two bodies stand " + three_digits(clearance) + " m apart: contact acts from a fifth of that on, contact.layer " + three_digits(m.layer) + " m; where the gap itself matters give a smaller one");
+  }
   m.thickest = m.layer;
   m.ceiling = std::max(m.layer, 0.05 * m.features.smallest_edge);
   m.modulus = setup.config.stiffness > 0 ? setup.config.stiffness : setup.softest_modulus;
@@ -262,6 +266,7 @@ std::vector<SurfacePair> Contact::surface_pairs() const {
   return all;
 }
 void Contact::time_parts(ContactTimes* times) { impl_->times = times; }
+bool Contact::touches_at_start(int tool) const { return impl_->tools.touching[tool]; }
 const std::vector<Vec3>& Contact::body_shifts() const { return impl_->body_shifts; }
 const std::vector<std::string>& Contact::warnings() const { return impl_->warnings; }
 

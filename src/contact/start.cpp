@@ -269,6 +269,7 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
   NodeField place;
   tools.place_all(f, at_start, place);
   std::vector<bool> told(setup.tools.size(), false);
+  tools.touching.assign(setup.tools.size(), false);
   for (size_t t = 0; t < setup.tools.size(); ++t) {
     if (!at_start[t].present) continue;
     const int tool = static_cast<int>(t);
@@ -286,6 +287,7 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
       refused.push_back(text.str());
       told[t] = true;
     }
+    tools.touching[t] = touches;
     if (touches && !close) {
       std::ostringstream text;
       text << "tool " << setup.tools[t].name << " touches a body at the start: it was backed off by the contact layer, " << layer << " m along its normals";

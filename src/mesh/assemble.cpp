@@ -1,6 +1,6 @@
 // From what a mesh file or a message says to a body: splits, sets, checks.
 #include <algorithm>
-#include <set>
+#include <map>
 #include <sstream>
 
 #include "forming_sim/config/fault.h"
@@ -48,20 +48,31 @@ void lay_flat(RawMesh& raw) {
   }
 }
 
-// Tetrahedra know nothing of the centre that hex24 puts on a shared face.
+QuadFaces quad_faces_of(RawKind kind) { return kind == RawKind::hexahedron ? kFacesOfHexahedron : kind == RawKind::wedge ? kFacesOfWedge : QuadFaces(); }
+
+const RawCell* first_of(const RawMesh& raw, RawKind kind) {
+  const auto found = std::find_if(raw.cells.begin(), raw.cells.end(), [&](const RawCell& cell) { return cell.kind == kind; });
+  return found == raw.cells.end() ? nullptr : &*found;
+}
+
+// Tetrahedra know nothing of the centre that hex24 and wedge14 put on a shared face, and hexahedra that stay whole have none.
 void check_kinds_apart(const RawMesh& raw) {
-  std::set<std::array<int, 3>> corners_of_hexes;
-  for (const RawCell& cell : raw.cells)
-    if (cell.kind == RawKind::hexahedron)
-      for (const auto& face : kHexFaces)
-        for (int skip = 0; skip < 4; ++skip) {
-          std::array<int, 3> key;
-          for (int k = 0, at = 0; k < 4; ++k)
-            if (k != skip) key[at++] = cell.nodes[face[k]];
-          std::sort(key.begin(), key.end());
-          corners_of_hexes.insert(key);
-        }
-  if (corners_of_hexes.empty()) return;
+  const RawCell* wedge = first_of(raw, RawKind::wedge);
+  if (raw.one_point && wedge && first_of(raw, RawKind::hexahedron))
+    refuse(raw, "holds hexahedra and wedges, the first of which is " + std::to_string(wedge->tag) + "; with the pattern one_point hexahedra stay whole, and wedges, which are split, do not fit beside them: give the pattern fine, or mesh the body with hexahedra alone");
+  std::map<std::array<int, 3>, const char*> corners_of_faces;
+  for (const RawCell& cell : raw.cells) {
+    const QuadFaces faces = quad_faces_of(cell.kind);
+    for (int f = 0; f < faces.count; ++f)
+      for (int skip = 0; skip < 4; ++skip) {
+        std::array<int, 3> key;
+        for (int k = 0, at = 0; k < 4; ++k)
+          if (k != skip) key[at++] = cell.nodes[faces.corners[f][k]];
+        std::sort(key.begin(), key.end());
+        corners_of_faces.emplace(key, shape_of(cell.kind).name);
+      }
+  }
+  if (corners_of_faces.empty()) return;
   for (const RawCell& cell : raw.cells)
     if (cell.kind == RawKind::tetrahedron)
       for (int skip = 0; skip < 4; ++skip) {
@@ -69,15 +80,15 @@ void check_kinds_apart(const RawMesh& raw) {
         for (int k = 0, at = 0; k < 4; ++k)
           if (k != skip) key[at++] = cell.nodes[k];
         std::sort(key.begin(), key.end());
-        if (corners_of_hexes.count(key))
-          refuse(raw, "tetrahedron " + std::to_string(cell.tag) +
-                          " lies on a face of a hexahedron, which is " + (raw.one_point ? "not split" : "split about its centre") + "; mesh a body with one of the two kinds");
+        if (const auto face = corners_of_faces.find(key); face != corners_of_faces.end())
+          refuse(raw, "tetrahedron " + std::to_string(cell.tag) + " lies on a face with four corners of a " + face->second + ", which is " +
+                          (raw.one_point ? "not split" : "split about its centre") + "; mesh a body with one of the two kinds");
       }
 }
 
 struct Split {
   std::vector<long long> tags;  // of the cells in the order of Mesh::cells
-  Centres faces;                // centres of quadrilaterals, hexahedra and their faces
+  Centres faces;                // centres of quadrilaterals, hexahedra, wedges and their faces
 };
 
 Split split(const RawMesh& raw, Mesh& mesh) {
@@ -105,6 +116,12 @@ Split split(const RawMesh& raw, Mesh& mesh) {
     std::copy(c.nodes, c.nodes + 8, hexes.back().begin());
   });
   if (!hexes.empty()) result.faces = split_hexes(mesh, hexes, raw.one_point ? CellKind::hex1 : CellKind::hex24);
+  std::vector<Wedge> wedges;
+  take(RawKind::wedge, [&](const RawCell& c) {
+    wedges.emplace_back();
+    std::copy(c.nodes, c.nodes + 6, wedges.back().begin());
+  });
+  split_wedges(mesh, wedges, result.faces);
   return result;
 }
 
@@ -144,12 +161,13 @@ void lay_sets(const RawMesh& raw, const Centres& centres, Mesh& mesh) {
     for (const RawCell& cell : cells) {
       const int corners = shape_of(cell.kind).corners;
       for (int k = 0; k < corners; ++k) take(cell.nodes[k]);
-      if (corners == 4 || corners == 8) take(centres.find(cell.nodes, corners));
-      if (cell.kind == RawKind::hexahedron)
-        for (const auto& face : kHexFaces) {
-          const int four[4] = {cell.nodes[face[0]], cell.nodes[face[1]], cell.nodes[face[2]], cell.nodes[face[3]]};
-          take(centres.find(four, 4));
-        }
+      if (corners >= 4) take(centres.find(cell.nodes, corners));
+      const QuadFaces faces = quad_faces_of(cell.kind);
+      for (int f = 0; f < faces.count; ++f) {
+        const auto& face = faces.corners[f];
+        const int four[4] = {cell.nodes[face[0]], cell.nodes[face[1]], cell.nodes[face[2]], cell.nodes[face[3]]};
+        take(centres.find(four, 4));
+      }
     }
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -176,7 +194,7 @@ void check_seams(const RawMesh& raw, const Mesh& mesh) {
 
 const RawShape& shape_of(RawKind kind) {
   static constexpr RawShape shapes[] = {{"point", 0, 1},         {"line", 1, 2},        {"triangle", 2, 3},
-                                        {"quadrilateral", 2, 4}, {"tetrahedron", 3, 4}, {"hexahedron", 3, 8}};
+                                        {"quadrilateral", 2, 4}, {"tetrahedron", 3, 4}, {"hexahedron", 3, 8}, {"wedge", 3, 6}};
   return shapes[static_cast<int>(kind)];
 }
 

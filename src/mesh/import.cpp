@@ -43,7 +43,8 @@ RawMesh read_inline(const MeshConfig& config, const std::string& cell_type) {
   else if (cell_type == "quadrilateral") kind = RawKind::quadrilateral;
   else if (cell_type == "tetrahedron") kind = RawKind::tetrahedron;
   else if (cell_type == "hexahedron") kind = RawKind::hexahedron;
-  else refuse("mesh.cell_type: given \"" + cell_type + "\"; triangle, quadrilateral, tetrahedron or hexahedron is needed");
+  else if (cell_type == "wedge") kind = RawKind::wedge;
+  else refuse("mesh.cell_type: given \"" + cell_type + "\"; triangle, quadrilateral, tetrahedron, hexahedron or wedge is needed");
   const int corners = shape_of(kind).corners, count = static_cast<int>(config.points.size());
   if (config.cells.empty() || config.cells.size() % corners != 0)
     refuse("mesh.cells: given " + std::to_string(config.cells.size()) + " indices; " + std::to_string(corners) +

@@ -38,14 +38,22 @@ double flatness(const Mesh& mesh) {
   double sum = 0;
   int count = 0;
   for (const Cells& cells : mesh.cells) {
-    if (cells.kind != CellKind::hex6 && cells.kind != CellKind::hex24) continue;
+    const bool wedges = cells.kind == CellKind::wedge14;
+    if (!wedges && cells.kind != CellKind::hex6 && cells.kind != CellKind::hex24) continue;
     const int size = shape_of(cells.kind).nodes;
     for (int cell = 0; cell < cells.count(); ++cell) {
-      std::array<double, 3> length;
-      for (int m = 0; m < 3; ++m) {
-        Vec3 edges = Vec3::Zero();
-        for (const auto& edge : along[m]) edges += mesh.nodes[cells.nodes[cell * size + edge[1]]] - mesh.nodes[cells.nodes[cell * size + edge[0]]];
-        length[m] = edges.norm();
+      const auto edge = [&](int from, int to) -> Vec3 { return mesh.nodes[cells.nodes[cell * size + to]] - mesh.nodes[cells.nodes[cell * size + from]]; };
+      std::array<double, 3> length{0, 0, 0};
+      if (wedges) {
+        for (int k = 0; k < 3; ++k) length[0] += (edge(k, (k + 1) % 3) + edge(k + 3, (k + 1) % 3 + 3)).norm() / 6;
+        length[1] = length[0];
+        length[2] = (edge(0, 3) + edge(1, 4) + edge(2, 5)).norm() / 3;
+      } else {
+        for (int m = 0; m < 3; ++m) {
+          Vec3 edges = Vec3::Zero();
+          for (const auto& ends : along[m]) edges += edge(ends[0], ends[1]);
+          length[m] = edges.norm();
+        }
       }
       std::sort(length.begin(), length.end());
       sum += length[1] / length[0];

@@ -24,12 +24,13 @@ std::vector<char> on_surface(const Mesh& mesh) {
 /// On what is round the centre of a face lies beside its corners: it belongs to the set as they do.
 void add_face_centres(const Mesh& mesh, std::vector<char>& chosen) {
   for (const Cells& cells : mesh.cells) {
-    if (cells.kind != CellKind::hex24) continue;
+    const QuadFaces faces = split_faces_of(cells.kind);
+    if (faces.count == 0) continue;
     const int size = shape_of(cells.kind).nodes;
     for (std::size_t first = 0; first < cells.nodes.size(); first += size)
-      for (int face = 0; face < 6; ++face) {
-        const auto& corners = kHexFaces[face];
-        if (std::all_of(corners, corners + 4, [&](int corner) { return chosen[cells.nodes[first + corner]] != 0; })) chosen[cells.nodes[first + 8 + face]] = 1;
+      for (int face = 0; face < faces.count; ++face) {
+        const auto& corners = faces.corners[face];
+        if (std::all_of(corners, corners + 4, [&](int corner) { return chosen[cells.nodes[first + corner]] != 0; })) chosen[cells.nodes[first + faces.first_centre + face]] = 1;
       }
   }
 }

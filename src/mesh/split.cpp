@@ -15,9 +15,9 @@ std::array<int, 8> key_of(const int* corners, int count) {
   return key;
 }
 
-std::array<int, 4> face_of(const Hex& hex, int face) {
+template <class Solid> std::array<int, 4> face_of(const Solid& solid, const int (&face)[4]) {
   std::array<int, 4> corners;
-  for (int k = 0; k < 4; ++k) corners[k] = hex[kHexFaces[face][k]];
+  for (int k = 0; k < 4; ++k) corners[k] = solid[face[k]];
   return corners;
 }
 
@@ -42,7 +42,7 @@ void Centres::extend_by_faces(std::vector<int>& set, const std::vector<Hex>& hex
   const std::vector<int> corners_only = set;
   for (const Hex& hex : hexes)
     for (int f = 0; f < 6; ++f) {
-      const auto face = face_of(hex, f);
+      const auto face = face_of(hex, kHexFaces[f]);
       const bool inside = std::all_of(face.begin(), face.end(), [&](int n) {
         return std::binary_search(corners_only.begin(), corners_only.end(), n);
       });
@@ -68,25 +68,36 @@ Centres split_quads(Mesh& mesh, const std::vector<Quad>& quads, CellKind kind) {
   return centres;
 }
 
-Centres split_hexes(Mesh& mesh, const std::vector<Hex>& hexes, CellKind kind) {
-  Centres centres;
+namespace {
+
+template <class Solid> void split_solids(Mesh& mesh, const std::vector<Solid>& solids, CellKind kind, Centres& centres) {
+  const QuadFaces faces = split_faces_of(kind);
   Cells block{kind, {}};
-  block.nodes.reserve(hexes.size() * shape_of(kind).nodes);
-  for (const Hex& hex : hexes) {
-    block.nodes.insert(block.nodes.end(), hex.begin(), hex.end());
-    if (kind != CellKind::hex24) continue;
-    for (int f = 0; f < 6; ++f) {
-      const auto face = face_of(hex, f);
+  block.nodes.reserve(solids.size() * shape_of(kind).nodes);
+  for (const Solid& solid : solids) {
+    block.nodes.insert(block.nodes.end(), solid.begin(), solid.end());
+    if (faces.count == 0) continue;
+    for (int f = 0; f < faces.count; ++f) {
+      const auto face = face_of(solid, faces.corners[f]);
       int centre = centres.find(face.data(), 4);
       if (centre < 0) centres.add(face.data(), 4, centre = add_mean(mesh, face.data(), 4));
       block.nodes.push_back(centre);
     }
-    const int centre = add_mean(mesh, hex.data(), 8);
-    centres.add(hex.data(), 8, centre);
+    const int corners = static_cast<int>(solid.size()), centre = add_mean(mesh, solid.data(), corners);
+    centres.add(solid.data(), corners, centre);
     block.nodes.push_back(centre);
   }
-  if (!hexes.empty()) mesh.cells.push_back(std::move(block));
+  if (!solids.empty()) mesh.cells.push_back(std::move(block));
+}
+
+}  // namespace
+
+Centres split_hexes(Mesh& mesh, const std::vector<Hex>& hexes, CellKind kind) {
+  Centres centres;
+  split_solids(mesh, hexes, kind, centres);
   return centres;
 }
+
+void split_wedges(Mesh& mesh, const std::vector<Wedge>& wedges, Centres& centres) { split_solids(mesh, wedges, CellKind::wedge14, centres); }
 
 }  // namespace forming_sim

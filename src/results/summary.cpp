@@ -132,6 +132,12 @@ void tell_idle_tools(const Simulation& simulation, std::vector<std::string>& war
       warnings.push_back("tool " + simulation.model().tools[i].name + " has touched nothing in the whole run: look at its position, unit_scale and motion, or leave it out");
 }
 
+/// What contact promises not to happen.
+void tell_crossings(const ContactStatus& contact, std::vector<std::string>& warnings) {
+  if (contact.crossings == 0) return;
+  warnings.push_back("surfaces passed through each other: " + std::to_string(contact.crossings) + " crossings of an edge and a facet were found, and forces where they are mean nothing. With contact.method implicit, and contact.layer left out, they stay apart");
+}
+
 /// Layers that bodies leave no room: what is shut in by tools that stand almost h0 too far out is too soft.
 void tell_flat_layers(const ContactStatus& contact, std::vector<std::string>& warnings) {
   constexpr double kFlat = 0.1;  // of h0: p = 9 E, by far more than metals bear
@@ -283,6 +289,7 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
   j["springback"] = springback(simulation, scene, record, gauge, code);
   j["stages"] = stages(record);
   std::vector<std::string> warnings = simulation.warnings();
+  tell_crossings(contact, warnings);
   tell_jams(simulation, record.pressed, warnings);
   tell_pressed_cells(simulation, record.pressed_cells, warnings);
   if (came_to_its_end(code)) {

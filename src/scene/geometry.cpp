@@ -141,14 +141,17 @@ bool make_body(const Scene& scene, std::size_t i, const std::vector<Fault>& know
       mesh = body.blank ? generate_blank(*body.blank) : load_body_mesh(*body.mesh, scene.base_directory);
     }
     if (faults.size() > before) return;
-    check_volumes(mesh);
+    if (!formed) return check_volumes(mesh);
+    Mesh free_of_stress = mesh;  // where it stands now its run has come to, with cells that no fresh mesh should have
+    free_of_stress.nodes = formed->reference;
+    check_volumes(free_of_stress);
   });
   if (!made || faults.size() > before) return false;
   if (!trim_body(body, path, mesh, formed, faults)) return false;
   if (scene.axisymmetric && mesh.dimension == 2 && !attempt(source, origin, faults, [&] { close_at_axis(mesh); })) return false;
   if (mesh.dimension != scene.dimension && (scene.dimension == 2 || scene.dimension == 3)) {
     faults.push_back({Code::invalid_scene, source, origin + ", whose cells have dimension " + std::to_string(mesh.dimension),
-                      scene.dimension == 2 ? "give a mesh of triangles or quadrilaterals, or set dimension to 3" : "give a mesh of tetrahedra or hexahedra (bodies are solids: a surface is to be extruded through the thickness), or set dimension to 2"});
+                      scene.dimension == 2 ? "give a mesh of triangles or quadrilaterals, or set dimension to 3" : "give a mesh of tetrahedra, hexahedra or wedges (bodies are solids: a surface is to be extruded through the thickness), or set dimension to 2"});
     return false;
   }
   return true;

@@ -102,7 +102,7 @@ void tell_odd_body(const BodyConfig& config, const Mesh& mesh, Model& model) {
   constexpr double kFlat = 1.5;
   if (const double flat = flatness(mesh); flat > kFlat)
     model.notes.push_back("the cells of body " + config.name + " are " + three_digits(flat) +
-                          " times as long and as wide as they are thick: split into tetrahedra they bend far too stiffly (docs/elements.md); set its pattern to one_point, or give cells about as thick as long");
+                          " times as long and as wide as they are thick: split into tetrahedra they bend far too stiffly (docs/elements.md); take hexahedra with pattern one_point, or give cells about as thick as long");
   note_long_cells(config, model);
   note_standing_strip(config, model);
 }

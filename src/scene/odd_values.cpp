@@ -40,6 +40,11 @@ void tell_odd_material(const BodyConfig& body, std::vector<std::string>& notes) 
   const double odd = most > kMostYield * m.E() && m.layers.empty() ? most : most < kLeastYield * m.E() ? most : 0;  // a layer may yield as late as it likes
   if (most > 0 && m.law != "hyperelastic" && m.poissons_ratio == 0)
     notes.push_back("poissons_ratio of body " + body.name + " is 0 or not given, as for cork: steel has 0.3, aluminium 0.33");
+  constexpr double kSoftestMetal = 1e8;  // Pa
+  if (most > 0 && m.law != "hyperelastic" && m.E() < kSoftestMetal)
+    notes.push_back("Young's modulus of body " + body.name + " is " + number_text(m.E()) + " Pa: metals have 1e10 to 4e11; give it and the yield stress in Pa, not in MPa");
+  if (m.hardening && m.hardening->modulus >= m.E() && m.law != "hyperelastic")
+    notes.push_back("the hardening modulus of body " + body.name + " is " + number_text(m.hardening->modulus) + " Pa, not below Young's modulus, " + number_text(m.E()) + " Pa: it is the slope of the yield stress over the plastic strain, of metals a hundredth of it or less");
   if (odd > 0)
     notes.push_back("the yield stress of body " + body.name + " is " + number_text(odd) + " Pa, " + three_digits(odd / m.E()) + " of Young's modulus: metals have .0005 to .01; give both in Pa");
 }

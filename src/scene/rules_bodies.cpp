@@ -161,7 +161,7 @@ void check_bodies(const Scene& scene, FaultList& faults) {
       const std::string here = join_path(path + ".boundaries", k);
       check_set(boundary.set, here);
       const bool begins = check_stage_name(boundary.since, stages, 0, here + ".since", faults), ends = check_stage_name(boundary.until, stages, 1, here + ".until", faults);
-      if (begins && ends && first_stage(boundary.since, stages) >= release_stage(boundary.until, stages))
+      if (begins && ends && !boundary.since.empty() && !boundary.until.empty() && first_stage(boundary.since, stages) >= release_stage(boundary.until, stages))
         faults.add(here + ".until", given_text(boundary.until), "name a stage after that of since, " + boundary.since + ": the boundary lets go when it begins");
       if (boundary.kind != "velocity") continue;
       check_times(boundary.times, here + ".times", faults);

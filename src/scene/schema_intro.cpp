@@ -33,7 +33,7 @@ leave a field out: there 0, "" and [] mean "not given", and the default holds.
   profiles lie at x >= 0. Forces, masses and energies are those of the whole circle (N, kg, J). What lies on the axis
   stays on it without being told; a set of nodes on the axis carries no pressure and no traction. Tools, gravity and initial velocities
   go along y. Of the force on a tool what goes along the axis is its force; what presses outward holds itself in balance, and is told as its `radial_force`, summed around the circle.
-- `dimension: 3` is a solid of hexahedra (each of 24 or 6 tetrahedra, or of one point) or of free tetrahedra.
+- `dimension: 3` is a solid of hexahedra (each of 24 or 6 tetrahedra, or of one point), of wedges (of 14 tetrahedra) or of free tetrahedra.
 - Relative file names refer to the directory of the scene file; `package://NAME/PATH` and `file://` URLs are understood.
 - Names of bodies, tools, stages, probes and sets are of letters, digits, `_`, `-` and `.`; a tool has another name than a body.
 - What is said twice can be said once: keys that begin with `x-` at the top of a scene are free, for groups of fields with an
@@ -103,7 +103,7 @@ that stops under its force has a way and a `stop_force`.
 A tool of kind `force` is a blank holder: guided along the line of its force, it goes where the force and the bodies push it,
 and yields as a flange thickens. Its force is all that acts on it: gravity does not. How fast it goes is found together with the forces of
 contact, so that it may be light, down to a thousandth of the mass of the bodies (what is lighter is refused);
-a light one follows at once, a heavy one takes time to start and to stop. Let the force rise smoothly, and lay the holder on the blank:
+a light one follows at once, a heavy one takes time to start and to stop, and on a sheet that slides it may begin to swing (the run tells it, and the `damping` that ends it). Let the force rise smoothly, and lay the holder on the blank:
 what falls on it rattles. A set that is held rigidly does not stop it, but ends the run: keep it off what is clamped.
 With an `initial_velocity` and its own `mass` it is a hammer: what it has lost when it flies back went into the bodies, as `work`. Its weight is one of its forces.
 Its place is in `history.csv`. A `withdraw` stage takes it away like any other tool, from rest where it has come to.

@@ -90,6 +90,8 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
     a.number(tool.most_against);
     exchange_reaction(tool.felt);
     a.number(tool.touched);
+    a.number(tool.landings);
+    a.number(tool.first_landing);
     a.number(tool.pressed);
   }
 }

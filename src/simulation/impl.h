@@ -143,9 +143,11 @@ struct Simulation::Impl {
   /// Work of prescribed motion, pressure, dead loads, gravity and damping over the kick.
   void book_loads();
   void tell_fall(int tool);
+  void tell_landing(int tool);
   void book_reactions(double kick);
   double kinetic() const;
-  double first_kick_energy() const;  ///< J/s2, over the step's square, of what formed parts bear at the start
+  /// What the first kick takes from the elastic energy that formed parts bear at the start, J.
+  double first_kick_energy() const;
   /// Mass-proportional damping now, 1/s.
   double damping_rate() const;
 

@@ -18,6 +18,7 @@ namespace forming_sim {
 namespace {
 
 constexpr double kLightest = 1e-3;  ///< mass of a tool that a force drives, over that of all bodies
+constexpr double kRoundings = 1e4;  ///< of the farthest place, that a contact layer is to be thick at least
 constexpr double kQuick = 40;       ///< T of contact/shear_waves.h: a press that takes less feels by percents what keeps swings down
 
 /// Of all bodies, in the joined numbering. places_of: a body's nodes, m.
@@ -79,6 +80,7 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
       stages(plan.stages, model), contact_force(X.size(), 0.0), node_impulse(contact_force) {
   for (BodyModel& body : model.bodies)
     if (body.formed) body.formed->cells.clear(), body.formed->edges = {};  // the elements have them
+  for (const Node& n : x) farthest = std::max(farthest, n.cwiseAbs().maxCoeff());
   set_up_loads();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     BodyModel& body = model.bodies[b];
@@ -91,7 +93,6 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
   double kinetic = 0;
   for (std::size_t i = 0; i < v.size(); ++i) kinetic += 0.5 * elements.nodal_mass()[i] * v[i].squaredNorm();
   initial = most = kinetic + elements.stored_energy(x);  // of a formed part, which is under stress
-  for (const Node& n : x) farthest = std::max(farthest, n.cwiseAbs().maxCoeff());
   elements.find_rates(x, v, rates);
   first_element_dt = elements.slowest_cell(rates).dt;
   for (const BodyModel& body : model.bodies) resting_bodies.push_back(resting_body(body));
@@ -233,6 +234,9 @@ void Simulation::Impl::set_up_contact() {
     setup.tool_meshes.push_back(&tool.mesh);
   }
   contact.emplace(setup, x, tools_now());
+  if (const double least = kRoundings * std::numeric_limits<double>::epsilon() * farthest; contact->layer() < least)
+    throw SceneError({{Code::invalid_scene, "contact.layer", three_digits(contact->layer()) + " m", "give at least " + three_digits(least) + " m: places of nodes that are up to " + three_digits(farthest) + " m from the origin are not known as exactly as so thin a layer asks for. Put the scene nearer to the origin where that is too much"}});
+  for (std::size_t k = 0; k < tools.size(); ++k) tools[k].touched = contact->touches_at_start(static_cast<int>(k));
   for (std::size_t n = 0; n < x.size(); ++n)
     if (contact->nodal_area()[n] > 0) touchable.push_back(static_cast<int>(n));
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {

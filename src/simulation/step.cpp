@@ -44,7 +44,6 @@ void Simulation::Impl::take_step() {
   if (control.longer) ++longer_steps;
   go_on_letting_go();
   elements.find_forces(x, v, previous_dt, previous_kick);
-  const double first_kick = steps == 0 ? first_kick_energy() : 0;
   find_loads();
   if (stages.settling()) watch_settling();
   slow_tools();
@@ -68,7 +67,7 @@ void Simulation::Impl::take_step() {
     way.departed = moved.apart;
     resting = moved.resting;
   }
-  initial -= first_kick * dt * dt;
+  if (steps == 0) initial -= first_kick_energy();
   book_loads();
   if (stages.settling()) see_rest();
   time += dt;
@@ -80,15 +79,18 @@ void Simulation::Impl::take_step() {
   if (way.then) departure.step(way.departed, elements.slowest_wave());
 }
 
-// The leapfrog's energy of a swing that is let go at rest, of amplitude a, is 1/2 omega^2 a^2 (1 - (omega dt/2)^2): by dt^2/8 f.M^-1 f less than the elastic one.
+// The leapfrog's energy of a swing that is let go at rest, of amplitude a, is 1/2 omega^2 a^2 (1 - (omega dt/2)^2): by dt^2/8 f.M^-1 f less than the elastic one,
+// m/2 times the square of its first change of velocity. Of what contact, ties and boundaries hold that is less than the elements' forces ask for.
 double Simulation::Impl::first_kick_energy() const {
   if (std::none_of(model.bodies.begin(), model.bodies.end(), [](const BodyModel& body) { return body.formed.has_value(); })) return 0;
   NodeField f(x.size());
   sum_nodes(elements.team(), elements.nodal_forces(), f);
-  for (std::size_t k = 0; k < boundaries.nodes().size(); ++k) f[boundaries.nodes()[k]] = node(Vec3(boundaries.projector(static_cast<int>(k)) * vec3(f[boundaries.nodes()[k]])));
   double sum = 0;
-  for (std::size_t i = 0; i < f.size(); ++i) sum += f[i].squaredNorm() / elements.nodal_mass()[i];
-  return 0.125 * sum;
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    const double m = elements.nodal_mass()[i];
+    sum += 0.5 * m * std::min((v[i] - v_before[i]).squaredNorm(), (0.5 * dt / m * f[i]).squaredNorm());
+  }
+  return sum;
 }
 
 void Simulation::Impl::book(const ContactStep& done) {
@@ -122,7 +124,9 @@ void Simulation::Impl::book(const ContactStep& done) {
       continue;
     }
     Reaction felt{done.tool_impulse[k], done.tool_angular_impulse[k]};
+    const bool lands = tool.touched && !tool.pressed && !felt.impulse.isZero(0);
     tool.pressed = !felt.impulse.isZero(0);
+    if (lands && stages.drive(static_cast<int>(k))) tell_landing(static_cast<int>(k));
     tool.touched = tool.touched || tool.pressed;
     if (model.axisymmetric) felt = around_circle(felt);
     tool.felt += felt;
@@ -165,6 +169,22 @@ void Simulation::Impl::tell_fall(int tool) {
   std::ostringstream text;
   text << "tool " << model.tools[tool].name << ", which a force drives, pressed on the bodies no more: at " << time << " s it had gone on by " << fallen
        << " m from there, and tools do not hold each other. Withdraw it or end its force before the bodies have left it, or guide it by a trajectory";
+  warnings.push_back(text.str());
+}
+
+// A tool on a body is a mass on a spring, and where it rubs, its swing can feed on friction by the body's own swing along the surface.
+void Simulation::Impl::tell_landing(int tool) {
+  constexpr long kMany = 20;
+  ToolStatus& status = tools[tool];
+  if (++status.landings == 1) status.first_landing = time;
+  if (status.landings != kMany) return;
+  const double period = (time - status.first_landing) / (kMany - 1);
+  double all = 0;
+  for (double m : elements.nodal_mass()) all += m;
+  std::ostringstream text;
+  text.precision(3);
+  text << "tool " << model.tools[tool].name << ", which a force drives, had lifted off the bodies and come back " << kMany << " times at " << time << " s, every " << period << " s: with " << stages.drive(tool)->mass() / all
+       << " times the mass of the bodies it swings on them, and where it rubs, friction is less in the mean than its force asks for. A motion.damping of " << M_PI / period << " 1/s stops such a swing, or a motion.mass of some times that of the bodies at most";
   warnings.push_back(text.str());
 }
 

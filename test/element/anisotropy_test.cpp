@@ -20,7 +20,7 @@ MaterialConfig rolled(const MaterialConfig& of, double r0, double r45, double r9
   return m;
 }
 
-constexpr CellKind kKinds[] = {CellKind::triangle, CellKind::quad2, CellKind::crossed, CellKind::quad1, CellKind::tetrahedron, CellKind::hex6, CellKind::hex24, CellKind::hex1};
+constexpr CellKind kKinds[] = {CellKind::triangle, CellKind::quad2, CellKind::crossed, CellKind::quad1, CellKind::tetrahedron, CellKind::hex6, CellKind::hex24, CellKind::hex1, CellKind::wedge14};
 
 NodeField shaken_end(const Moved& body, int dimension) {
   NodeField end = body.X;

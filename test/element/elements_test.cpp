@@ -102,7 +102,7 @@ TEST_P(EveryKind, StressOfFewIsThatOfAll) {
   const BodyModel b = body_of(block_of(GetParam().kind, 6), material_of(GetParam().law, true), GetParam().average);
   NodeField x = positions_of(b.mesh);
   Elements elements({b}, dimension(), x, {}, 1);
-  shake(x, dimension(), 0.02, 8);
+  shake(x, dimension(), 0.01, 8);
   forces_at(elements, x);  // flows
   const std::vector<Sym> all = elements.observe(x).stress;
   const int last = static_cast<int>(all.size()) - 1;
@@ -161,6 +161,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind,
                                            Case{CellKind::crossed, "element"}, Case{CellKind::tetrahedron, "element"},
                                            Case{CellKind::tetrahedron, "node"}, Case{CellKind::hex6, "cell"},
                                            Case{CellKind::hex24, "cell"}, Case{CellKind::hex24, "node"},
+                                           Case{CellKind::wedge14, "cell"}, Case{CellKind::wedge14, "cell", "layers"},
                                            Case{CellKind::crossed, "cell", "layers"}, Case{CellKind::hex6, "cell", "layers"},
                                            Case{CellKind::crossed, "cell", "rubber"}, Case{CellKind::hex24, "cell", "rubber"},
                                            Case{CellKind::tetrahedron, "node", "rubber"}, Case{CellKind::quad1, "cell"},
@@ -204,7 +205,7 @@ TEST(Hyperelastic, TheStableStepIsABoundWhereItIsStretchedFar) {
 
 // The classical method has forces only after a motion; they balance, and threads change nothing.
 TEST(Classical, ForcesBalanceAndThreadsChangeNothing) {
-  for (CellKind kind : {CellKind::crossed, CellKind::quad2, CellKind::hex6, CellKind::tetrahedron, CellKind::quad1, CellKind::hex1}) {
+  for (CellKind kind : {CellKind::crossed, CellKind::quad2, CellKind::hex6, CellKind::tetrahedron, CellKind::quad1, CellKind::hex1, CellKind::wedge14}) {
     const int D = shape_of(kind).dimension;
     const BodyModel b = body_of(block_of(kind, D == 2 ? 24 : 6), material_of("classical", true));
     const NodeField X = positions_of(b.mesh);
@@ -231,7 +232,7 @@ TEST(Classical, ForcesBalanceAndThreadsChangeNothing) {
 }
 
 TEST(Kernels, EveryVectorWidthGivesTheSame) {
-  for (CellKind kind : {CellKind::crossed, CellKind::hex24, CellKind::quad1, CellKind::hex1}) {
+  for (CellKind kind : {CellKind::crossed, CellKind::hex24, CellKind::quad1, CellKind::hex1, CellKind::wedge14}) {
     const int D = shape_of(kind).dimension;
     for (const char* curve : {"perfect", "linear", "voce", "swift", "table"}) {
       const BodyModel b = body_of(block_of(kind, 3), aluminium_by(curve));

@@ -171,13 +171,13 @@ TEST(MeshImportBody, WhatCannotBeUsedSaysWhatToDo) {
   const std::string nodes = "1 0 0 0\n2 1 0 0\n3 0 1 0\n4 .5 0 0\n5 .5 .5 0\n6 0 .5 0\n7 0 0 1\n8 1 0 1\n";
   std::string text = error_of_file("t.msh", msh::cells(nodes, 8, "1 9 2 1 1 1 2 3 4 5 6\n", 1));
   EXPECT_TRUE(has(text, "holds cells of order 2") && has(text, "-order 1")) << text;
-  text = error_of_file("t.msh", msh::cells(nodes, 8, "1 6 2 1 1 1 2 3 7 8 6\n", 1));
-  EXPECT_TRUE(has(text, "Prism") && has(text, "tetrahedra and hexahedra can be used")) << text;
+  text = error_of_file("t.msh", msh::cells(nodes, 8, "1 7 2 1 1 1 2 5 6 7\n", 1));
+  EXPECT_TRUE(has(text, "Pyramid") && has(text, "hexahedra and wedges (prisms) can be used")) << text;
   text = error_of_file("t.msh", msh::cells(nodes, 8, "1 1 2 1 1 1 2\n", 1));
   EXPECT_TRUE(has(text, "mesh it first")) << text;
   text = error_of_file("t.msh", msh::cells("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 .5 .5 2\n", 9,
                                            "1 5 2 1 1 1 2 3 4 5 6 7 8\n2 4 2 1 1 5 6 7 9\n", 2));
-  EXPECT_TRUE(has(text, "tetrahedron 2 lies on a face of a hexahedron")) << text;
+  EXPECT_TRUE(has(text, "tetrahedron 2 lies on a face with four corners of a hexahedron")) << text;
 }
 
 TEST(MeshImportBody, BrokenFilesAreRefused) {
@@ -218,6 +218,33 @@ TEST(MeshImportBody, ThreadsReadOneAfterTheOther) {
 }
 
 const std::vector<Vec3> kCube = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+
+// A hexahedron, a wedge beside it, and tetrahedra on the wedge's upper end.
+TEST(MeshImportBody, WedgesStandBesideHexahedraAndUnderTetrahedra) {
+  const TempDir dir;
+  const std::string nodes = "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 2 0 0\n10 2 0 1\n11 1.3 .3 2\n";
+  const std::string hex = "1 5 2 1 1 1 2 3 4 5 6 7 8\n", wedge = "2 6 2 1 1 2 9 3 6 10 7\n", tetrahedron = "3 4 2 1 1 6 10 7 11\n", face = "4 3 2 7 7 2 9 10 6\n";
+  dir.write("mixed.msh", msh::cells(nodes, 11, hex + wedge + tetrahedron + face, 4));
+  const Mesh mesh = load_body_mesh(file("mixed.msh", 1), dir.str());
+  ASSERT_EQ(mesh.cells.size(), 3u);
+  EXPECT_EQ(mesh.cells[2].kind, CellKind::wedge14);
+  EXPECT_EQ(mesh.nodes.size(), 11u + 6 + 1 + 2 + 1);  // centres of the faces, of which two cells share one, and of the cells
+  EXPECT_NEAR(volume(mesh), 1 + .5 + 1. / 6, 1e-14);
+  EXPECT_NEAR(enclosed(mesh), volume(mesh), 1e-14);
+  EXPECT_EQ(euler_characteristic(mesh), 2);
+  EXPECT_EQ(mesh.sets.at("group_7").size(), 5u);
+  MeshConfig whole = file("mixed.msh", 1);
+  whole.pattern = "one_point";
+  EXPECT_TRUE(has(error_of([&] { load_body_mesh(whole, dir.str()); }), "wedges, which are split, do not fit beside them"));
+  dir.write("on_side.msh", msh::cells(nodes, 11, wedge + "3 4 2 1 1 2 9 6 1\n", 2));
+  EXPECT_TRUE(has(error_of([&] { load_body_mesh(file("on_side.msh", 1), dir.str()); }), "four corners of a wedge"));
+}
+
+TEST(MeshImportBody, InlineWedges) {
+  const Mesh mesh = load_body_mesh(given("wedge", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {0, 1, 2, 3, 4, 5}), "");
+  EXPECT_EQ(mesh.cells[0].kind, CellKind::wedge14);
+  EXPECT_EQ(mesh.nodes.size(), 10u);
+}
 
 TEST(MeshImportBody, InlineCells) {
   MeshConfig config = given("hexahedron", kCube, {0, 1, 2, 3, 4, 5, 6, 7});

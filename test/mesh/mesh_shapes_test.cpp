@@ -18,10 +18,15 @@ Mesh one_cell(CellKind kind) {
   if (kind == CellKind::tetrahedron) mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   if (shape.dimension == 2 && kind != CellKind::triangle) mesh.nodes.resize(4);
   if (kind == CellKind::crossed) mesh.nodes.push_back({.5, .5, 0});
-  if (kind == CellKind::hex24) {
-    for (const auto& face : kHexFaces)
+  if (kind == CellKind::wedge14) mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+  if (const QuadFaces faces = split_faces_of(kind); faces.count > 0) {
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& x : mesh.nodes) middle += x / static_cast<double>(mesh.nodes.size());
+    for (int f = 0; f < faces.count; ++f) {
+      const auto& face = faces.corners[f];
       mesh.nodes.push_back((mesh.nodes[face[0]] + mesh.nodes[face[1]] + mesh.nodes[face[2]] + mesh.nodes[face[3]]) / 4);
-    mesh.nodes.push_back({.5, .5, .5});
+    }
+    mesh.nodes.push_back(middle);
   }
   Cells block{kind, {}};
   for (int n = 0; n < shape.nodes; ++n) block.nodes.push_back(n);
@@ -30,17 +35,17 @@ Mesh one_cell(CellKind kind) {
 }
 
 const CellKind kAll[] = {CellKind::triangle,    CellKind::quad2, CellKind::crossed,
-                         CellKind::tetrahedron, CellKind::hex6,  CellKind::hex24};
+                         CellKind::tetrahedron, CellKind::hex6,  CellKind::hex24, CellKind::wedge14};
 
 TEST(MeshShapes, EverySimplexIsPositiveAndTheyFillTheCell) {
-  const double expected[] = {.5, 1, 1, 1. / 6, 1, 1};
+  const std::map<CellKind, double> expected{{CellKind::triangle, .5}, {CellKind::tetrahedron, 1. / 6}, {CellKind::wedge14, .5}};
   for (CellKind kind : kAll) {
     const Mesh mesh = one_cell(kind);
     SCOPED_TRACE(shape_of(kind).name);
     ASSERT_EQ(int(mesh.nodes.size()), shape_of(kind).nodes);
     ASSERT_EQ(mesh.simplex_count(), shape_of(kind).simplices);
     for (const auto& s : mesh.simplices()) EXPECT_GT(signed_volume(mesh.nodes, s, mesh.dimension), 0);
-    EXPECT_NEAR(volume(mesh), expected[int(kind)], 1e-15);
+    EXPECT_NEAR(volume(mesh), expected.count(kind) ? expected.at(kind) : 1, 1e-15);
     EXPECT_NO_THROW(check_volumes(mesh));
   }
 }
@@ -52,13 +57,20 @@ TEST(MeshShapes, FaceCentresOfHex24LieOnTheFacesTheTableNames) {
   for (int s = 0; s < 24; ++s) EXPECT_EQ(kHex24[s][3], 8 + s / 4);
 }
 
+TEST(MeshShapes, FaceCentresOfWedge14LieOnTheFacesTheTableNames) {
+  const Vec3 centres[] = {{.5, 0, .5}, {.5, .5, .5}, {0, .5, .5}};
+  const Mesh mesh = one_cell(CellKind::wedge14);
+  for (int f = 0; f < 3; ++f) EXPECT_EQ(mesh.nodes[6 + f], centres[f]);
+  for (int s = 2; s < 14; ++s) EXPECT_EQ(kWedge14[s][3], 6 + (s - 2) / 4);
+}
+
 TEST(MeshShapes, SurfacesAreClosedAndPointOutwards) {
-  const int facets[] = {3, 4, 4, 4, 12, 24};
+  const std::map<CellKind, int> facets{{CellKind::triangle, 3}, {CellKind::quad2, 4}, {CellKind::crossed, 4}, {CellKind::tetrahedron, 4}, {CellKind::hex6, 12}, {CellKind::hex24, 24}, {CellKind::wedge14, 14}};
   for (CellKind kind : kAll) {
     Mesh mesh = one_cell(kind);
     SCOPED_TRACE(shape_of(kind).name);
     find_surface(mesh);
-    EXPECT_EQ(int(mesh.surface.size()), facets[int(kind)]);
+    EXPECT_EQ(int(mesh.surface.size()), facets.at(kind));
     EXPECT_LT(sum_of_areas(mesh).norm(), 1e-15);
     EXPECT_NEAR(enclosed(mesh), volume(mesh), 1e-15);
     if (mesh.dimension == 3) { EXPECT_EQ(euler_characteristic(mesh), 2); }

@@ -46,12 +46,12 @@ TEST_P(Families, AResumedRunIsTheUnbrokenOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Families,
-                         ::testing::Values(CellKind::crossed, CellKind::hex6, CellKind::hex24, CellKind::tetrahedron));
+                         ::testing::Values(CellKind::crossed, CellKind::hex6, CellKind::hex24, CellKind::tetrahedron, CellKind::wedge14));
 
 // Of blocks of so many cells that the loops are shared.
 TEST(Simulation, OneThreadAndTwoGiveTheSameBits) {
-  for (const CellKind kind : {CellKind::triangle, CellKind::crossed, CellKind::quad1, CellKind::tetrahedron, CellKind::hex6, CellKind::hex24, CellKind::hex1}) {
-    OneBody run = tumbling(kind, 1, shape_of(kind).dimension == 2 ? 110 : kind == CellKind::hex24 ? 16 : 22);
+  for (const CellKind kind : {CellKind::triangle, CellKind::crossed, CellKind::quad1, CellKind::tetrahedron, CellKind::hex6, CellKind::hex24, CellKind::hex1, CellKind::wedge14}) {
+    OneBody run = tumbling(kind, 1, shape_of(kind).dimension == 2 ? 110 : kind == CellKind::hex24 || kind == CellKind::wedge14 ? 16 : 22);
     run.plan.bodies[0].initial_spin_deg_s *= 50;  // so that it flows at once
     ASSERT_GT(run.model.node_count(), 2 * kNodesOfAThread);
     auto one = run.start(1), two = run.start(2);

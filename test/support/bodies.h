@@ -5,6 +5,7 @@
 
 #include "forming_sim/element/elements.h"
 #include "forming_sim/mesh/generate.h"
+#include "forming_sim/mesh/split.h"
 #include "forming_sim/mesh/measure.h"
 #include "forming_sim/simulation/model.h"
 
@@ -62,6 +63,17 @@ inline Mesh block_of(CellKind kind, int n = 2) {
   blank.cells_across = blank.cells_through = n;
   blank.pattern = is_one_point(kind) ? "one_point" : kind == CellKind::crossed || kind == CellKind::hex24 ? "fine" : "coarse";
   Mesh mesh = generate_blank(blank);
+  if (kind == CellKind::wedge14) {  // two of each hexahedron
+    const std::vector<int> hexes = mesh.cells.front().nodes;
+    std::vector<Wedge> wedges;
+    for (std::size_t at = 0; at < hexes.size(); at += 8)
+      for (const std::array<int, 2>& side : {std::array<int, 2>{1, 2}, {2, 3}})
+        wedges.push_back({hexes[at], hexes[at + side[0]], hexes[at + side[1]], hexes[at + 4], hexes[at + 4 + side[0]], hexes[at + 4 + side[1]]});
+    mesh.cells.clear();
+    Centres centres;
+    split_wedges(mesh, wedges, centres);
+    find_surface(mesh);
+  }
   if (kind == CellKind::triangle || kind == CellKind::tetrahedron) {  // the simplices of the coarse cells, one by one
     Cells cells{kind, {}};
     for (const auto& s : mesh.simplices())

@@ -202,6 +202,7 @@ class Contact {
   /// Bodies that touched each other at the start are moved apart by so much, m: one
   /// per body, mostly zero. The caller moves their nodes before the first step.
   const std::vector<Vec3>& body_shifts() const;
+  bool touches_at_start(int tool) const;  ///< a body, before tools and bodies were set back
   std::vector<SurfacePair> surface_pairs() const;
   const std::vector<std::string>& warnings() const;   ///< "tool die was backed off by 1e-6 m along (0, -1, 0) ..."
 

@@ -13,6 +13,7 @@ struct ToolSet {
   std::vector<bool> is_plane;
   std::vector<Vec3> point, normal;   ///< of planes, in the tool's frame, set back
   std::vector<std::string> names;
+  std::vector<bool> touching;        ///< a body at the start (check_start)
 
   /// Places of all tool vertices with the tools at position0, rotation0.
   void place_all(const Features& features, const std::vector<ToolMotion>& motion, NodeField& place) const;

@@ -40,6 +40,26 @@ inline constexpr int kHex24[24][4] = {
     {14, 2, 3, 12}, {14, 3, 7, 12}, {14, 7, 6, 12}, {14, 6, 2, 12},
     {14, 3, 0, 13}, {14, 0, 4, 13}, {14, 4, 7, 13}, {14, 7, 3, 13}};
 
+/// Corners of the quadrilateral faces of a wedge, counter-clockwise seen from outside, in the order of the face centres 6 ... 8.
+inline constexpr int kWedgeFaces[3][4] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
+
+/// Cell centre 9 and bottom, top; then an edge of a quadrilateral face, the centre of that face; face after face.
+inline constexpr int kWedge14[14][4] = {
+    {9, 0, 2, 1}, {9, 3, 4, 5},
+    {9, 0, 1, 6}, {9, 1, 4, 6}, {9, 4, 3, 6}, {9, 3, 0, 6},
+    {9, 1, 2, 7}, {9, 2, 5, 7}, {9, 5, 4, 7}, {9, 4, 1, 7},
+    {9, 2, 0, 8}, {9, 0, 3, 8}, {9, 3, 5, 8}, {9, 5, 2, 8}};
+
+/// The quadrilateral faces of a solid cell: their corners, and where the centres of those that have one stand among its nodes.
+struct QuadFaces {
+  int count = 0;
+  const int (*corners)[4] = nullptr;
+  int first_centre = 0;
+};
+inline constexpr QuadFaces kFacesOfHexahedron{6, kHexFaces, 8}, kFacesOfWedge{3, kWedgeFaces, 6};
+/// Those that are split about their centres; none: of other cells.
+constexpr QuadFaces split_faces_of(CellKind kind) { return kind == CellKind::hex24 ? kFacesOfHexahedron : kind == CellKind::wedge14 ? kFacesOfWedge : QuadFaces(); }
+
 /// The corners of a cell, each with its neighbours.
 inline constexpr int kQuadCorners[4][4] = {{0, 1, 3, -1}, {1, 2, 0, -1}, {2, 3, 1, -1}, {3, 0, 2, -1}};
 inline constexpr int kHexCorners[8][4] = {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7},
@@ -54,6 +74,7 @@ inline constexpr CellShape kShapes[kCellKinds] = {
     {"hex6", 3, 8, 6, kHex6, 6, 6, kHex6},
     {"hex24", 3, 15, 24, kHex24, 24, 24, kHex24},
     {"quad1", 2, 4, 2, kQuad2, 1, 4, kQuadCorners},
-    {"hex1", 3, 8, 6, kHex6, 1, 8, kHexCorners}};
+    {"hex1", 3, 8, 6, kHex6, 1, 8, kHexCorners},
+    {"wedge14", 3, 10, 14, kWedge14, 14, 14, kWedge14}};
 
 }  // namespace forming_sim

@@ -26,8 +26,8 @@ Eigen::AlignedBox3d bounds(const Mesh& mesh);
 /// Length of the diagonal of `bounds`, m; 0 for a mesh without nodes.
 double size_of(const Mesh& mesh);
 
-/// How flat the hexahedra are that are split into tetrahedra: the middle one of the lengths of a cell (the means of its parallel
-/// edges) over the shortest, in the mean over these cells; 1 of cubes and of long bars, 0 where there are none.
+/// How flat the hexahedra and wedges are that are split into tetrahedra: the middle one of the lengths of a cell (the means of its parallel
+/// edges; of a wedge's triangles the mean edge twice) over the shortest, in the mean over these cells; 1 of cubes and of long bars, 0 where there are none.
 double flatness(const Mesh& mesh);
 /// Mean length of the edges of the tetrahedra that no hexahedron was split into, m; 0 where there are none.
 double edge_of_tetrahedra(const Mesh& mesh);

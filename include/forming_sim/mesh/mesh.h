@@ -19,8 +19,9 @@ namespace forming_sim {
 ///  quad1          4 corners; one element (element/one_point.h)
 ///  hex1           8 corners, likewise
 ///  hex24          8 corners, 6 face centres (bottom, top, front 0 1 5 4, right 1 2 6 5, back 2 3 7 6, left 3 0 4 7), cell centre
-enum class CellKind { triangle, quad2, crossed, tetrahedron, hex6, hex24, quad1, hex1 };
-constexpr int kCellKinds = 8;
+///  wedge14        6 corners (0-2 bottom, 3-5 above them), centres of the faces 0 1 4 3, 1 2 5 4, 2 0 3 5, cell centre
+enum class CellKind { triangle, quad2, crossed, tetrahedron, hex6, hex24, quad1, hex1, wedge14 };
+constexpr int kCellKinds = 9;
 
 struct CellShape {
   const char* name;

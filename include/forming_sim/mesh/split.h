@@ -1,5 +1,5 @@
 #pragma once
-// Quadrilaterals and hexahedra into cells of simplices: adds the nodes in the
+// Quadrilaterals, hexahedra and wedges into cells of simplices: adds the nodes in the
 // middle of cells and faces.
 #include <array>
 #include <map>
@@ -11,6 +11,7 @@ namespace forming_sim {
 
 using Quad = std::array<int, 4>;  ///< corners, counter-clockwise
 using Hex = std::array<int, 8>;   ///< 0-3 bottom, 4-7 above them
+using Wedge = std::array<int, 6>; ///< 0-2 bottom, 3-5 above them
 
 /// The centre node that splitting put on a face or into a cell, by its corners.
 class Centres {
@@ -30,5 +31,7 @@ class Centres {
 /// their common faces.
 Centres split_quads(Mesh& mesh, const std::vector<Quad>& quads, CellKind kind);
 Centres split_hexes(Mesh& mesh, const std::vector<Hex>& hexes, CellKind kind);
+/// Appends cells of the kind wedge14. centres: of the faces that hexahedra have already, which they share with these; those of wedges are added.
+void split_wedges(Mesh& mesh, const std::vector<Wedge>& wedges, Centres& centres);
 
 }  // namespace forming_sim

@@ -98,7 +98,9 @@ struct ToolStatus {
   Vec3 peak_force = Vec3::Zero();          ///< `force` of greatest magnitude so far
   double most_against = 0;                 ///< greatest against() so far, N
   double peak_radial_force = 0;
-  bool touched = false;                    ///< contact has acted on it, in whatever direction
+  bool touched = false;                    ///< a body at the start, or contact has acted on it, in whatever direction
+  long landings = 0;                       ///< of one that a force drives: how often it has lifted off and come back
+  double first_landing = 0;                ///< when it first did, s
   bool pressed = false;                    ///< in the last step too
   bool present = true;                     ///< false once withdrawn
   std::optional<double> stopped;           ///< when it stopped under the force that its motion was to stop under, s

@@ -51,6 +51,7 @@ struct MeshReader {
       case 3: return RawKind::quadrilateral;
       case 4: return RawKind::tetrahedron;
       case 5: return RawKind::hexahedron;
+      case 6: return RawKind::wedge;
       default: break;
     }
     std::string name;
@@ -61,7 +62,7 @@ struct MeshReader {
       refuse("holds cells of order " + std::to_string(order) + " (" + name +
              "); linear cells are needed: mesh with Mesh.ElementOrder = 1, or convert by gmsh -order 1 -save FILE -o NEW.msh");
     refuse("holds cells of the kind " + name +
-           "; triangles, quadrilaterals, tetrahedra and hexahedra can be used, so mesh the body with these");
+           "; triangles, quadrilaterals, tetrahedra, hexahedra and wedges (prisms) can be used, so mesh the body with these");
   }
 
   void read_nodes(double scale) {
@@ -112,7 +113,7 @@ struct MeshReader {
         append_cells(dimension, -1, raw.cells);
         raw.dimension = dimension;
       }
-      if (raw.cells.empty()) refuse("holds no triangles, quadrilaterals, tetrahedra or hexahedra; mesh it first (gmsh -2 or gmsh -3)");
+      if (raw.cells.empty()) refuse("holds no triangles, quadrilaterals, tetrahedra, hexahedra or wedges; mesh it first (gmsh -2 or gmsh -3)");
       return;
     }
     std::string names;
@@ -126,7 +127,7 @@ struct MeshReader {
     for (const auto& group : groups)
       if (group.first == raw.dimension && name_of(group) == wanted) append_group(group, raw.cells);
     if (raw.dimension < 2 || raw.cells.empty())
-      refuse("the physical group \"" + wanted + "\" holds no triangles, quadrilaterals, tetrahedra or hexahedra, so it is no body");
+      refuse("the physical group \"" + wanted + "\" holds no triangles, quadrilaterals, tetrahedra, hexahedra or wedges, so it is no body");
   }
 
   // Neighbours in the body come near to each other, which the numbers of a mesh generator do not see to.
