@@ -66,6 +66,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   ways.exchange(a, x.size());
   tool_ways.exchange(a, tools.size());
   a.number(rests);
+  a.number(takes_hold);
   a.number(pressed);
   std::size_t told = warnings.size() - told_at_start;
   a.number(told);
@@ -145,6 +146,7 @@ void Simulation::restore(const std::vector<char>& data) {
   s.change_boundaries();
   s.begin_loads();
   s.exchange(in);
+  s.choose_booked();
   in.list(memory);
   std::vector<double> expected;
   s.elements.append_state(expected);

@@ -40,6 +40,7 @@ struct Simulation::Impl {
   struct Booked { int held, once; };
   std::vector<Booked> booked;       ///< places in boundaries.nodes() and once_held of those that are driven or asked for, once -1: not asked
   bool any_kept = false;            ///< of those
+  bool takes_hold = false;          ///< a boundary has begun since the last step: it stops what it holds, or sets it in motion, and does work by that
   std::vector<Vec3> held_impulse;   ///< of contact on boundaries.nodes() along what holds them, in a step, N s
   PressureSet pressures;
   DeadLoadSet dead_loads;

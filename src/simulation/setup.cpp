@@ -268,6 +268,7 @@ bool Simulation::Impl::change_boundaries() {
   std::vector<std::size_t> now = holding_in(stages.index());
   if (now == holding) return false;
   const bool ended = !std::includes(now.begin(), now.end(), holding.begin(), holding.end());
+  takes_hold = !std::includes(holding.begin(), holding.end(), now.begin(), now.end());
   for (std::size_t b : now) {
     const int stage = first_stage(all_boundaries[b].config.since, plan.stages);
     all_boundaries[b].clock.begin(stage, stages.starts()[stage]);
@@ -294,7 +295,7 @@ void Simulation::Impl::choose_booked() {
   int once = 0;
   for (int k = 0; k < static_cast<int>(boundaries.nodes().size()); ++k) {
     while (once_held[once] != boundaries.nodes()[k]) ++once;
-    if (boundaries.drives(k) || kept[once]) booked.push_back({k, kept[once] ? once : -1});
+    if (takes_hold || boundaries.drives(k) || kept[once]) booked.push_back({k, kept[once] ? once : -1});
     any_kept = any_kept || kept[once];
   }
 }

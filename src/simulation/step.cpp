@@ -229,7 +229,7 @@ void Simulation::Impl::book_reactions(double kick) {
   for (const Booked& b : booked) {
     const int i = boundaries.nodes()[b.held];
     const Node impulse = boundaries.reaction_impulse(b.held, force_on(i, f), mass[i], v_before[i], v[i], kick);
-    if (boundaries.drives(b.held)) done += 0.5 * impulse.dot(v_before[i] + v[i]);
+    if (takes_hold || boundaries.drives(b.held)) done += 0.5 * impulse.dot(v_before[i] + v[i]);
     if (b.once < 0) continue;
     Vec3 felt = vec3(impulse);
     if (pressed_by_contact) felt -= held_impulse[b.held];
@@ -237,6 +237,9 @@ void Simulation::Impl::book_reactions(double kick) {
     reactions[b.once].angular += vec3(x[i]).cross(felt);
   }
   work += done;
+  if (!takes_hold) return;
+  takes_hold = false;
+  choose_booked();
 }
 
 double Simulation::Impl::kinetic() const {

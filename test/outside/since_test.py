@@ -106,6 +106,21 @@ class Since(SceneRun):
         for stage, there in (('first', -1e-4), ('rest', -1e-4), ('second', -2e-4), ('held', -2e-4), ('free', 0)):
             self.assertAlmostEqual(y[stage], there, delta=1e-7, msg=stage)
 
+    def test_what_takes_hold_of_a_moving_body_does_work(self):
+        """The end of a flying strip is stopped: what its nodes had is lost, and the rest swings on."""
+        strip = body('strip', initial_velocity=[5.0, 0.0], boundaries=[{'set': 'left', 'kind': 'fixed', 'since': 'caught'}])
+        data = scene(strip)
+        data['stages'] = [{'kind': 'form', 'name': 'fly', 'duration': 2e-5}, {'kind': 'form', 'name': 'caught', 'duration': 5e-5}]
+        data['output'] = {'frames': 4, 'history_interval': 1e-6, 'probes': [{'name': 'end', 'set': 'left'}]}
+        summary = self.run_scene(data)
+        mass = 2710 * 0.010 * 0.002
+        self.assertLess(summary['energy_J']['balance_error'], 1e-4)
+        self.assertAlmostEqual(summary['energy_J']['initial'], 0.5 * mass * 25, delta=1e-9)
+        self.assertAlmostEqual(summary['energy_J']['work'], -0.5 * mass * 25 / 10 / 3, delta=1e-4)  # a third of the first of ten cells
+        rows = self.history()
+        given = sum((float(b['time_s']) - float(a['time_s'])) * float(b['probe_end_reaction_force_x_N_per_m'] or 0) for a, b in zip(rows, rows[1:]))
+        self.assertAlmostEqual(mass * 5 + given, summary['bodies'][0]['momentum'][0], delta=1e-6 * mass * 5)
+
     def test_faults(self):
         data = moving_scene()
         data['bodies'][0]['boundaries'][1].update(since='after', until='work')
