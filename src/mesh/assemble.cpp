@@ -82,7 +82,7 @@ void check_kinds_apart(const RawMesh& raw) {
         std::sort(key.begin(), key.end());
         if (const auto face = corners_of_faces.find(key); face != corners_of_faces.end())
           refuse(raw, "tetrahedron " + std::to_string(cell.tag) + " lies on a face with four corners of a " + face->second + ", which is " +
-                          (raw.one_point ? "not split" : "split about its centre") + "; mesh a body with one of the two kinds");
+                          (raw.one_point && !wedge ? "not split" : "split about its centre") + "; mesh a body with one of the two kinds");
       }
 }
 

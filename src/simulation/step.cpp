@@ -124,7 +124,7 @@ void Simulation::Impl::book(const ContactStep& done) {
       continue;
     }
     Reaction felt{done.tool_impulse[k], done.tool_angular_impulse[k]};
-    const bool lands = tool.touched && !tool.pressed && !felt.impulse.isZero(0);
+    const bool lands = !tool.felt.impulse.isZero(0) && !tool.pressed && !felt.impulse.isZero(0);
     tool.pressed = !felt.impulse.isZero(0);
     if (lands && stages.drive(static_cast<int>(k))) tell_landing(static_cast<int>(k));
     tool.touched = tool.touched || tool.pressed;

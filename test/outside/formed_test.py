@@ -177,6 +177,38 @@ class Formed(SceneRun):
         print(f'  a plate let go has come to rest after {ends[0] * 1e3:.3f} ms, turned by 45 degrees after {ends[1] * 1e3:.3f} ms')
         self.assertAlmostEqual(ends[1] / ends[0], 1, delta=0.02)
 
+    def test_the_ledger_of_tied_parts_closes(self):
+        """Two strips tied along their length, bent together: each alone would spring, and ties hold what elements ask for at the start."""
+        strips = []
+        for name, y, modulus in (('lower', 0.0, 70e9), ('upper', 0.5e-3, 210e9)):
+            strips.append({'name': name, 'material': dict(PERFECT, youngs_modulus=modulus), 'blank': {'shape': 'strip', 'origin': [0, y], 'length': 0.01, 'thickness': 0.5e-3, 'cells_along': 20, 'cells_through': 1},
+                           'boundaries': [{'set': 'left', 'kind': 'fixed', 'until': 'settle'},
+                                          {'set': 'right', 'kind': 'velocity', 'axes': ['y'], 'until': 'settle', 'times': [0, 2e-4, 4e-4], 'velocities': [[0, 0], [0, 10], [0, 0]]}]})
+        tied = {'pairs': [{'first': 'lower', 'second': 'upper', 'kind': 'tied'}]}
+        first = self.run_scene({'name': 'bent', 'dimension': 2, 'bodies': strips, 'contact': tied, 'stages': [{'kind': 'form', 'duration': 4e-4}, {'kind': 'settle', 'limit': 0.05}],
+                                'output': {'frames': 2, 'formed': True}}, 'bent')
+        self.assertGreater(first['energy_J']['plastic'], 1)
+        parts = [{'name': strip['name'], 'material': strip['material'], 'formed': {'url': 'bent/formed.h5'}} for strip in strips]
+        energy = self.run_scene({'name': 'next', 'dimension': 2, 'bodies': parts, 'contact': tied, 'stages': [{'kind': 'settle', 'limit': 0.05}], 'output': {'frames': 2}}, 'next')['energy_J']
+        print(f"  two tied strips keep {energy['elastic']:.6f} J, at the start {energy['initial']:.6f} J, ledger open by {energy['balance_error']:.1e}")
+        self.assertAlmostEqual(energy['initial'], first['energy_J']['elastic'], delta=1e-5 * energy['initial'])
+        self.assertLess(energy['balance_error'], 1e-6)
+
+    def test_a_part_with_folded_cells_goes_on(self):
+        """A tube crushed on itself in one-point cells, of which some have lost a corner."""
+        steel = {'density': 7850, 'youngs_modulus': 210e9, 'poissons_ratio': 0.3, 'hardening': {'curve': 'swift', 'strength': 500e6, 'prestrain': 0.01, 'exponent': 0.2}}
+        tube = {'name': 'tube', 'self_contact': True, 'material': steel, 'boundaries': [{'set': 'bottom', 'kind': 'fixed'}],
+                'blank': {'shape': 'strip', 'origin': [0.030, 0], 'length': 1.5e-3, 'thickness': 0.030, 'cells_along': 4, 'cells_through': 60, 'pattern': 'one_point'}}
+        tools = [{'name': 'floor', 'normal': [0, 1], 'friction': 0.1},
+                 {'name': 'mass', 'point': [0, 0.030], 'normal': [0, -1], 'friction': 0.1, 'motion': {'kind': 'trajectory', 'times': [0, 4e-3], 'positions': [[0, 0], [0, -0.0262]]}}]
+        ring = {'dimension': 2, 'axisymmetric': True}
+        first = self.run_scene(dict(ring, name='crushed', bodies=[tube], tools=tools, output={'frames': 2, 'formed': True}, stages=[
+            {'kind': 'form', 'duration': 4e-3}, {'kind': 'withdraw', 'tools': ['mass'], 'displacement': [0, 0.01], 'duration': 1e-3}, {'kind': 'settle', 'limit': 3e-3}]), 'bent')
+        self.assertTrue(any('one-point cells had a corner' in warning for warning in first['warnings']), first['warnings'])
+        part = {'name': 'tube', 'self_contact': True, 'material': steel, 'formed': {'url': 'bent/formed.h5'}, 'boundaries': tube['boundaries']}
+        energy = self.run_scene(dict(ring, name='next', bodies=[part], tools=tools[:1], stages=[{'kind': 'settle', 'limit': 3e-3}], output={'frames': 2}), 'next')['energy_J']
+        self.assertAlmostEqual(energy['elastic'], first['energy_J']['elastic'], delta=0.01 * energy['elastic'])
+
     def test_a_part_is_not_written_over_itself(self):
         self.bend_quickly()
         data = self.next_scene(held=HELD)

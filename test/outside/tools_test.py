@@ -4,13 +4,15 @@
 usage: tools_test.py FORMING_OFFLINE
 """
 import math
+import subprocess
 import sys
 import unittest
 
 import h5py
 import numpy
+import yaml
 
-from scene_run import ALUMINIUM, SceneRun, body, scene
+from scene_run import ALUMINIUM, OFFLINE, SceneRun, body, scene
 
 
 CUBE = [[x, y, z] for z in (2.0, 5.0) for y in (-1.0, 11.0) for x in (-1.0, 11.0)]  # millimetres, on the plate
@@ -283,6 +285,14 @@ class Tools(SceneRun):
         with h5py.File(self.path('out/result.h5')) as file:
             heights = [file['frames'][name]['tools/1/position'][2] for name in sorted(file['frames'])]
         self.assertGreater(heights[-1] - heights[0], 0.0019)
+
+    def test_a_layer_below_the_rounding_of_places_is_refused(self):
+        data = scene(body('strip'), tools=[{'name': 'table', 'normal': [0, 1]}], contact={'layer': 1e-16})
+        with open(self.path('scene.yaml'), 'w') as file:
+            yaml.safe_dump(data, file)
+        run = subprocess.run([OFFLINE, self.path('scene.yaml'), '--output', self.path('out'), '--quiet'], stderr=subprocess.PIPE, text=True)
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertIn('contact.layer: given 1e-16 m; give at least 2.22e-14 m', run.stderr)
 
 
 if __name__ == '__main__':

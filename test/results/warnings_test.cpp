@@ -165,6 +165,52 @@ stages:
   EXPECT_TRUE(warnings_with("lock in bending", sheet("fine")).empty());
 }
 
+/// A strip that is drawn from between a tool and a holder of this mass, kg/m; its own is .314.
+std::string drawn_strip(const std::string& mass) {
+  const auto tool = [](const std::string& name, int side) {
+    const auto at = [&](const char* x, double y) { return std::string("[") + x + ", " + std::to_string(side * y) + "]"; };
+    const std::string from = side < 0 ? "1" : "-1", to = side < 0 ? "-1" : "1";
+    return "  - name: " + name + "\n    friction: 0.12\n    profile: {start: " + at((from + "e-2").c_str(), .005) + ", pieces: [{to: " + at((from + "e-2").c_str(), .001) +
+           "}, {to: " + at((from + "e-2").c_str(), 0) + "}, {to: " + at((to + "e-2").c_str(), 0) + "}, {to: " + at((to + "e-2").c_str(), .005) + "}]}\n";
+  };
+  return R"(
+name: drawn
+dimension: 2
+bodies:
+  - name: strip
+    blank: {shape: strip, origin: [-0.02, 0], length: 0.04, thickness: 0.001, cells_along: 40, cells_through: 2, pattern: one_point}
+    material: {density: 7850, youngs_modulus: 210e9, poissons_ratio: 0.3}
+    boundaries: [{set: right, kind: velocity, axes: [x], times: [0, 4e-4, 8e-4], velocities: [[0, 0], [0, 0], [2, 0]], profile: smooth}]
+tools:
+)" + tool("table", -1) + tool("holder", 1) +
+         "    position: [0, 0.001]\n    motion: {kind: force, times: [0, 3e-4], forces: [[0, 0], [0, -5e4]], mass: " + mass + "}\nstages: [{kind: form, duration: 1.2e-3}]\n";
+}
+
+TEST(RunWarnings, TellsThatAHolderSwingsOnWhatSlides) {
+  const std::vector<std::string> told = warnings_with("had lifted off the bodies and come back", drawn_strip("8"));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].find("tool holder, which a force drives, "), 0u) << told[0];
+  EXPECT_NE(told[0].find("25.5 times the mass of the bodies"), std::string::npos) << told[0];
+  EXPECT_TRUE(warnings_with("had lifted off the bodies", drawn_strip("1")).empty());
+  EXPECT_TRUE(warnings_with("had lifted off the bodies", drawn_strip("8, damping: 4e5")).empty());
+}
+
+// What stands on a table with nodes that are held bears on these.
+TEST(RunWarnings, AToolThatTouchesFromTheStartIsNotIdle) {
+  EXPECT_TRUE(warnings_with("has touched nothing", R"(
+name: held
+dimension: 2
+bodies:
+  - name: block
+    blank: {shape: strip, length: 0.004, thickness: 0.004, cells_along: 2, cells_through: 2}
+    material: {density: 2710, youngs_modulus: 70.5e9, poissons_ratio: 0.34}
+    boundaries: [{set: bottom, kind: fixed}]
+tools:
+  - {name: table, normal: [0, 1]}
+stages: [{kind: form, duration: 1e-5}]
+)").empty());
+}
+
 /// Warnings of what a settle stage that ends early cuts off; its limit is 4 ms.
 std::vector<std::string> told_unfinished(const std::string& ends) {
   const std::string text = R"(

@@ -114,6 +114,14 @@ TEST(OddScene, OddValuesAreTold) {
   told("body plate begins with 10000 m/s, where waves in it have", [](Scene& s) { s.bodies[0].initial_velocity = Vec3(0, 0, 1e4); });
   told("friction of tool die is 9: metals in forming", [](Scene& s) { s.tools[0].friction = 9; });
   told("friction of bodies against each other is 1.5", [](Scene& s) { s.contact.friction = 1.5; });
+  told("Young's modulus of body plate is 70500 Pa: metals have", [](Scene& s) {
+    s.bodies[0].material.youngs_modulus = 70500;
+    s.bodies[0].material.hardening->yield_stress = 150;
+  });
+  told("the hardening modulus of body plate is 1e+14 Pa, not below Young's modulus", [](Scene& s) {
+    s.bodies[0].material.hardening->curve = "linear";
+    s.bodies[0].material.hardening->modulus = 1e14;
+  });
   told("time_step.mass_scaling 1000000 makes waves 1000 times as slow", [](Scene& s) { s.time_step.mass_scaling = 1e6; });
   told("output.interval is 50 s and the stages end at", [](Scene& s) { s.output.interval = 50; });
   told("probe tip is put 100 m outside body plate", [](Scene& s) {
