@@ -162,10 +162,10 @@ void BoundarySet::check(const Group& group, const std::vector<int>& members, con
     std::string others;
     for (int other : members)
       if (other < b) others += (others.empty() ? "" : ", ") + ("\"" + boundaries[other].config.set + "\"");
-    throw Error(Code::invalid_scene,
-                name_of(boundaries[b]) + ": node " + std::to_string(node) + " is also in another boundary, on set " +
-                    (others.empty() ? "\"" + boundaries[b].config.set + "\"" : others) +
-                    ", which prescribes another velocity along the same direction" + when + "; " + remedy);
+    throw SceneError({{Code::invalid_scene, boundaries[b].path,
+                       "a " + name_of(boundaries[b]) + ", whose node " + std::to_string(node) + " is also in another one, on set " +
+                           (others.empty() ? "\"" + boundaries[b].config.set + "\"" : others) + ", which prescribes another velocity along the same direction" + when,
+                       remedy}});
   };
   for (const Beyond& beyond : group.beyond) {
     std::set<double> knots;

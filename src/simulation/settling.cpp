@@ -120,7 +120,7 @@ std::string Simulation::Impl::why_unsettled() const {
   } else if (still_driven()) {
     text << "while a motion, a pressure or a load still changed: a longer limit lets the bodies come to rest after it, and with `ends: limit` the stage does not wait for it";
   } else {
-    text << "before it could be told that the bodies rest: they have to be quiet for " << settle.shortest() << " s, since they are so at every turning point of a swing; give a longer limit";
+    text << "before it could be told that the bodies rest: they have to be quiet for " << settle.shortest() << " s, since they are so at every turning point of a swing; give a longer limit, or, where that does not help, a larger kinetic_fraction: contact keeps some jitter";
   }
   return text.str();
 }

@@ -41,6 +41,7 @@ void hold_at_axis(const BodyModel& body, std::vector<ResolvedBoundary>& held) {
   axis.config.set = "on the axis of symmetry";
   axis.config.kind = "symmetric";
   axis.config.normal = Vec3::UnitX();
+  axis.path = "axisymmetric";
   axis.body = body.name;
   for (int n : axis_nodes(body.mesh)) axis.nodes.push_back(body.first_node + n);
   if (!axis.nodes.empty()) held.push_back(axis);
@@ -121,9 +122,11 @@ void Simulation::Impl::set_up_loads() {
     const VelocityField field(loads.initial_velocity_field);
     for (int i = body.first_node; i < body.first_node + body.node_count; ++i)
       v[i] = node(loads.initial_velocity + spin.cross(vec3(X[i]) - loads.spin_centre) + field.at(vec3(X[i])));
-    for (const BoundaryConfig& c : loads.boundaries) {
+    for (std::size_t k = 0; k < loads.boundaries.size(); ++k) {
+      const BoundaryConfig& c = loads.boundaries[k];
       const int stage = first_stage(c.since, plan.stages);
       held.push_back(resolve(c, body.name, body.mesh, body.first_node));
+      held.back().path = "bodies[" + std::to_string(b) + "].boundaries[" + std::to_string(k) + "]";
       held.back().clock = CourseClock(stage);
       held.back().clock.begin(stage, latest_begin(c.since, plan.stages));
     }

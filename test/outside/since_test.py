@@ -55,6 +55,13 @@ class Since(SceneRun):
             last = frames[sorted(frames)[frame]]
             return last.attrs['time'], last['positions'][:]
 
+    def refused(self, data):
+        with open(self.path('scene.yaml'), 'w') as file:
+            yaml.safe_dump(data, file)
+        run = subprocess.run([OFFLINE, '--validate', self.path('scene.yaml')], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.assertEqual(run.returncode, 2, run.stdout)
+        return run.stdout
+
     def test_it_is_the_same_as_times_that_count_from_the_start(self):
         later = moving_scene()
         told = copy.deepcopy(later)
@@ -123,17 +130,17 @@ class Since(SceneRun):
 
     def test_faults(self):
         data = moving_scene()
+        data['bodies'][0]['boundaries'][0]['until'] = 'after'  # held while it should move
+        self.assertIn('bodies[0].boundaries[1]: given a boundary on set "left"', self.refused(data))
+        data = moving_scene()
         data['bodies'][0]['boundaries'][1].update(since='after', until='work')
         data['bodies'][0]['pressures'][0]['since'] = 'works'
         data['tools'][0]['motion']['since'] = 'after'
         data['stages'][1] = {'kind': 'withdraw', 'name': 'work', 'duration': 1e-4, 'tools': ['tool0']}
-        with open(self.path('scene.yaml'), 'w') as file:
-            yaml.safe_dump(data, file)
-        run = subprocess.run([OFFLINE, '--validate', self.path('scene.yaml')], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        self.assertEqual(run.returncode, 2, run.stdout)
+        said = self.refused(data)
         for part in ("boundaries[1].until: given 'work'", 'name a stage after that of since, after', "pressures[0].since: given 'works'", 'the stages are wait, work, after',
                      "tools[0].motion.since: given 'after'", 'name a stage before work, which takes the tool away'):
-            self.assertIn(part, run.stdout)
+            self.assertIn(part, said)
 
 
 if __name__ == '__main__':

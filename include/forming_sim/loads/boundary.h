@@ -18,6 +18,7 @@ struct ResolvedBoundary {
   std::vector<int> nodes;
   std::vector<Vec3> places = {};  ///< of the nodes at the start; asked for where the set turns
   CourseClock clock = {};
+  std::string path = "boundaries";  ///< of the field, for messages
 };
 
 /// Looks up the set of a boundary in its body's mesh.
@@ -34,7 +35,7 @@ class BoundarySet {
  public:
   BoundarySet() = default;
   /// Throws Error(invalid_scene) for an axis, kind or normal that means nothing,
-  /// and where two boundaries prescribe different velocities of one node along
+  /// and SceneError where two boundaries prescribe different velocities of one node along
   /// one direction, naming node, body and both sets.
   BoundarySet(const std::vector<ResolvedBoundary>& boundaries, int dimension);
 
