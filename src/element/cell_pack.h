@@ -176,6 +176,7 @@ template <class Work> void with_cell(const CellGroup& g, Work&& work) {
     case CellKind::quad1: return flat(cell_types::Quad1());
     case CellKind::hex1: return work(cell_types::Hex1());
     case CellKind::wedge14: return work(cell_types::Wedge14());
+    case CellKind::pyramid8: return work(cell_types::Pyramid8());
   }
 }
 

@@ -33,10 +33,10 @@ PressureMode mode_of(const BodyModel& body, CellKind kind) {
 }
 
 /// Cells with a node of their own (the centre of a crossed quadrilateral, centre
-/// and faces of 24 or 14 tetrahedra) leave that node to the deviator alone when the
+/// and faces of 24, 14 or 8 tetrahedra) leave that node to the deviator alone when the
 /// pressure is one per cell: in a strong impact it yields and the simplices around
 /// it collapse. They have a guard against that, element/guard.h. The seven nodes that 24 tetrahedra have of
-/// their own (a wedge: four) would use what it leaves free: the thick sphere is 8 to 20 % too soft with it alone. There a small share theta of each
+/// their own (a wedge: four, a pyramid: two) would use what it leaves free: the thick sphere is 8 to 20 % too soft with it alone. There a small share theta of each
 /// simplex' own pressure holds them too,
 ///   U = V0 [(1-theta) K/2 (J_cell - 1)^2 + theta K/2 (J - 1)^2].
 /// With the guard .02 is enough; without it the Taylor bar collapses with 0 and runs with .01, and cubes that meet a wall at 850 m/s collapse even with .02. It costs

@@ -48,18 +48,23 @@ void lay_flat(RawMesh& raw) {
   }
 }
 
-QuadFaces quad_faces_of(RawKind kind) { return kind == RawKind::hexahedron ? kFacesOfHexahedron : kind == RawKind::wedge ? kFacesOfWedge : QuadFaces(); }
+QuadFaces quad_faces_of(RawKind kind) {
+  return kind == RawKind::hexahedron ? kFacesOfHexahedron : kind == RawKind::wedge ? kFacesOfWedge : kind == RawKind::pyramid ? kFacesOfPyramid : QuadFaces();
+}
 
 const RawCell* first_of(const RawMesh& raw, RawKind kind) {
   const auto found = std::find_if(raw.cells.begin(), raw.cells.end(), [&](const RawCell& cell) { return cell.kind == kind; });
   return found == raw.cells.end() ? nullptr : &*found;
 }
 
-// Tetrahedra know nothing of the centre that hex24 and wedge14 put on a shared face, and hexahedra that stay whole have none.
+// Tetrahedra know nothing of the centre that hex24, wedge14 and pyramid8 put on a shared face, and hexahedra that stay whole have none.
 void check_kinds_apart(const RawMesh& raw) {
-  const RawCell* wedge = first_of(raw, RawKind::wedge);
-  if (raw.one_point && wedge && first_of(raw, RawKind::hexahedron))
-    refuse(raw, "holds hexahedra and wedges, the first of which is " + std::to_string(wedge->tag) + "; with the pattern one_point hexahedra stay whole, and wedges, which are split, do not fit beside them: give the pattern fine, or mesh the body with hexahedra alone");
+  const bool whole = raw.one_point && first_of(raw, RawKind::hexahedron);
+  for (RawKind kind : {RawKind::wedge, RawKind::pyramid})
+    if (const RawCell* other = first_of(raw, kind); whole && other) {
+      const std::string name = shape_of(kind).name;
+      refuse(raw, "holds hexahedra and " + name + "s, the first of which is " + std::to_string(other->tag) + "; with the pattern one_point hexahedra stay whole, and " + name + "s, which are split, do not fit beside them: give the pattern fine, or mesh the body with hexahedra alone");
+    }
   std::map<std::array<int, 3>, const char*> corners_of_faces;
   for (const RawCell& cell : raw.cells) {
     const QuadFaces faces = quad_faces_of(cell.kind);
@@ -82,13 +87,13 @@ void check_kinds_apart(const RawMesh& raw) {
         std::sort(key.begin(), key.end());
         if (const auto face = corners_of_faces.find(key); face != corners_of_faces.end())
           refuse(raw, "tetrahedron " + std::to_string(cell.tag) + " lies on a face with four corners of a " + face->second + ", which is " +
-                          (raw.one_point && !wedge ? "not split" : "split about its centre") + "; mesh a body with one of the two kinds");
+                          (whole ? "not split" : "split about its centre") + "; mesh a body with one of the two kinds");
       }
 }
 
 struct Split {
   std::vector<long long> tags;  // of the cells in the order of Mesh::cells
-  Centres faces;                // centres of quadrilaterals, hexahedra, wedges and their faces
+  Centres faces;                // centres of quadrilaterals and solid cells and of their faces
 };
 
 Split split(const RawMesh& raw, Mesh& mesh) {
@@ -122,6 +127,12 @@ Split split(const RawMesh& raw, Mesh& mesh) {
     std::copy(c.nodes, c.nodes + 6, wedges.back().begin());
   });
   split_wedges(mesh, wedges, result.faces);
+  std::vector<Pyramid> pyramids;
+  take(RawKind::pyramid, [&](const RawCell& c) {
+    pyramids.emplace_back();
+    std::copy(c.nodes, c.nodes + 5, pyramids.back().begin());
+  });
+  split_pyramids(mesh, pyramids, result.faces);
   return result;
 }
 
@@ -194,7 +205,7 @@ void check_seams(const RawMesh& raw, const Mesh& mesh) {
 
 const RawShape& shape_of(RawKind kind) {
   static constexpr RawShape shapes[] = {{"point", 0, 1},         {"line", 1, 2},        {"triangle", 2, 3},
-                                        {"quadrilateral", 2, 4}, {"tetrahedron", 3, 4}, {"hexahedron", 3, 8}, {"wedge", 3, 6}};
+                                        {"quadrilateral", 2, 4}, {"tetrahedron", 3, 4}, {"hexahedron", 3, 8}, {"wedge", 3, 6}, {"pyramid", 3, 5}};
   return shapes[static_cast<int>(kind)];
 }
 

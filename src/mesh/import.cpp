@@ -44,7 +44,8 @@ RawMesh read_inline(const MeshConfig& config, const std::string& cell_type) {
   else if (cell_type == "tetrahedron") kind = RawKind::tetrahedron;
   else if (cell_type == "hexahedron") kind = RawKind::hexahedron;
   else if (cell_type == "wedge") kind = RawKind::wedge;
-  else refuse("mesh.cell_type: given \"" + cell_type + "\"; triangle, quadrilateral, tetrahedron, hexahedron or wedge is needed");
+  else if (cell_type == "pyramid") kind = RawKind::pyramid;
+  else refuse("mesh.cell_type: given \"" + cell_type + "\"; triangle, quadrilateral, tetrahedron, hexahedron, wedge or pyramid is needed");
   const int corners = shape_of(kind).corners, count = static_cast<int>(config.points.size());
   if (config.cells.empty() || config.cells.size() % corners != 0)
     refuse("mesh.cells: given " + std::to_string(config.cells.size()) + " indices; " + std::to_string(corners) +

@@ -9,7 +9,7 @@
 namespace forming_sim {
 
 /// What a source may hold; corners in the order of mesh.h. As wide as a tag, so that a RawCell has no padding.
-enum class RawKind : long long { point, line, triangle, quadrilateral, tetrahedron, hexahedron, wedge };
+enum class RawKind : long long { point, line, triangle, quadrilateral, tetrahedron, hexahedron, wedge, pyramid };
 struct RawShape {
   const char* name;
   int dimension, corners;

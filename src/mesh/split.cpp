@@ -21,10 +21,18 @@ template <class Solid> std::array<int, 4> face_of(const Solid& solid, const int 
   return corners;
 }
 
-int add_mean(Mesh& mesh, const int* corners, int count) {
+template <std::size_t N> Vec3 middle_of(const Mesh& mesh, const std::array<int, N>& corners) {
   Vec3 sum = Vec3::Zero();
-  for (int k = 0; k < count; ++k) sum += mesh.nodes[corners[k]];
-  mesh.nodes.push_back(sum / count);
+  for (int n : corners) sum += mesh.nodes[n];
+  return sum / static_cast<double>(N);
+}
+/// About as far from the base as from the sides.
+Vec3 middle_of(const Mesh& mesh, const Pyramid& pyramid) {
+  return 5. / 8 * middle_of(mesh, Quad{pyramid[0], pyramid[1], pyramid[2], pyramid[3]}) + 3. / 8 * mesh.nodes[pyramid[4]];
+}
+
+int add_node(Mesh& mesh, const Vec3& place) {
+  mesh.nodes.push_back(place);
   return static_cast<int>(mesh.nodes.size()) - 1;
 }
 
@@ -60,7 +68,7 @@ Centres split_quads(Mesh& mesh, const std::vector<Quad>& quads, CellKind kind) {
   for (const Quad& quad : quads) {
     block.nodes.insert(block.nodes.end(), quad.begin(), quad.end());
     if (kind != CellKind::crossed) continue;
-    const int centre = add_mean(mesh, quad.data(), 4);
+    const int centre = add_node(mesh, middle_of(mesh, quad));
     block.nodes.push_back(centre);
     centres.add(quad.data(), 4, centre);
   }
@@ -80,11 +88,11 @@ template <class Solid> void split_solids(Mesh& mesh, const std::vector<Solid>& s
     for (int f = 0; f < faces.count; ++f) {
       const auto face = face_of(solid, faces.corners[f]);
       int centre = centres.find(face.data(), 4);
-      if (centre < 0) centres.add(face.data(), 4, centre = add_mean(mesh, face.data(), 4));
+      if (centre < 0) centres.add(face.data(), 4, centre = add_node(mesh, middle_of(mesh, face)));
       block.nodes.push_back(centre);
     }
-    const int corners = static_cast<int>(solid.size()), centre = add_mean(mesh, solid.data(), corners);
-    centres.add(solid.data(), corners, centre);
+    const int centre = add_node(mesh, middle_of(mesh, solid));
+    centres.add(solid.data(), static_cast<int>(solid.size()), centre);
     block.nodes.push_back(centre);
   }
   if (!solids.empty()) mesh.cells.push_back(std::move(block));
@@ -99,5 +107,6 @@ Centres split_hexes(Mesh& mesh, const std::vector<Hex>& hexes, CellKind kind) {
 }
 
 void split_wedges(Mesh& mesh, const std::vector<Wedge>& wedges, Centres& centres) { split_solids(mesh, wedges, CellKind::wedge14, centres); }
+void split_pyramids(Mesh& mesh, const std::vector<Pyramid>& pyramids, Centres& centres) { split_solids(mesh, pyramids, CellKind::pyramid8, centres); }
 
 }  // namespace forming_sim

@@ -16,7 +16,7 @@ std::string ending_of(const std::string& url) {
 }
 
 const std::map<std::string, int>& corners_of_cells() {
-  static const std::map<std::string, int> corners{{"triangle", 3}, {"quadrilateral", 4}, {"tetrahedron", 4}, {"hexahedron", 8}, {"wedge", 6}};
+  static const std::map<std::string, int> corners{{"triangle", 3}, {"quadrilateral", 4}, {"tetrahedron", 4}, {"hexahedron", 8}, {"wedge", 6}, {"pyramid", 5}};
   return corners;
 }
 
@@ -34,7 +34,7 @@ void check_url(const MeshConfig& mesh, const std::string& path, bool of_a_tool, 
 void check_cells(const MeshConfig& mesh, const std::string& path, int dimension, bool of_a_tool, FaultList& faults) {
   if (!mesh.group.empty()) faults.add(path + ".group", given_text(mesh.group), "leave it out: groups belong to a .msh file, and points are given");
   if (mesh.cells.empty()) faults.add(path + ".cells", "nothing", "give the corner indices of the cells between the points");
-  std::vector<std::string> types{"tetrahedron", "hexahedron", "wedge"};
+  std::vector<std::string> types{"tetrahedron", "hexahedron", "wedge", "pyramid"};
   if (of_a_tool) types = {"triangle"};
   else if (dimension == 2) types = {"triangle", "quadrilateral"};
   if (std::find(types.begin(), types.end(), mesh.cell_type) == types.end()) {

@@ -33,7 +33,7 @@ leave a field out: there 0, "" and [] mean "not given", and the default holds.
   profiles lie at x >= 0. Forces, masses and energies are those of the whole circle (N, kg, J). What lies on the axis
   stays on it without being told; a set of nodes on the axis carries no pressure and no traction. Tools, gravity and initial velocities
   go along y. Of the force on a tool what goes along the axis is its force; what presses outward holds itself in balance, and is told as its `radial_force`, summed around the circle.
-- `dimension: 3` is a solid of hexahedra (each of 24 or 6 tetrahedra, or of one point), of wedges (of 14 tetrahedra) or of free tetrahedra.
+- `dimension: 3` is a solid of hexahedra (each of 24 or 6 tetrahedra, or of one point), of wedges (of 14 tetrahedra), pyramids (of 8) or free tetrahedra, also side by side.
 - Relative file names refer to the directory of the scene file; `package://NAME/PATH` and `file://` URLs are understood.
 - Names of bodies, tools, stages, probes and sets are of letters, digits, `_`, `-` and `.`; a tool has another name than a body.
 - What is said twice can be said once: keys that begin with `x-` at the top of a scene are free, for groups of fields with an

@@ -202,7 +202,7 @@ std::vector<Case> cases() {
   std::vector<Case> all;
   for (const char* law : {"one layer", "layers", "rolled", "rubber", "classical"}) {
     const bool classical = std::string(law) == "classical";
-    for (CellKind kind : {CellKind::triangle, CellKind::quad2, CellKind::crossed, CellKind::tetrahedron, CellKind::hex6, CellKind::hex24, CellKind::quad1, CellKind::hex1, CellKind::wedge14}) {
+    for (CellKind kind : {CellKind::triangle, CellKind::quad2, CellKind::crossed, CellKind::tetrahedron, CellKind::hex6, CellKind::hex24, CellKind::quad1, CellKind::hex1, CellKind::wedge14, CellKind::pyramid8}) {
       all.push_back({kind, "cell", law});
       if (!classical && !is_one_point(kind)) all.push_back({kind, "node", law});
     }

@@ -69,7 +69,7 @@ TEST(Stillness, LooksThatGainNothingAreRare) {
 
 // Nothing acts on it: what the rounding of its cells pulls moves no node, far from the origin neither.
 TEST(Stillness, ABodyThatNothingTouchesRests) {
-  for (CellKind kind : {CellKind::quad2, CellKind::crossed, CellKind::quad1, CellKind::hex6, CellKind::hex24, CellKind::hex1, CellKind::wedge14})
+  for (CellKind kind : {CellKind::quad2, CellKind::crossed, CellKind::quad1, CellKind::hex6, CellKind::hex24, CellKind::hex1, CellKind::wedge14, CellKind::pyramid8})
     for (double away : {0., 1e3}) {
       Mesh mesh = block_of(kind, 6);
       for (Vec3& X : mesh.nodes) X += Vec3(away, -.3 * away, 0);

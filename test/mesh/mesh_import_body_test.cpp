@@ -171,8 +171,6 @@ TEST(MeshImportBody, WhatCannotBeUsedSaysWhatToDo) {
   const std::string nodes = "1 0 0 0\n2 1 0 0\n3 0 1 0\n4 .5 0 0\n5 .5 .5 0\n6 0 .5 0\n7 0 0 1\n8 1 0 1\n";
   std::string text = error_of_file("t.msh", msh::cells(nodes, 8, "1 9 2 1 1 1 2 3 4 5 6\n", 1));
   EXPECT_TRUE(has(text, "holds cells of order 2") && has(text, "-order 1")) << text;
-  text = error_of_file("t.msh", msh::cells(nodes, 8, "1 7 2 1 1 1 2 5 6 7\n", 1));
-  EXPECT_TRUE(has(text, "Pyramid") && has(text, "hexahedra and wedges (prisms) can be used")) << text;
   text = error_of_file("t.msh", msh::cells(nodes, 8, "1 1 2 1 1 1 2\n", 1));
   EXPECT_TRUE(has(text, "mesh it first")) << text;
   text = error_of_file("t.msh", msh::cells("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 .5 .5 2\n", 9,
@@ -238,6 +236,23 @@ TEST(MeshImportBody, WedgesStandBesideHexahedraAndUnderTetrahedra) {
   EXPECT_TRUE(has(error_of([&] { load_body_mesh(whole, dir.str()); }), "wedges, which are split, do not fit beside them"));
   dir.write("on_side.msh", msh::cells(nodes, 11, wedge + "3 4 2 1 1 2 9 6 1\n", 2));
   EXPECT_TRUE(has(error_of([&] { load_body_mesh(file("on_side.msh", 1), dir.str()); }), "four corners of a wedge"));
+}
+
+// A pyramid on a hexahedron, and a tetrahedron on its side.
+TEST(MeshImportBody, PyramidsStandOnHexahedraAndUnderTetrahedra) {
+  const TempDir dir;
+  const std::string nodes = "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 .5 .5 2\n10 2 .5 1.6\n";
+  dir.write("mixed.msh", msh::cells(nodes, 10, "1 5 2 1 1 1 2 3 4 5 6 7 8\n2 7 2 1 1 5 6 7 8 9\n3 4 2 1 1 6 7 9 10\n", 3));
+  const Mesh mesh = load_body_mesh(file("mixed.msh", 1), dir.str());
+  ASSERT_EQ(mesh.cells.size(), 3u);
+  EXPECT_EQ(mesh.cells[2].kind, CellKind::pyramid8);
+  EXPECT_EQ(mesh.nodes.size(), 10u + 6 + 1 + 1);  // the base is the upper face of the hexahedron
+  EXPECT_NEAR(enclosed(mesh), volume(mesh), 1e-14);
+  EXPECT_EQ(euler_characteristic(mesh), 2);
+  MeshConfig whole = file("mixed.msh", 1);
+  whole.pattern = "one_point";
+  EXPECT_TRUE(has(error_of([&] { load_body_mesh(whole, dir.str()); }), "pyramids, which are split, do not fit beside them"));
+  EXPECT_EQ(load_body_mesh(given("pyramid", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 1, 2, 3, 4}), "").nodes.size(), 7u);
 }
 
 TEST(MeshImportBody, InlineWedges) {

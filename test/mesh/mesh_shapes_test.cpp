@@ -19,6 +19,7 @@ Mesh one_cell(CellKind kind) {
   if (shape.dimension == 2 && kind != CellKind::triangle) mesh.nodes.resize(4);
   if (kind == CellKind::crossed) mesh.nodes.push_back({.5, .5, 0});
   if (kind == CellKind::wedge14) mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+  if (kind == CellKind::pyramid8) mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {.5, .5, 1}};
   if (const QuadFaces faces = split_faces_of(kind); faces.count > 0) {
     Vec3 middle = Vec3::Zero();
     for (const Vec3& x : mesh.nodes) middle += x / static_cast<double>(mesh.nodes.size());
@@ -35,10 +36,10 @@ Mesh one_cell(CellKind kind) {
 }
 
 const CellKind kAll[] = {CellKind::triangle,    CellKind::quad2, CellKind::crossed,
-                         CellKind::tetrahedron, CellKind::hex6,  CellKind::hex24, CellKind::wedge14};
+                         CellKind::tetrahedron, CellKind::hex6,  CellKind::hex24, CellKind::wedge14, CellKind::pyramid8};
 
 TEST(MeshShapes, EverySimplexIsPositiveAndTheyFillTheCell) {
-  const std::map<CellKind, double> expected{{CellKind::triangle, .5}, {CellKind::tetrahedron, 1. / 6}, {CellKind::wedge14, .5}};
+  const std::map<CellKind, double> expected{{CellKind::triangle, .5}, {CellKind::tetrahedron, 1. / 6}, {CellKind::wedge14, .5}, {CellKind::pyramid8, 1. / 3}};
   for (CellKind kind : kAll) {
     const Mesh mesh = one_cell(kind);
     SCOPED_TRACE(shape_of(kind).name);
@@ -65,7 +66,7 @@ TEST(MeshShapes, FaceCentresOfWedge14LieOnTheFacesTheTableNames) {
 }
 
 TEST(MeshShapes, SurfacesAreClosedAndPointOutwards) {
-  const std::map<CellKind, int> facets{{CellKind::triangle, 3}, {CellKind::quad2, 4}, {CellKind::crossed, 4}, {CellKind::tetrahedron, 4}, {CellKind::hex6, 12}, {CellKind::hex24, 24}, {CellKind::wedge14, 14}};
+  const std::map<CellKind, int> facets{{CellKind::triangle, 3}, {CellKind::quad2, 4}, {CellKind::crossed, 4}, {CellKind::tetrahedron, 4}, {CellKind::hex6, 12}, {CellKind::hex24, 24}, {CellKind::wedge14, 14}, {CellKind::pyramid8, 8}};
   for (CellKind kind : kAll) {
     Mesh mesh = one_cell(kind);
     SCOPED_TRACE(shape_of(kind).name);

@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EveryFamily,
                          ::testing::Values(Case{CellKind::triangle, "element"}, Case{CellKind::triangle, "node"}, Case{CellKind::quad2, "cell"},
                                            Case{CellKind::crossed, "cell"}, Case{CellKind::tetrahedron, "node"}, Case{CellKind::hex6, "cell"},
                                            Case{CellKind::hex24, "cell"}, Case{CellKind::quad1, "cell"}, Case{CellKind::hex1, "cell"},
-                                           Case{CellKind::wedge14, "cell"}));
+                                           Case{CellKind::wedge14, "cell"}, Case{CellKind::pyramid8, "cell"}));
 
 TEST(StepLimit, OfRings) {
   for (CellKind kind : {CellKind::triangle, CellKind::quad2, CellKind::crossed, CellKind::quad1})

@@ -4,9 +4,10 @@
 #include <string>
 
 #include "forming_sim/element/elements.h"
+#include "forming_sim/mesh/cell_tables.h"
 #include "forming_sim/mesh/generate.h"
-#include "forming_sim/mesh/split.h"
 #include "forming_sim/mesh/measure.h"
+#include "forming_sim/mesh/split.h"
 #include "forming_sim/simulation/model.h"
 
 namespace forming_sim {
@@ -59,6 +60,7 @@ inline Mesh block_of(CellKind kind, int n = 2) {
   blank.shape = flat ? "strip" : "plate";
   blank.length = 1.0;
   blank.width = blank.thickness = 0.8;
+  if (kind == CellKind::pyramid8) n = (n + 1) / 2;  // six of each hexahedron
   blank.cells_along = n;
   blank.cells_across = blank.cells_through = n;
   blank.pattern = is_one_point(kind) ? "one_point" : kind == CellKind::crossed || kind == CellKind::hex24 ? "fine" : "coarse";
@@ -72,6 +74,21 @@ inline Mesh block_of(CellKind kind, int n = 2) {
     mesh.cells.clear();
     Centres centres;
     split_wedges(mesh, wedges, centres);
+    find_surface(mesh);
+  }
+  if (kind == CellKind::pyramid8) {  // on the faces of each hexahedron
+    const std::vector<int> hexes = mesh.cells.front().nodes;
+    std::vector<Pyramid> pyramids;
+    for (std::size_t at = 0; at < hexes.size(); at += 8) {
+      Vec3 middle = Vec3::Zero();
+      for (int k = 0; k < 8; ++k) middle += mesh.nodes[hexes[at + k]] / 8;
+      const int apex = static_cast<int>(mesh.nodes.size());
+      mesh.nodes.push_back(middle);
+      for (const auto& face : kHexFaces) pyramids.push_back({hexes[at + face[3]], hexes[at + face[2]], hexes[at + face[1]], hexes[at + face[0]], apex});
+    }
+    mesh.cells.clear();
+    Centres centres;
+    split_pyramids(mesh, pyramids, centres);
     find_surface(mesh);
   }
   if (kind == CellKind::triangle || kind == CellKind::tetrahedron) {  // the simplices of the coarse cells, one by one

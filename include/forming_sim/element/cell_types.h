@@ -18,6 +18,7 @@ struct Tetrahedron : Plain { static constexpr int dimension = 3, nodes = 4, simp
 struct Hex6 : Plain { static constexpr int dimension = 3, nodes = 8, simplices = 6; static constexpr auto& table = kHex6; };
 struct Hex24 : Plain { static constexpr int dimension = 3, nodes = 15, simplices = 24; static constexpr auto& table = kHex24; };
 struct Wedge14 : Plain { static constexpr int dimension = 3, nodes = 10, simplices = 14; static constexpr auto& table = kWedge14; };
+struct Pyramid8 : Plain { static constexpr int dimension = 3, nodes = 7, simplices = 8; static constexpr auto& table = kPyramid8; };
 
 struct Quad1 : OnePointCell { static constexpr int dimension = 2, nodes = 4; };
 struct Hex1 : OnePointCell { static constexpr int dimension = 3, nodes = 8; };

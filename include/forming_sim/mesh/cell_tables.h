@@ -50,15 +50,25 @@ inline constexpr int kWedge14[14][4] = {
     {9, 1, 2, 7}, {9, 2, 5, 7}, {9, 5, 4, 7}, {9, 4, 1, 7},
     {9, 2, 0, 8}, {9, 0, 3, 8}, {9, 3, 5, 8}, {9, 5, 2, 8}};
 
+/// The base of a pyramid, counter-clockwise seen from outside; its centre is 5.
+inline constexpr int kPyramidFaces[1][4] = {{0, 3, 2, 1}};
+
+/// Cell centre 6, an edge of the base, its centre; then the sides.
+inline constexpr int kPyramid8[8][4] = {
+    {6, 0, 3, 5}, {6, 3, 2, 5}, {6, 2, 1, 5}, {6, 1, 0, 5},
+    {6, 0, 1, 4}, {6, 1, 2, 4}, {6, 2, 3, 4}, {6, 3, 0, 4}};
+
 /// The quadrilateral faces of a solid cell: their corners, and where the centres of those that have one stand among its nodes.
 struct QuadFaces {
   int count = 0;
   const int (*corners)[4] = nullptr;
   int first_centre = 0;
 };
-inline constexpr QuadFaces kFacesOfHexahedron{6, kHexFaces, 8}, kFacesOfWedge{3, kWedgeFaces, 6};
+inline constexpr QuadFaces kFacesOfHexahedron{6, kHexFaces, 8}, kFacesOfWedge{3, kWedgeFaces, 6}, kFacesOfPyramid{1, kPyramidFaces, 5};
 /// Those that are split about their centres; none: of other cells.
-constexpr QuadFaces split_faces_of(CellKind kind) { return kind == CellKind::hex24 ? kFacesOfHexahedron : kind == CellKind::wedge14 ? kFacesOfWedge : QuadFaces(); }
+constexpr QuadFaces split_faces_of(CellKind kind) {
+  return kind == CellKind::hex24 ? kFacesOfHexahedron : kind == CellKind::wedge14 ? kFacesOfWedge : kind == CellKind::pyramid8 ? kFacesOfPyramid : QuadFaces();
+}
 
 /// The corners of a cell, each with its neighbours.
 inline constexpr int kQuadCorners[4][4] = {{0, 1, 3, -1}, {1, 2, 0, -1}, {2, 3, 1, -1}, {3, 0, 2, -1}};
@@ -75,6 +85,7 @@ inline constexpr CellShape kShapes[kCellKinds] = {
     {"hex24", 3, 15, 24, kHex24, 24, 24, kHex24},
     {"quad1", 2, 4, 2, kQuad2, 1, 4, kQuadCorners},
     {"hex1", 3, 8, 6, kHex6, 1, 8, kHexCorners},
-    {"wedge14", 3, 10, 14, kWedge14, 14, 14, kWedge14}};
+    {"wedge14", 3, 10, 14, kWedge14, 14, 14, kWedge14},
+    {"pyramid8", 3, 7, 8, kPyramid8, 8, 8, kPyramid8}};
 
 }  // namespace forming_sim

@@ -46,7 +46,7 @@ struct MeshConfig {
   std::string group;            ///< physical group to take; empty: all cells
   std::vector<Vec3> points;     ///< inline
   std::vector<int> cells;       ///< inline: corner indices, cell after cell
-  std::string cell_type;        ///< inline: triangle | quadrilateral | tetrahedron | hexahedron | wedge
+  std::string cell_type;        ///< inline: triangle | quadrilateral | tetrahedron | hexahedron | wedge | pyramid
   std::string pattern = "fine"; ///< of a body's quadrilaterals and hexahedra: fine | one_point
 
   template <class Visitor> static void declare(Visitor&& visit) {
@@ -55,8 +55,8 @@ struct MeshConfig {
     visit(FORMING_SIM_FIELD(group), Field().doc("physical group of the .msh to take as the body; empty: every cell of the highest dimension"));
     visit(FORMING_SIM_FIELD(points), Field().doc("inline mesh: nodes"));
     visit(FORMING_SIM_FIELD(cells), Field().at_least(0).doc("inline mesh: corner indices from 0, cell after cell"));
-    visit(FORMING_SIM_FIELD(cell_type), Field().choices({"", "triangle", "quadrilateral", "tetrahedron", "hexahedron", "wedge"}).doc("inline mesh: kind of its cells, a wedge being three corners and three above them; a tool takes triangles"));
-    visit(FORMING_SIM_FIELD(pattern), Field().choices({"fine", "one_point"}).doc("what becomes of a body's quadrilaterals and hexahedra: fine: 4 crossed triangles or 24 tetrahedra each; one_point: one element with one point each, the cheapest for sheets. Wedges (prisms) become 14 tetrahedra each, which do not fit beside whole hexahedra; triangles and tetrahedra stay as they are"));
+    visit(FORMING_SIM_FIELD(cell_type), Field().choices({"", "triangle", "quadrilateral", "tetrahedron", "hexahedron", "wedge", "pyramid"}).doc("inline mesh: kind of its cells, a wedge being three corners and three above them, a pyramid four and one above them; a tool takes triangles"));
+    visit(FORMING_SIM_FIELD(pattern), Field().choices({"fine", "one_point"}).doc("what becomes of a body's quadrilaterals and hexahedra: fine: 4 crossed triangles or 24 tetrahedra each; one_point: one element with one point each, the cheapest for sheets. Wedges (prisms) and pyramids become 14 and 8 tetrahedra each, which do not fit beside whole hexahedra; triangles and tetrahedra stay as they are"));
   }
 };
 

@@ -20,8 +20,9 @@ namespace forming_sim {
 ///  hex1           8 corners, likewise
 ///  hex24          8 corners, 6 face centres (bottom, top, front 0 1 5 4, right 1 2 6 5, back 2 3 7 6, left 3 0 4 7), cell centre
 ///  wedge14        6 corners (0-2 bottom, 3-5 above them), centres of the faces 0 1 4 3, 1 2 5 4, 2 0 3 5, cell centre
-enum class CellKind { triangle, quad2, crossed, tetrahedron, hex6, hex24, quad1, hex1, wedge14 };
-constexpr int kCellKinds = 9;
+///  pyramid8       4 corners of the base, counter-clockwise seen from the fifth, centre of the base, cell centre
+enum class CellKind { triangle, quad2, crossed, tetrahedron, hex6, hex24, quad1, hex1, wedge14, pyramid8 };
+constexpr int kCellKinds = 10;
 
 struct CellShape {
   const char* name;

@@ -1,5 +1,5 @@
 #pragma once
-// Quadrilaterals, hexahedra and wedges into cells of simplices: adds the nodes in the
+// Quadrilaterals, hexahedra, wedges and pyramids into cells of simplices: adds the nodes in the
 // middle of cells and faces.
 #include <array>
 #include <map>
@@ -12,6 +12,7 @@ namespace forming_sim {
 using Quad = std::array<int, 4>;  ///< corners, counter-clockwise
 using Hex = std::array<int, 8>;   ///< 0-3 bottom, 4-7 above them
 using Wedge = std::array<int, 6>; ///< 0-2 bottom, 3-5 above them
+using Pyramid = std::array<int, 5>; ///< 0-3 base, 4 above it
 
 /// The centre node that splitting put on a face or into a cell, by its corners.
 class Centres {
@@ -31,7 +32,8 @@ class Centres {
 /// their common faces.
 Centres split_quads(Mesh& mesh, const std::vector<Quad>& quads, CellKind kind);
 Centres split_hexes(Mesh& mesh, const std::vector<Hex>& hexes, CellKind kind);
-/// Appends cells of the kind wedge14. centres: of the faces that hexahedra have already, which they share with these; those of wedges are added.
+/// Append cells of the kinds wedge14 and pyramid8. centres: of the faces that other cells have already, which they share with these; theirs are added.
 void split_wedges(Mesh& mesh, const std::vector<Wedge>& wedges, Centres& centres);
+void split_pyramids(Mesh& mesh, const std::vector<Pyramid>& pyramids, Centres& centres);
 
 }  // namespace forming_sim

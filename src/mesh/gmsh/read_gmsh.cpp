@@ -52,6 +52,7 @@ struct MeshReader {
       case 4: return RawKind::tetrahedron;
       case 5: return RawKind::hexahedron;
       case 6: return RawKind::wedge;
+      case 7: return RawKind::pyramid;
       default: break;
     }
     std::string name;
@@ -62,7 +63,7 @@ struct MeshReader {
       refuse("holds cells of order " + std::to_string(order) + " (" + name +
              "); linear cells are needed: mesh with Mesh.ElementOrder = 1, or convert by gmsh -order 1 -save FILE -o NEW.msh");
     refuse("holds cells of the kind " + name +
-           "; triangles, quadrilaterals, tetrahedra, hexahedra and wedges (prisms) can be used, so mesh the body with these");
+           "; triangles, quadrilaterals, tetrahedra, hexahedra, wedges (prisms) and pyramids can be used, so mesh the body with these");
   }
 
   void read_nodes(double scale) {
@@ -113,7 +114,7 @@ struct MeshReader {
         append_cells(dimension, -1, raw.cells);
         raw.dimension = dimension;
       }
-      if (raw.cells.empty()) refuse("holds no triangles, quadrilaterals, tetrahedra, hexahedra or wedges; mesh it first (gmsh -2 or gmsh -3)");
+      if (raw.cells.empty()) refuse("holds no triangles, quadrilaterals, tetrahedra, hexahedra, wedges or pyramids; mesh it first (gmsh -2 or gmsh -3)");
       return;
     }
     std::string names;
@@ -127,7 +128,7 @@ struct MeshReader {
     for (const auto& group : groups)
       if (group.first == raw.dimension && name_of(group) == wanted) append_group(group, raw.cells);
     if (raw.dimension < 2 || raw.cells.empty())
-      refuse("the physical group \"" + wanted + "\" holds no triangles, quadrilaterals, tetrahedra, hexahedra or wedges, so it is no body");
+      refuse("the physical group \"" + wanted + "\" holds no triangles, quadrilaterals, tetrahedra, hexahedra, wedges or pyramids, so it is no body");
   }
 
   // Neighbours in the body come near to each other, which the numbers of a mesh generator do not see to.
