@@ -35,6 +35,7 @@ struct StartGap {
 };
 
 constexpr double kShallow = 3;   // layers up to which a vertex that lies inside has a choice of facets to come out of
+constexpr double kOn = 1e-6;      // of the layer: so near a facet a vertex lies on it
 constexpr double kWedge = 1e-3;  // slope up to which a direction counts as along a facet
 
 class Start {
@@ -139,7 +140,7 @@ class Start {
       const int side = f_.rigid(c[0]) ? sides_[facet] : f_.facet_outward[facet];
       const Node n = side * facet_normal(f_.dimension, at(c[0]), at(c[1]), third);
       const double distance = std::sqrt(q.squared), along = dot3(d, n);
-      if (distance < kShallow * layer_ && along <= 1e-6 * layer_ - 0.999 * distance) {  // behind it, or on it
+      if (distance < kShallow * layer_ && along <= kOn * layer_ - 0.999 * distance) {  // behind it, or on it
         const double free = room(g.vertex, n, at);
         if (free > most_room + 1e-6 || (free > most_room - 1e-6 && along > out.gap)) {
           most_room = std::max(free, most_room);
@@ -150,18 +151,19 @@ class Start {
       if (q.squared > best * (1 + 1e-9) + 1e-12 * layer_ * layer_) continue;
       // Of facets that are equally near, the one that is met most squarely; where the vertex
       // lies on them, the one with the most of the vertex' own surface before it.
-      const double square = distance > 1e-6 * layer_ ? std::abs(along) : room(g.vertex, n, at);
+      const double square = distance > kOn * layer_ ? std::abs(along) : room(g.vertex, n, at);
       if (q.squared >= best * (1 - 1e-9) - 1e-12 * layer_ * layer_ && square <= slope) continue;
       slope = square;
       best = std::min(best, q.squared);
       gap.gap = along < 0 ? -distance : distance;
       // From the second feature to the vertex, on the outer side; then from tool to body.
-      gap.away = distance > 1e-6 * layer_ ? Node(d / gap.gap) : n;
+      gap.away = distance > kOn * layer_ ? Node(d / gap.gap) : n;
       if (f_.rigid(g.vertex)) gap.away = -gap.away;
     }
     // Inside a corner the nearest facet need not be the way out: that is where the vertex' own surface has room.
     if (best == 1e300) return std::nullopt;
-    return gap.gap < 1e-6 * layer_ && most_room > -1e300 ? out : gap;
+    // (Before it by less than half of kOn it counts as on it, above.)
+    return gap.gap < 0.5 * kOn * layer_ && most_room > -1e300 ? out : gap;
   }
 
   // How far the vertex' own surface lies before the plane through it with normal n:

@@ -167,13 +167,15 @@ void BoundarySet::check(const Group& group, const std::vector<int>& members, con
                            (others.empty() ? "\"" + boundaries[b].config.set + "\"" : others) + ", which prescribes another velocity along the same direction" + when,
                        remedy}});
   };
+  double from = 0;  // when all of them hold
+  for (int member : members) from = std::max(from, boundaries[member].clock.of_run(0));
   for (const Beyond& beyond : group.beyond) {
-    std::set<double> knots;
+    std::set<double> knots{from};
     double scale = 0;
     for (const Term& term : beyond.terms) {
       const RigidVelocity& motion = motions_[term.motion];
       for (double t : motion.times()) {
-        knots.insert(t);
+        knots.insert(std::max(t, from));
         scale = std::max(scale, motion.velocity(t).norm());
         // A turn asks for nothing along its axis, and for nothing of a node on its axis.
         const Vec3 w = motion.spin(t), r = place - motion.centre();
@@ -188,7 +190,7 @@ void BoundarySet::check(const Group& group, const std::vector<int>& members, con
         double speed = 0;
         for (const Term& term : beyond.terms) speed += term.weight.dot(motions_[term.motion].velocity(t));
         if (std::abs(speed) > 1e-9 * scale)
-          refuse(beyond.boundary, " at t = " + short_number(t) + " s", "take the node out of one set, or give equal velocities");
+          refuse(beyond.boundary, " at t = " + short_number(t) + " s", "take the node out of one set, give equal velocities, or let the one go (until) before the other takes hold (since)");
       }
     }
   }

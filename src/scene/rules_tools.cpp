@@ -70,8 +70,8 @@ void check_tools(const Scene& scene, FaultList& faults) {
     if (!tool.motion) continue;
     check_motion(*tool.motion, tool_path(i) + ".motion", faults);
     const std::string since = tool_path(i) + ".motion.since";
-    if (!check_stage_name(tool.motion->since, stages, 0, since, faults)) continue;
-    for (int k = 0; !tool.motion->since.empty() && k <= first_stage(tool.motion->since, stages); ++k)
+    if (tool.motion->since.empty() || !check_stage_name(tool.motion->since, stages, 0, since, faults)) continue;
+    for (int k = 0; k <= first_stage(tool.motion->since, stages); ++k)
       if (takes_away(stages[k], tool.name)) faults.add(since, given_text(tool.motion->since), "name a stage before " + stages[k].name + ", which takes the tool away");
   }
 }

@@ -128,7 +128,6 @@ void Simulation::Impl::set_up_loads() {
       held.push_back(resolve(c, body.name, body.mesh, body.first_node));
       held.back().path = "bodies[" + std::to_string(b) + "].boundaries[" + std::to_string(k) + "]";
       held.back().clock = CourseClock(stage);
-      held.back().clock.begin(stage, latest_begin(c.since, plan.stages));
     }
     if (model.axisymmetric) hold_at_axis(body, held);
     for (const PressureConfig& c : loads.pressures) {
@@ -149,8 +148,13 @@ void Simulation::Impl::set_up_loads() {
       surface.push_back(facet);
     }
   }
-  for (int stage = static_cast<int>(plan.stages.size()) - 1; stage >= 0; --stage)  // all, so that what contradicts itself in a later one is told now
-    if (std::vector<std::size_t> those = holding_in(stage); those != holding) hold(std::move(those));
+  // Those of every stage, so that what contradicts itself in a later one is told now, whenever that begins; those of the first remain.
+  for (const auto when : {latest_begin, earliest_begin}) {
+    for (ResolvedBoundary& boundary : held) boundary.clock.begin(first_stage(boundary.config.since, plan.stages), when(boundary.config.since, plan.stages));
+    std::vector<std::size_t> last{held.size()};  // none is like it
+    for (int stage = static_cast<int>(plan.stages.size()) - 1; stage >= 0; --stage)
+      if (std::vector<std::size_t> those = holding_in(stage); those != last) hold(last = std::move(those));
+  }
   pressures = PressureSet(std::move(pressed), model.axisymmetric);
   dead_loads = DeadLoadSet(std::move(loaded));
   boundaries.apply_velocity(0, 0, x, v);
@@ -271,7 +275,7 @@ bool Simulation::Impl::change_boundaries() {
   std::vector<std::size_t> now = holding_in(stages.index());
   if (now == holding) return false;
   const bool ended = !std::includes(now.begin(), now.end(), holding.begin(), holding.end());
-  takes_hold = !std::includes(holding.begin(), holding.end(), now.begin(), now.end());
+  takes_hold = takes_hold || !std::includes(holding.begin(), holding.end(), now.begin(), now.end());
   for (std::size_t b : now) {
     const int stage = first_stage(all_boundaries[b].config.since, plan.stages);
     all_boundaries[b].clock.begin(stage, stages.starts()[stage]);

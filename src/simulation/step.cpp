@@ -80,7 +80,8 @@ void Simulation::Impl::take_step() {
 }
 
 // The leapfrog's energy of a swing that is let go at rest, of amplitude a, is 1/2 omega^2 a^2 (1 - (omega dt/2)^2): by dt^2/8 f.M^-1 f less than the elastic one,
-// m/2 times the square of its first change of velocity. Of what contact, ties and boundaries hold that is less than the elements' forces ask for.
+// m/2 times the square of its first change of velocity. What contact, ties and boundaries hold changes its velocity by less than the elements' forces ask for, and
+// what strikes or is loaded by more, which is no swing: the smaller of both, node by node, is an estimate where these come together.
 double Simulation::Impl::first_kick_energy() const {
   if (std::none_of(model.bodies.begin(), model.bodies.end(), [](const BodyModel& body) { return body.formed.has_value(); })) return 0;
   NodeField f(x.size());

@@ -225,6 +225,13 @@ TEST(ContactStart, TheLayerLeavesBodiesTheirClearance) {
     EXPECT_EQ(contact.warnings()[0].find("two bodies stand "), 0u) << contact.warnings()[0];
     EXPECT_EQ(force_at_rest(world, contact), 0);
   }
+  for (double gap : {0., .3e-6, .6e-6, .8e-6, 1.1e-6, 1e-5}) {  // of the layer: they touch
+    World world = two_strips(gap * 2e-4);
+    Contact contact = world.make();
+    ASSERT_EQ(contact.body_shifts().size(), 2u) << gap;
+    const double apart = (contact.body_shifts()[1] - contact.body_shifts()[0]).y();
+    EXPECT_NEAR(apart, 2e-4, 1e-8) << gap;
+  }
   EXPECT_TRUE(two_strips(5e-3).make().warnings().empty());
   EXPECT_NEAR(two_strips(5e-3).make().layer(), 2e-4, 1e-15) << "far apart";
   EXPECT_NEAR(two_strips(0).make().layer(), 2e-4, 1e-15) << "what touches is parted";

@@ -132,6 +132,18 @@ class Since(SceneRun):
         data = moving_scene()
         data['bodies'][0]['boundaries'][0]['until'] = 'after'  # held while it should move
         self.assertIn('bodies[0].boundaries[1]: given a boundary on set "left"', self.refused(data))
+        # Equal velocities if the settle stage took its limit, which it need not.
+        twice = [{'set': 'left', 'kind': 'velocity', 'axes': ['x'], 'times': [1e-3, 1.1e-3, 1.2e-3], 'velocities': [[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]]},
+                 {'set': 'left', 'kind': 'velocity', 'axes': ['x'], 'times': [0.0, 1e-4, 2e-4], 'velocities': [[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]], 'since': 'last'}]
+        data = scene(body('strip', boundaries=twice))
+        data['stages'] = [{'kind': 'settle', 'name': 'rest', 'limit': 1e-3}, {'kind': 'form', 'name': 'last', 'duration': 2e-4}]
+        self.assertIn('let the one go (until)', self.refused(data))
+        data['stages'][0]['ends'] = 'limit'
+        self.run_scene(data)
+        # The first has come to rest before the other takes hold.
+        data = scene(body('strip', boundaries=[dict(twice[0], times=[0.0, 1e-5, 2e-5]), {'set': 'left', 'kind': 'fixed', 'since': 'last'}]))
+        data['stages'] = [{'kind': 'form', 'name': 'first', 'duration': 5e-5}, {'kind': 'form', 'name': 'last', 'duration': 1e-5}]
+        self.run_scene(data)
         data = moving_scene()
         data['bodies'][0]['boundaries'][1].update(since='after', until='work')
         data['bodies'][0]['pressures'][0]['since'] = 'works'

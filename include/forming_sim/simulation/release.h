@@ -50,6 +50,14 @@ inline double latest_begin(const std::string& since, const std::vector<StageConf
   return longest_time({stages.begin(), stages.begin() + first_stage(since, stages)});
 }
 
+/// When at the earliest: stages that may end before their time take none.
+inline double earliest_begin(const std::string& since, const std::vector<StageConfig>& stages) {
+  double time = 0;
+  for (int k = 0; k < first_stage(since, stages); ++k)
+    if (stages[k].kind == "settle" ? stages[k].ends == "limit" : stages[k].until_stopped.empty()) time += longest_time(stages[k]);
+  return time;
+}
+
 /// The stage takes the tool of this name away.
 inline bool takes_away(const StageConfig& stage, const std::string& tool) {
   return stage.kind == "withdraw" && (stage.tools.empty() || std::find(stage.tools.begin(), stage.tools.end(), tool) != stage.tools.end());
