@@ -28,7 +28,7 @@ class Unfinished {
                  planned = longest_time({stages_.begin() + since, stages_.begin() + until});
     constexpr double kRounding = 1 + 1e-9;
     if (last <= ended * kRounding || last > planned * kRounding) return;
-    warnings_.push_back(what + " goes to " + number_text(last) + " s, and " + (at_end ? "the run ended at " : "stage " + stages_[until].title() + ", which ends it, began at ") + three_digits(ended) + " s: its times count from the start of " +
+    warnings_.push_back(what + " goes to " + number_text(last) + (since == 0 ? " s, and " : " s from " + three_digits(began) + " s on, and ") + (at_end ? "the run ended at " : "stage " + stages_[until].title() + ", which ends it, began at ") + three_digits(began + ended) + " s: its times count from the start of " +
                         (since == 0 ? "the run, or of a stage that its `since` names" : "stage " + stages_[since].title()) +
                         ", and a settle stage ends when the bodies rest, unless it has `ends: limit`, a stage with until_stopped when its tool has stopped");
   }

@@ -31,15 +31,17 @@ void list_withdrawn_tools(const std::vector<ToolConfig>& tools, std::vector<Stag
 
 RunPlan build_plan(const Scene& scene) {
   RunPlan plan;
+  plan.stages = named(scene.stages);
   for (const BodyConfig& body : scene.bodies) {
     plan.bodies.push_back({body.initial_velocity, body.initial_spin_deg_s, body.spin_centre, body.initial_velocity_field, body.boundaries, body.pressures, body.loads});
+    for (BoundaryConfig& boundary : plan.bodies.back().boundaries)
+      if (first_stage(boundary.since, plan.stages) == 0) boundary.since.clear();
   }
   plan.gravity = scene.gravity;
   plan.contact = scene.contact;
   for (PairConfig& pair : plan.contact.pairs)  // a body is the first
     if (std::none_of(scene.bodies.begin(), scene.bodies.end(), [&](const BodyConfig& body) { return body.name == pair.first; })) std::swap(pair.first, pair.second);
   plan.time_step = scene.time_step;
-  plan.stages = named(scene.stages);
   list_withdrawn_tools(scene.tools, plan.stages);
   return plan;
 }

@@ -7,6 +7,7 @@
 #include "forming_sim/loads/rotation.h"
 #include "forming_sim/mesh/url.h"
 #include "forming_sim/scene/yaml.h"
+#include "forming_sim/simulation/release.h"
 #include "rules.h"
 
 namespace forming_sim {
@@ -49,9 +50,10 @@ FormedBody load_formed_body(const Scene& scene, const BodyConfig& body, const st
   turn(part.memory, body.material.law, part.mesh.dimension, rotation);
   if (!part.pressed_by.empty())
     notes.push_back("body " + body.name + " was still pressed by " + one_of(part.pressed_by, " and ") + " when its run ended: what they bore is let go at once here. Let it go and settle there, with a withdraw and a settle stage");
+  const std::vector<StageConfig> stages = named(scene.stages);
   std::vector<std::string> let_go;
   for (const std::string& set : part.held_sets)
-    if (std::none_of(body.boundaries.begin(), body.boundaries.end(), [&](const BoundaryConfig& b) { return b.set == set; })) let_go.push_back(set);
+    if (std::none_of(body.boundaries.begin(), body.boundaries.end(), [&](const BoundaryConfig& b) { return b.set == set && holds_in(0, b, stages); })) let_go.push_back(set);
   if (!let_go.empty())
     notes.push_back("body " + body.name + " was held at " + one_of(let_go, " and ") + " when its run ended, and is not here: what boundaries bore there is let go at once. Hold it here too, with until if it is to let go slowly, or end those boundaries there and let it settle");
   return {std::move(part.mesh), std::move(part.memory)};

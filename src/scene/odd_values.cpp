@@ -85,9 +85,10 @@ void tell_odd_speeds(const Scene& scene, std::vector<std::string>& notes) {
 void tell_late(const Scene& scene, double end, std::vector<std::string>& notes) {
   const std::vector<StageConfig> stages = named(scene.stages);
   const auto tell = [&](const std::string& what, const auto& config) {
-    const double last = latest_begin(config.since, stages) + last_change(config);
-    if (last <= end * (1 + 1e-9)) return;
-    notes.push_back(what + " goes on to " + three_digits(last) + " s and the stages end at " + three_digits(end) + " s: what comes later does not happen");
+    const double began = latest_begin(config.since, stages), last = last_change(config);
+    if (began + last <= end * (1 + 1e-9)) return;
+    notes.push_back(what + " goes on to " + three_digits(last) + " s and the stages end at " + three_digits(end - began) + " s" + (config.since.empty() ? "" : ", both from the beginning of " + config.since + " on") +
+                    ": what comes later does not happen");
   };
   for (const BodyConfig& body : scene.bodies) each_named_course(body, body.name, tell);
   for (const ToolConfig& tool : scene.tools)

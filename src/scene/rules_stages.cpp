@@ -32,15 +32,15 @@ void check_withdrawal(const StageConfig& stage, const std::string& path, const s
   if (stage.tools.empty()) gone.insert(tools.begin(), tools.end());
 }
 
-void check_stopping(const StageConfig& stage, const std::string& path, const std::vector<ToolConfig>& tools, const std::set<std::string>& gone, FaultList& faults) {
-  const std::string& name = stage.until_stopped;
+void check_stopping(const std::vector<StageConfig>& stages, std::size_t index, const std::string& path, const std::vector<ToolConfig>& tools, const std::set<std::string>& gone, FaultList& faults) {
+  const std::string& name = stages[index].until_stopped;
   if (name.empty()) return;
   std::vector<std::string> stopping;
   for (const ToolConfig& tool : tools)
-    if (tool.motion && tool.motion->stop_force > 0 && gone.count(tool.name) == 0) stopping.push_back(tool.name);
+    if (tool.motion && tool.motion->stop_force > 0 && gone.count(tool.name) == 0 && first_stage(tool.motion->since, stages) <= static_cast<int>(index)) stopping.push_back(tool.name);
   if (holds(stopping, name)) return;
   faults.add(path + ".until_stopped", given_text(name),
-             stopping.empty() ? "give the tool's motion a stop_force, or leave this out: no tool that is there stops" : "the tools that stop are " + one_of(stopping, ", ") + did_you_mean(name, stopping));
+             stopping.empty() ? "give the tool's motion a stop_force, or leave this out: no tool that is there, and has begun to move, stops" : "the tools that stop are " + one_of(stopping, ", ") + did_you_mean(name, stopping));
 }
 
 }  // namespace
@@ -64,9 +64,10 @@ int body_of(const ProbeConfig& probe, const Scene& scene) {
 
 void check_stages(const Scene& scene, FaultList& faults) {
   const std::vector<std::string> tools = names_of(scene.tools);
+  const std::vector<StageConfig> stages = named(scene.stages);
   std::set<std::string> gone;
   for (std::size_t i = 0; i < scene.stages.size(); ++i) {
-    check_stopping(scene.stages[i], join_path("stages", i), scene.tools, gone, faults);
+    check_stopping(stages, i, join_path("stages", i), scene.tools, gone, faults);
     if (scene.stages[i].kind == "withdraw") check_withdrawal(scene.stages[i], join_path("stages", i), tools, gone, faults);
   }
 }

@@ -160,7 +160,7 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, const std::vector<
     for (std::size_t k = 0; k < impulses_on_held.size(); ++k) {
       const int n = held_before.nodes()[k];
       const Node all = f[n] + node(Vec3(impulses_on_held[k] / previous_kick));
-      held_by[n] = free_part(held_before, n, all) - free_part(boundaries, n, all);
+      held_by[n] = free_part(boundaries, n, Node(free_part(held_before, n, all) - all));
     }
   std::vector<char> pressed_on(x.size(), 0);
   std::vector<double> pressed_area(x.size(), 0);  // m2

@@ -4,6 +4,7 @@
 #include <limits>
 #include <sstream>
 
+#include "forming_sim/loads/course.h"
 #include "forming_sim/loads/gravity.h"
 #include "forming_sim/parallel/denormals.h"
 #include "simulation/impl.h"
@@ -139,8 +140,10 @@ void Simulation::Impl::book(const ContactStep& done) {
     run_on(tool.radial_force, felt.radial);
     if (tool.force.squaredNorm() > tool.peak_force.squaredNorm()) tool.peak_force = tool.force;
     if (std::abs(tool.radial_force) > std::abs(tool.peak_radial_force)) tool.peak_radial_force = tool.radial_force;
+    const double most = stages.stop_force(static_cast<int>(k));
+    if (most == 0 || (tool.way.isZero(0) && goes(*model.tools[k].motion))) continue;  // it has not begun to go
     tool.most_against = std::max(tool.most_against, tool.against());
-    if (const double most = stages.stop_force(static_cast<int>(k)); most > 0 && tool.against() >= most) stages.stop(static_cast<int>(k), time + done.dt);
+    if (tool.against() >= most) stages.stop(static_cast<int>(k), time + done.dt);
   }
 }
 

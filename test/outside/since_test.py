@@ -48,6 +48,12 @@ def courses(data):
     return plate['boundaries'][1:] + plate['pressures'] + plate['loads'] + [tool['motion'] for tool in data['tools']]
 
 
+def block(name, y, side, motion=None):
+    """A flat tool above (side 1) or below the middle of a strip."""
+    tool = {'name': name, 'position': [0.005, y], 'profile': {'start': [-0.002, 0.0], 'pieces': [{'to': to} for to in ([0.002, 0.0], [0.002, 0.002 * side], [-0.002, 0.002 * side], [-0.002, 0.0])]}}
+    return dict(tool, motion=motion) if motion else tool
+
+
 class Since(SceneRun):
     def positions(self, name, frame=-1):
         with h5py.File(self.path(name + '/result.h5'), 'r') as result:
@@ -127,6 +133,40 @@ class Since(SceneRun):
         rows = self.history()
         given = sum((float(b['time_s']) - float(a['time_s'])) * float(b['probe_end_reaction_force_x_N_per_m'] or 0) for a, b in zip(rows, rows[1:]))
         self.assertAlmostEqual(mass * 5 + given, summary['bodies'][0]['momentum'][0], delta=1e-6 * mass * 5)
+
+    def test_what_a_boundary_takes_over_does_not_fade(self):
+        """Nodes under a tool, held along x by one boundary and from the last stage on in both directions by another."""
+        strip = body('strip', material={'hardening': {'curve': 'linear', 'yield_stress': 100e6, 'modulus': 500e6}}, sets=[{'name': 'middle', 'choose': 'box', 'min': [0.0039, 0.0019, 0.0], 'max': [0.0061, 0.0021, 0.0]}],
+                     boundaries=[{'set': 'middle', 'kind': 'fixed', 'axes': ['x'], 'until': 'swap'}, {'set': 'middle', 'kind': 'fixed', 'since': 'swap'},
+                                 {'set': 'right', 'kind': 'velocity', 'axes': ['x'], 'times': [0.0, 1e-4, 2e-4], 'velocities': [[0.0, 0.0], [0.3, 0.0], [0.0, 0.0]]}])
+        data = scene(strip, tools=[block('top', 0.00201, 1, {'kind': 'trajectory', 'times': [0.0, 2e-4], 'positions': [[0.0, 0.0], [0.0, -2.5e-5]]}), block('bottom', -1e-5, -1)])
+        data['stages'] = [{'kind': 'form', 'name': 'press', 'duration': 2e-4}, {'kind': 'settle', 'name': 'rest', 'limit': 5e-3}, {'kind': 'settle', 'name': 'swap', 'limit': 5e-3}]
+        data['output'] = {'frames': 4, 'history_interval': 2e-6, 'probes': [{'name': 'held', 'set': 'middle'}]}
+        begin = self.run_scene(data)['stages'][1]['end_time_s']
+        pushed = [float(row['probe_held_reaction_force_y_N_per_m']) for row in self.history() if float(row['time_s']) > begin + 4e-6]
+        self.assertGreater(len(pushed), 3)
+        self.assertLess(pushed[-1], -5e4)
+        for push in pushed:
+            self.assertAlmostEqual(push / pushed[-1], 1, delta=0.05)
+
+    def test_a_tool_that_is_pushed_along_its_way_does_not_stop(self):
+        data = scene(body('strip'), tools=[block('top', 0.00201, 1, {'kind': 'trajectory', 'times': [0.0, 1e-4], 'positions': [[0.0, 0.0], [0.0, -3e-5]]}),
+                                           block('bottom', -1e-5, -1, {'kind': 'trajectory', 'since': 'go', 'times': [0.0, 1e-4], 'positions': [[0.0, 0.0], [0.0, -5e-5]], 'stop_force': 1000.0})])
+        data['stages'] = [{'kind': 'form', 'name': 'press', 'duration': 1.5e-4}, {'kind': 'form', 'name': 'go', 'duration': 1e-4}]
+        bottom = self.run_scene(data)['tools'][1]
+        self.assertIsNone(bottom['stopped_s'])
+        self.assertAlmostEqual(bottom['position'][1], -6e-5, delta=1e-9)
+        data['stages'][0]['until_stopped'] = 'bottom'
+        self.assertIn('has begun to move', self.refused(data))
+
+    def test_since_the_first_stage_is_from_the_start_on(self):
+        found = []
+        for since in ({}, {'since': 'first'}):
+            strip = body('strip', boundaries=[dict({'set': 'left', 'kind': 'symmetric', 'normal': [1, 0]}, **since)])
+            data = scene(strip, tools=[{'name': 'table', 'normal': [0, 1]}], gravity=[0, -1e5, 0], stages=[{'kind': 'form', 'name': 'first', 'duration': 2e-5}])
+            self.run_scene(data)
+            found.append(self.positions('out')[1])
+        self.assertTrue(numpy.array_equal(*found))
 
     def test_faults(self):
         data = moving_scene()

@@ -49,6 +49,12 @@ template <class Config> bool changes(const Config& config, double from, double t
   return found;
 }
 
+/// Does the centre of a tool with this motion go anywhere? Else it only turns.
+inline bool goes(const MotionConfig& m) {
+  return std::any_of(m.positions.begin(), m.positions.end(), [&](const Vec3& p) { return p != m.positions.front(); }) ||
+         std::any_of(m.velocities.begin(), m.velocities.end(), [](const Vec3& v) { return !v.isZero(0); });
+}
+
 /// Calls visit(what, config) for each boundary, pressure and load of a body; what: as sentences call it. Body: whoever has these lists.
 template <class Body, class Visit> void each_named_course(const Body& body, const std::string& name, Visit&& visit) {
   const std::string of = " of body " + name;
