@@ -79,13 +79,6 @@ class Formed(SceneRun):
         part = dict({'name': 'part', 'material': PERFECT, 'formed': formed, 'trim': list(trim), 'boundaries': list(held)}, **fields)
         return {'name': 'next', 'dimension': 2, 'bodies': [part], 'stages': [{'kind': 'settle', 'limit': 0.05}], 'output': {'frames': 2}}
 
-    def refused(self, data):
-        with open(self.path('scene.yaml'), 'w') as file:
-            yaml.safe_dump(data, file)
-        run = subprocess.run([OFFLINE, '--validate', self.path('scene.yaml')], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        self.assertNotEqual(run.returncode, 0, run.stdout)
-        return run.stdout
-
     def bend_quickly(self):
         self.run_scene(bent(self.curvature, (20, 2), 5e-4), 'bent')
 

@@ -38,6 +38,14 @@ class SceneRun(OwnDirectory):
         self.assertLess(summary['energy_J']['balance_error'], 0.01)
         return summary
 
+    def refused(self, data):
+        """What is told of a scene that has faults."""
+        with open(self.path('scene.yaml'), 'w') as file:
+            yaml.safe_dump(data, file)
+        run = subprocess.run([OFFLINE, '--validate', self.path('scene.yaml')], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.assertEqual(run.returncode, 2, run.stdout)
+        return run.stdout
+
     def history(self, name='out'):
         with open(self.path(name + '/history.csv')) as file:
             return list(csv.DictReader(file))

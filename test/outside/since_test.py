@@ -10,7 +10,6 @@ import unittest
 
 import h5py
 import numpy
-import yaml
 
 from scene_run import OFFLINE, SceneRun, body, scene
 
@@ -60,13 +59,6 @@ class Since(SceneRun):
             frames = result['frames']
             last = frames[sorted(frames)[frame]]
             return last.attrs['time'], last['positions'][:]
-
-    def refused(self, data):
-        with open(self.path('scene.yaml'), 'w') as file:
-            yaml.safe_dump(data, file)
-        run = subprocess.run([OFFLINE, '--validate', self.path('scene.yaml')], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        self.assertEqual(run.returncode, 2, run.stdout)
-        return run.stdout
 
     def test_it_is_the_same_as_times_that_count_from_the_start(self):
         later = moving_scene()
