@@ -48,8 +48,18 @@ void lay_flat(RawMesh& raw) {
   }
 }
 
+/// The quadrilateral faces of a solid cell, whether it is split or stays whole.
 QuadFaces quad_faces_of(RawKind kind) {
-  return kind == RawKind::hexahedron ? kFacesOfHexahedron : kind == RawKind::wedge ? kFacesOfWedge : kind == RawKind::pyramid ? kFacesOfPyramid : QuadFaces();
+  return split_faces_of(kind == RawKind::hexahedron ? CellKind::hex24 : kind == RawKind::wedge ? CellKind::wedge14 : kind == RawKind::pyramid ? CellKind::pyramid8 : CellKind::tetrahedron);
+}
+
+/// Of four nodes those that are not the one at `skip`, rising.
+std::array<int, 3> three_of(const std::array<int, 4>& nodes, int skip) {
+  std::array<int, 3> three;
+  for (int k = 0, at = 0; k < 4; ++k)
+    if (k != skip) three[at++] = nodes[k];
+  std::sort(three.begin(), three.end());
+  return three;
 }
 
 const RawCell* first_of(const RawMesh& raw, RawKind kind) {
@@ -69,26 +79,15 @@ void check_kinds_apart(const RawMesh& raw) {
   for (const RawCell& cell : raw.cells) {
     const QuadFaces faces = quad_faces_of(cell.kind);
     for (int f = 0; f < faces.count; ++f)
-      for (int skip = 0; skip < 4; ++skip) {
-        std::array<int, 3> key;
-        for (int k = 0, at = 0; k < 4; ++k)
-          if (k != skip) key[at++] = cell.nodes[faces.corners[f][k]];
-        std::sort(key.begin(), key.end());
-        corners_of_faces.emplace(key, shape_of(cell.kind).name);
-      }
+      for (int skip = 0; skip < 4; ++skip) corners_of_faces.emplace(three_of(face_of(cell.nodes, faces.corners[f]), skip), shape_of(cell.kind).name);
   }
   if (corners_of_faces.empty()) return;
   for (const RawCell& cell : raw.cells)
     if (cell.kind == RawKind::tetrahedron)
-      for (int skip = 0; skip < 4; ++skip) {
-        std::array<int, 3> key;
-        for (int k = 0, at = 0; k < 4; ++k)
-          if (k != skip) key[at++] = cell.nodes[k];
-        std::sort(key.begin(), key.end());
-        if (const auto face = corners_of_faces.find(key); face != corners_of_faces.end())
+      for (int skip = 0; skip < 4; ++skip)
+        if (const auto face = corners_of_faces.find(three_of({cell.nodes[0], cell.nodes[1], cell.nodes[2], cell.nodes[3]}, skip)); face != corners_of_faces.end())
           refuse(raw, "tetrahedron " + std::to_string(cell.tag) + " lies on a face with four corners of a " + face->second + ", which is " +
                           (whole ? "not split" : "split about its centre") + "; mesh a body with one of the two kinds");
-      }
 }
 
 struct Split {
@@ -112,26 +111,23 @@ Split split(const RawMesh& raw, Mesh& mesh) {
     take(raw_kind, [&](const RawCell& c) { block.nodes.insert(block.nodes.end(), c.nodes, c.nodes + shape_of(raw_kind).corners); });
     if (!block.nodes.empty()) mesh.cells.push_back(std::move(block));
   };
+  const auto take_solids = [&](RawKind kind, auto& solids) {
+    take(kind, [&](const RawCell& c) {
+      solids.emplace_back();
+      std::copy_n(c.nodes, solids.back().size(), solids.back().begin());
+    });
+  };
   as_they_are(RawKind::triangle, CellKind::triangle);
   take(RawKind::quadrilateral, [&](const RawCell& c) { quads.push_back({c.nodes[0], c.nodes[1], c.nodes[2], c.nodes[3]}); });
   if (!quads.empty()) result.faces = split_quads(mesh, quads, raw.one_point ? CellKind::quad1 : CellKind::crossed);
   as_they_are(RawKind::tetrahedron, CellKind::tetrahedron);
-  take(RawKind::hexahedron, [&](const RawCell& c) {
-    hexes.emplace_back();
-    std::copy(c.nodes, c.nodes + 8, hexes.back().begin());
-  });
+  take_solids(RawKind::hexahedron, hexes);
   if (!hexes.empty()) result.faces = split_hexes(mesh, hexes, raw.one_point ? CellKind::hex1 : CellKind::hex24);
   std::vector<Wedge> wedges;
-  take(RawKind::wedge, [&](const RawCell& c) {
-    wedges.emplace_back();
-    std::copy(c.nodes, c.nodes + 6, wedges.back().begin());
-  });
+  take_solids(RawKind::wedge, wedges);
   split_wedges(mesh, wedges, result.faces);
   std::vector<Pyramid> pyramids;
-  take(RawKind::pyramid, [&](const RawCell& c) {
-    pyramids.emplace_back();
-    std::copy(c.nodes, c.nodes + 5, pyramids.back().begin());
-  });
+  take_solids(RawKind::pyramid, pyramids);
   split_pyramids(mesh, pyramids, result.faces);
   return result;
 }
@@ -175,9 +171,8 @@ void lay_sets(const RawMesh& raw, const Centres& centres, Mesh& mesh) {
       if (corners >= 4) take(centres.find(cell.nodes, corners));
       const QuadFaces faces = quad_faces_of(cell.kind);
       for (int f = 0; f < faces.count; ++f) {
-        const auto& face = faces.corners[f];
-        const int four[4] = {cell.nodes[face[0]], cell.nodes[face[1]], cell.nodes[face[2]], cell.nodes[face[3]]};
-        take(centres.find(four, 4));
+        const std::array<int, 4> four = face_of(cell.nodes, faces.corners[f]);
+        take(centres.find(four.data(), 4));
       }
     }
     std::sort(nodes.begin(), nodes.end());

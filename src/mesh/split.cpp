@@ -15,12 +15,6 @@ std::array<int, 8> key_of(const int* corners, int count) {
   return key;
 }
 
-template <class Solid> std::array<int, 4> face_of(const Solid& solid, const int (&face)[4]) {
-  std::array<int, 4> corners;
-  for (int k = 0; k < 4; ++k) corners[k] = solid[face[k]];
-  return corners;
-}
-
 template <std::size_t N> Vec3 middle_of(const Mesh& mesh, const std::array<int, N>& corners) {
   Vec3 sum = Vec3::Zero();
   for (int n : corners) sum += mesh.nodes[n];

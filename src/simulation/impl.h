@@ -146,6 +146,7 @@ struct Simulation::Impl {
   void tell_fall(int tool);
   void tell_landing(int tool);
   void book_reactions(double kick);
+  double mass_of_bodies() const;    ///< scaled, kg
   double kinetic() const;
   /// What the first kick takes from the elastic energy that formed parts bear at the start, J.
   double first_kick_energy() const;

@@ -317,8 +317,7 @@ void Simulation::Impl::tell_contact_what_is_held() {
 }
 
 void Simulation::Impl::give_tools_mass() {
-  double all = 0;
-  for (double m : elements.nodal_mass()) all += m;
+  const double all = mass_of_bodies();
   const char* unit = model.dimension == 2 && !model.axisymmetric ? " kg/m" : " kg";
   for (std::size_t k = 0; k < model.tools.size(); ++k) {
     ToolModel& tool = model.tools[k];

@@ -11,7 +11,8 @@ namespace forming_sim {
 StageRunner::StageRunner(const std::vector<StageConfig>& stages, const Model& model) : stages_(stages), model_(&model) {
   for (const ToolModel& tool : model.tools) {
     const bool by_force = tool.motion && tool.motion->kind == "force";
-    motions_.push_back(tool.motion ? stay(by_force ? Pose() : RigidMotion(*tool.motion, model.dimension).at(0)) : RigidMotion());
+    courses_.push_back(tool.motion && !by_force ? RigidMotion(*tool.motion, model.dimension) : RigidMotion());
+    motions_.push_back(tool.motion ? stay(courses_.back().at(0)) : RigidMotion());
     stop_force_.push_back(0);
     drives_.push_back(by_force ? std::optional<ForceDrive>(*tool.motion) : std::nullopt);
   }
@@ -30,14 +31,9 @@ double StageRunner::began(const std::string& since) const {
 }
 
 void StageRunner::begin_motion(int tool, double t) {
-  const MotionConfig& motion = *model_->tools[tool].motion;
-  if (drives_[tool]) {
-    motions_[tool] = RigidMotion();
-    drives_[tool]->begin(t);
-    return;
-  }
-  motions_[tool] = RigidMotion(motion, model_->dimension).beginning(t);
-  stop_force_[tool] = motion.stop_force;
+  motions_[tool] = courses_[tool].beginning(t);
+  if (drives_[tool]) drives_[tool]->begin(t);
+  else stop_force_[tool] = model_->tools[tool].motion->stop_force;
 }
 
 void StageRunner::begin(double t) {

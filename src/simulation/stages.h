@@ -67,7 +67,8 @@ class StageRunner {
 
   std::vector<StageConfig> stages_;
   const Model* model_;
-  std::vector<RigidMotion> motions_;
+  std::vector<RigidMotion> courses_;  ///< as the scene gives them; none: it rests, or a force drives it
+  std::vector<RigidMotion> motions_;  ///< now: waiting, on its course, stopped, withdrawn
   std::vector<std::optional<ForceDrive>> drives_;  ///< of the tools that a force drives
   std::vector<char> present_, left_;
   std::vector<double> starts_, stops_, stop_force_;

@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 #include "forming_sim/loads/course.h"
@@ -183,11 +184,9 @@ void Simulation::Impl::tell_landing(int tool) {
   if (++status.landings == 1) status.first_landing = time;
   if (status.landings != kMany) return;
   const double period = (time - status.first_landing) / (kMany - 1);
-  double all = 0;
-  for (double m : elements.nodal_mass()) all += m;
   std::ostringstream text;
   text.precision(3);
-  text << "tool " << model.tools[tool].name << ", which a force drives, had lifted off the bodies and come back " << kMany << " times at " << time << " s, every " << period << " s: with " << stages.drive(tool)->mass() / all
+  text << "tool " << model.tools[tool].name << ", which a force drives, had lifted off the bodies and come back " << kMany << " times at " << time << " s, every " << period << " s: with " << stages.drive(tool)->mass() / mass_of_bodies()
        << " times the mass of the bodies it swings on them, and where it rubs, friction is less in the mean than its force asks for. A motion.damping of " << M_PI / period << " 1/s stops such a swing, or a motion.mass of some times that of the bodies at most";
   warnings.push_back(text.str());
 }
@@ -245,6 +244,8 @@ void Simulation::Impl::book_reactions(double kick) {
   takes_hold = false;
   choose_booked();
 }
+
+double Simulation::Impl::mass_of_bodies() const { return std::accumulate(elements.nodal_mass().begin(), elements.nodal_mass().end(), 0.0); }
 
 double Simulation::Impl::kinetic() const {
   double sum = 0;

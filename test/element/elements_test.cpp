@@ -102,7 +102,8 @@ TEST_P(EveryKind, StressOfFewIsThatOfAll) {
   const BodyModel b = body_of(block_of(GetParam().kind, 6), material_of(GetParam().law, true), GetParam().average);
   NodeField x = positions_of(b.mesh);
   Elements elements({b}, dimension(), x, {}, 1);
-  shake(x, dimension(), 0.01, 8);
+  const bool flat_simplices = GetParam().kind == CellKind::wedge14 || GetParam().kind == CellKind::pyramid8;  // which .02 would turn inside out
+  shake(x, dimension(), flat_simplices ? 0.01 : 0.02, 8);
   forces_at(elements, x);  // flows
   const std::vector<Sym> all = elements.observe(x).stress;
   const int last = static_cast<int>(all.size()) - 1;

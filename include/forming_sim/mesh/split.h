@@ -14,6 +14,11 @@ using Hex = std::array<int, 8>;   ///< 0-3 bottom, 4-7 above them
 using Wedge = std::array<int, 6>; ///< 0-2 bottom, 3-5 above them
 using Pyramid = std::array<int, 5>; ///< 0-3 base, 4 above it
 
+/// The nodes of a face of a solid cell. nodes: of the cell; face: which of them, as the tables of cell_tables.h tell.
+template <class Nodes> std::array<int, 4> face_of(const Nodes& nodes, const int (&face)[4]) {
+  return {nodes[face[0]], nodes[face[1]], nodes[face[2]], nodes[face[3]]};
+}
+
 /// The centre node that splitting put on a face or into a cell, by its corners.
 class Centres {
  public:
