@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kLargestStep = 1e-3;  // of strain in a step of the law
 constexpr double kMostSteps = 1e7;     // between two rows
+constexpr int kStepsInTime = 200;      // least number between two rows, of laws that go by the time
 
 /// What the columns of a history prescribe: components of F, or logarithmic strains.
 struct Columns {
@@ -60,8 +61,9 @@ std::string name_of(const Columns& c, int i, int j) { return std::string(c.strai
 /// the components (of the strains, where those are given).
 class Driver {
  public:
-  Driver(const Table& table, const MaterialConfig& material) : table_(table), columns_(columns_of(table)), point_(material) {
+  Driver(const Table& table, const MaterialConfig& material) : table_(table), columns_(columns_of(table)), point_(material), by_time_(material.rate_dependence.has_value()) {
     if (columns_.strains) given_.setZero();
+    if (by_time_ && columns_.time < 0) throw std::runtime_error(table.path + ": no column time; the yield stress of this law depends on the rate: give the time of every row, s");
     check_rows();
   }
 
@@ -74,7 +76,11 @@ class Driver {
     const double way = distance(to);
     if (!(way < kMostSteps * kLargestStep))
       throw std::runtime_error(table_.place(row) + ": the strain since the row before is " + csv_number(way) + "; right are rows closer than " + csv_number(kMostSteps * kLargestStep));
-    const int n = std::max(1, static_cast<int>(std::ceil(way / kLargestStep - 1e-9)));
+    const int n = std::max(by_time_ ? kStepsInTime : 1, static_cast<int>(std::ceil(way / kLargestStep - 1e-9)));
+    if (by_time_) {
+      const double time = table_.rows[row][columns_.time];
+      point_.set_step((time - (row > 0 ? table_.rows[row - 1][columns_.time] : std::min(0.0, time))) / n);
+    }
     const Mat3 from = given_;
     const int every = 1 + n / 200;
     for (int k = 1; k <= n; ++k) {
@@ -147,6 +153,7 @@ class Driver {
   const Table& table_;
   Columns columns_;
   MaterialPoint point_;
+  const bool by_time_;
   MaterialPoint::Answer answer_{Mat3::Zero(), 0};
   Mat3 given_ = Mat3::Identity();
   double work_ = 0;

@@ -330,6 +330,7 @@ bool Elements::forces_of_moved(Group& g, const NodalView& view) {
 void Elements::find_forces(const NodeField& x, const NodeField& v, double last_dt, double last_kick) {
   if (axisymmetric_) check_axis(x);
   StageClock clock(times_);
+  for (Group& g : groups_) set_step(g.solid, last_dt);
   NodalView view{x.data()->data(), v.data()->data(), nullptr, pressure_.data(), last_kick, last_dt};
   if (any_nodal_) nodal_pressure(view, slots_);
   clock.ends(&StepTimes::pressure);

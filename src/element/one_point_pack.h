@@ -143,7 +143,7 @@ template <class Cell> class WaitingPacks {
  private:
   [[gnu::noinline, gnu::flatten]] void flow() {
     flow_.find_planes(TwinItems{{packs_[0].constants, packs_[count_ - 1].constants}});
-    flow_.flow(g_.solid, moduli_);
+    flow_.flow(g_.solid, g_.solid.layer[0].hardening, moduli_);
     for (int b = 0; b < count_; ++b) {
       take_one_layer(flow_, b, packs_[b]);
       finish_one_layer(packs_[b]);

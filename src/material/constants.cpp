@@ -1,6 +1,7 @@
 #include "forming_sim/material/constants.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "forming_sim/config/fault.h"
 
@@ -25,6 +26,24 @@ double lowest_of(const HardeningCurve& h) {
   if (h.kind == HardeningCurve::table) return *std::min_element(h.stress, h.stress + h.points);
   const bool rises = h.kind == HardeningCurve::swift ? h.c >= 0 : h.d >= 0 && (h.kind != HardeningCurve::voce || (h.b >= 0 && h.c >= 0));
   return rises ? yield_stress(h, 0.0).value : 0;
+}
+
+RateLaw rate_of(const RateDependenceConfig& config) {
+  RateLaw rate;
+  rate.log_reference = std::log(config.reference_rate * config.speed_up);
+  if (config.law == "cowper_symonds") {
+    rate.kind = RateLaw::cowper_symonds;
+    rate.sensitivity = 1 / config.exponent;
+  } else if (config.law == "johnson_cook") {
+    rate.kind = RateLaw::johnson_cook;
+    rate.sensitivity = config.coefficient;
+  } else if (config.law == "power") {
+    rate.kind = RateLaw::power;
+    rate.sensitivity = config.exponent;
+  } else {
+    throw Error(Code::invalid_scene, "rate_dependence.law: given " + config.law + "; right are cowper_symonds, johnson_cook, power");
+  }
+  return rate;
 }
 
 HardeningCurve curve_of(const HardeningConfig& h, CurveTables& tables) {
@@ -59,6 +78,10 @@ HardeningCurve curve_of(const HardeningConfig& h, CurveTables& tables) {
 
 }  // namespace
 
+void set_step(SolidConstants& solid, double dt) {
+  for (int k = 0; k < solid.layers; ++k) solid.layer[k].hardening.rate.log_step = log_of_share(dt);
+}
+
 SolidConstants solid_constants(const MaterialConfig& config, CurveTables& tables) {
   SolidConstants solid;
   solid.law = law_of(config.law);
@@ -70,7 +93,12 @@ SolidConstants solid_constants(const MaterialConfig& config, CurveTables& tables
     solid.law = Law::hill;
     solid.orthotropy = orthotropy_of(*config.anisotropy);
   }
-  if (config.hardening) solid.layer[0].hardening = curve_of(*config.hardening, tables);
+  const auto hardening_of = [&](const HardeningConfig& hardening) {
+    HardeningCurve curve = curve_of(hardening, tables);
+    if (config.rate_dependence) curve.rate = rate_of(*config.rate_dependence);
+    return curve;
+  };
+  if (config.hardening) solid.layer[0].hardening = hardening_of(*config.hardening);
   if (config.layers.empty()) return solid;
   if (config.layers.size() > kMaxLayers)
     throw Error(Code::invalid_scene, "material.layers: given " + std::to_string(config.layers.size()) + "; at most " + std::to_string(kMaxLayers));
@@ -80,7 +108,7 @@ SolidConstants solid_constants(const MaterialConfig& config, CurveTables& tables
   for (const LayerConfig& layer : config.layers) {
     LayerConstants& to = solid.layer[solid.layers++];
     to.weight = layer.weight / sum;
-    if (layer.hardening) to.hardening = curve_of(*layer.hardening, tables);
+    if (layer.hardening) to.hardening = hardening_of(*layer.hardening);
   }
   return solid;
 }

@@ -20,6 +20,7 @@ std::string law_of(const MaterialConfig& m, int layers) {
   else if (m.hardening) text += ", plastic (" + m.hardening->curve + ")";
   else text += ", elastic";
   if (m.anisotropy) text += ", Hill's yield with r0 " + number_text(m.anisotropy->r0);
+  if (m.rate_dependence) text += ", raised by its rate (" + m.rate_dependence->law + ")";
   return text;
 }
 

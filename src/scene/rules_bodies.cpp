@@ -99,6 +99,14 @@ void check_anisotropy(const MaterialConfig& material, const std::string& path, i
   for (const DirectionFault& fault : find_direction_faults(config, dimension)) faults.add(here + "." + fault.field, fault.given, fault.right);
 }
 
+void check_rate(const MaterialConfig& material, const std::string& path, FaultList& faults) {
+  const std::string here = path + ".rate_dependence";
+  if (!material.hardening && material.layers.empty()) faults.add(here, "rate_dependence without hardening and layers", "give one of them: it is the yield stress that depends on the rate");
+  const RateDependenceConfig& rate = *material.rate_dependence;
+  if (rate.law == "cowper_symonds" && rate.exponent < 1) faults.add(here + ".exponent", given_text(rate.exponent), "give P of 1 + (r/D)^(1/P), at least 1");
+  if (rate.law == "power" && rate.exponent > 1) faults.add(here + ".exponent", given_text(rate.exponent), "give m of (r/r0)^m, at most 1");
+}
+
 void check_material(const BodyConfig& body, const std::string& path, int dimension, FaultList& faults) {
   const MaterialConfig& material = body.material;
   const std::string here = path + ".material";
@@ -107,6 +115,7 @@ void check_material(const BodyConfig& body, const std::string& path, int dimensi
     faults.add(path + ".pressure_average", given_text(body.pressure_average), "give cell or element: the classical law keeps a pressure in every element, none in nodes");
   }
   if (material.anisotropy) check_anisotropy(material, here, dimension, faults);
+  if (material.rate_dependence) check_rate(material, here, faults);
   if (material.layers.empty()) return;
   if (material.hardening) faults.add(here, "both hardening and layers", "give one of them: each layer has a hardening of its own");
   if (material.layers.size() > kMaxLayers) {

@@ -57,7 +57,7 @@ struct Cell {
     FlowTogether<double, 3, false> flow;
     put(flow, 0);
     flow.find_planes(constants.data());
-    flow.flow(solid, PlaneModuli(solid));
+    flow.flow(solid, solid.layer[0].hardening, PlaneModuli(solid));
     take(flow, 0);
     return *this;
   }
@@ -78,7 +78,7 @@ std::vector<double> beside(unsigned seed, double bent, unsigned other_seed, doub
   other.put(flow, 1 - half);
   const double *first = half == 0 ? own.constants.data() : other.constants.data(), *second = half == 0 ? other.constants.data() : own.constants.data();
   flow.find_planes(TwinItems{{first, second}});
-  flow.flow(own.solid, PlaneModuli(own.solid));
+  flow.flow(own.solid, own.solid.layer[0].hardening, PlaneModuli(own.solid));
   own.take(flow, half);
   return own.all();
 }
@@ -107,7 +107,7 @@ TEST(FlowTogether, AnIdleHalfDoesNoHarm) {
   FlowTogether<Twin<double>, 3, false> flow{};  // whose second half is nothing but zeros
   own.put(flow, 0);
   flow.find_planes(TwinItems{{own.constants.data(), own.constants.data()}});
-  flow.flow(own.solid, PlaneModuli(own.solid));
+  flow.flow(own.solid, own.solid.layer[0].hardening, PlaneModuli(own.solid));
   own.take(flow, 0);
   EXPECT_EQ(own.all(), Cell(3, 4.0).alone().all());
 }

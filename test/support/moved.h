@@ -10,6 +10,7 @@ struct Moved {
   BodyModel body;
   NodeField X, x, v, f;
   Elements elements;
+  double dt = 0;  ///< s, of a step, for laws that ask for it
   Moved(const Mesh& mesh, const MaterialConfig& material)
       : body(body_of(mesh, material)), X(positions_of(mesh)), x(X), v(X.size(), Node::Zero()), f(v), elements({body}, mesh.dimension, X, {}, 1) {}
 
@@ -17,7 +18,7 @@ struct Moved {
     for (std::size_t n = 0; n < X.size(); ++n) x[n] = node(at(vec3(X[n])));
   }
   const NodeField& forces() {
-    elements.forces(x, v, 0, 0, f);
+    elements.forces(x, v, dt, 0, f);
     return f;
   }
   double energy() const { return elements.stored_energy(x); }

@@ -65,7 +65,7 @@ class Elements {
   void time_stages(StepTimes* times) { times_ = times; }
 
   /// Internal forces at x (N) of the cells, for nodal_forces(); updates the memory of what yields.
-  /// v: the velocities that led to x in last_dt (0: nothing has moved yet), for Law::classical
+  /// v: the velocities that led to x in last_dt (0: nothing has moved yet), for Law::classical, plastic rates
   /// and bulk viscosity; last_kick: the time in which the forces of the last call acted to give v, and for which
   /// the work of their viscosity is booked now. Throws Error(mesh_error)
   /// naming an element whose volume is not positive or not a number, or a node that has

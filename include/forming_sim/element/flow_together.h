@@ -6,6 +6,7 @@
 // One root and one division waits for the other all the way. T may be a Twin of the numbers of two cells (tensor/twin.h), which
 // have nothing to do with each other but that they are looked at side by side: halves do not change what the other finds.
 #include "forming_sim/element/anisotropic_flow.h"
+#include "forming_sim/element/flow_rate.h"
 #include "forming_sim/material/von_mises.h"
 #include "forming_sim/tensor/twin.h"
 
@@ -97,6 +98,7 @@ template <class T, int D, bool Ring, class Metric = Isotropic> class FlowTogethe
     });
     half_of(dissipation_, half) = point.dissipation;
     half_of(kept_, half) = point.kept;
+    half_of(dp_, half) = point.dp;
     half_of(mean_.sigma, half) = point.yield.value;
     half_of(mean_.slope, half) = point.yield.slope;
   }
@@ -110,13 +112,12 @@ template <class T, int D, bool Ring, class Metric = Isotropic> class FlowTogethe
       both(rise_[d]);
     });
     repeat<size>([&](auto i) { both(G_[i]), both(S_[i]); });
-    for (T* number : {&factor_, &J_, &dissipation_, &kept_, &mean_.sigma, &mean_.slope}) both(*number);
+    for (T* number : {&factor_, &J_, &dissipation_, &kept_, &dp_, &mean_.sigma, &mean_.slope}) both(*number);
   }
 
-  /// Of a layer whose law does not return along S: the stress before it did, and the plastic strain that it took.
-  void put_trial(const Symmetric<T, D>& S, const T& dp) {
+  /// Of a layer whose law does not return along S: the stress before it did.
+  void put_trial(const Symmetric<T, D>& S) {
     repeat<size>([&](auto i) { trial_[i] = S[i]; });
-    dp_ = dp;
   }
 
   /// Once all cells are put, for all layers. constants: of the cell, or TwinItems.
@@ -126,12 +127,13 @@ template <class T, int D, bool Ring, class Metric = Isotropic> class FlowTogethe
     repeat<D>([&](auto d) { at_[d].set(turned, constants, d); });
   }
 
-  [[gnu::noinline, gnu::flatten]] void flow(const SolidConstants& m, const PlaneModuli& moduli) {
+  /// hardening: of the layer.
+  [[gnu::noinline, gnu::flatten]] void flow(const SolidConstants& m, const HardeningCurve& hardening, const PlaneModuli& moduli) {
     repeat<size>([&](auto i) { mean_.S[i] = S_[i]; });
     mean_.modulus = T(2) * factor_;
     mean_.p = T(0);
     const T over = T(1) / mean_.sigma, SS = products(S_, Plane<T>{T(0), T(0), T(0)}, at_[0], A_).SS, sigma2 = mean_.sigma * mean_.sigma;
-    T share[D], varied(0);  // 1 where the coordinate's variation takes part, else 0; what the variation dissipates
+    T share[D];  // 1 where the coordinate's variation takes part, else 0
     flowed_ = T(0);
     repeat<D>([&](auto d) {
       share[d] = T(0);
@@ -142,19 +144,8 @@ template <class T, int D, bool Ring, class Metric = Isotropic> class FlowTogethe
       flowed_ = larger(flowed_, share[d]);
     });
     if (!any(flowed_ > T(0))) return;
-    // From the trial on: what the law has returned is taken back.
-    if constexpr (Metric::is_one) {
-      const T returned = flowed_ * (T(1) / kept_ - T(1)), softer = T(1) / mean_.modulus;
-      repeat<size>([&](auto i) { mean_.S[i] *= T(1) + returned; });
-      mean_.harden(-(T(2.0 / 3) * softer * returned * sqrt(T(1.5) * SS)));
-    } else {
-      repeat<size>([&](auto i) { mean_.S[i] += flowed_ * (trial_[i] - S_[i]); });
-      mean_.harden(-(flowed_ * dp_));
-    }
-    repeat<D>([&](auto d) {
-      if (any(share[d] > T(0))) varied += flow_to_surface<T, D>(mean_, moduli, strain_[d], share[d], ep_[d], rise_[d], at_[d], A_, S_);
-    });
-    flow_of_mean(mean_, A_, S_);
+    take_back(SS);
+    const T varied = hardening.rate.kind == RateLaw::none ? flow_from_trial(moduli, share) : flow_at_rate(hardening.rate, moduli, share);
     take_mean_flow(m);
     dissipation_ += varied;
     if constexpr (D == 3) kept_ = smaller(kept_ * mean_.sigma / larger(mean_.sigma + T(3) * T(moduli.mu) * mean_.p, T(0.5) * mean_.sigma), T(1));
@@ -184,6 +175,56 @@ template <class T, int D, bool Ring, class Metric = Isotropic> class FlowTogethe
     half_of(to.a, half) = from.a;
     half_of(to.b, half) = from.b;
     half_of(to.shear, half) = from.shear;
+  }
+
+  /// What the law has returned is taken back. SS: S : A S as it has answered.
+  [[gnu::always_inline]] void take_back(const T& SS) {
+    if constexpr (Metric::is_one) {
+      const T returned = flowed_ * (T(1) / kept_ - T(1)), softer = T(1) / mean_.modulus;
+      repeat<size>([&](auto i) { mean_.S[i] *= T(1) + returned; });
+      mean_.harden(-(T(2.0 / 3) * softer * returned * sqrt(T(1.5) * SS)));
+    } else {
+      repeat<size>([&](auto i) { mean_.S[i] += flowed_ * (trial_[i] - S_[i]); });
+      mean_.harden(-(flowed_ * dp_));
+    }
+  }
+  /// From there on: the coordinates flow whose share is 1, and what is left returns along the mean. What the variation dissipates.
+  [[gnu::always_inline]] T flow_from_trial(const PlaneModuli& moduli, const T* share) {
+    T varied(0);
+    repeat<D>([&](auto d) {
+      if (any(share[d] > T(0))) varied += flow_to_surface<T, D>(mean_, moduli, strain_[d], share[d], ep_[d], rise_[d], at_[d], A_, S_);
+    });
+    flow_of_mean(mean_, A_, S_);
+    return varied;
+  }
+
+  /// Likewise where the rate raises the yield stress.
+  [[gnu::noinline]] T flow_at_rate(const RateLaw& law, const PlaneModuli& moduli, const T* share) {
+    const T by_law = select(dp_ > T(0), rate_factor(law, log_of_share(dp_)).value, T(1));
+    const MeanFlow<T, D> trial = mean_;
+    const T sigma = trial.sigma / by_law, slope = trial.slope / by_law, over = T(1) / sigma;  // without its rate
+    T most(1);
+    Plane<T> ep[D];
+    T rise[D];
+    repeat<D>([&](auto d) {
+      ep[d] = ep_[d];
+      rise[d] = rise_[d];
+      const Quadratic<T> Q(products(trial.S, moduli.stress(strain_[d] - ep[d]), at_[d], A_), over, slope * rise[d] * over);
+      most = larger(most, sqrt(Q.n + T(0.5) * Q.m + sqrt(Q.under_root())));
+    });
+    RateOfFlow<T> rate(law, most, sigma / (T(1.5) * trial.modulus));
+    for (int flows = 1;; ++flows) {
+      mean_.sigma = select(flowed_ > T(0), sigma * rate.R(), trial.sigma);
+      mean_.slope = select(flowed_ > T(0), slope * rate.R(), trial.slope);
+      const T varied = flow_from_trial(moduli, share);
+      if (flows == rate.kFlows) return varied;
+      rate.follow(dp_ + mean_.p);
+      repeat<D>([&](auto d) {
+        ep_[d] = ep[d];
+        rise_[d] = rise[d];
+      });
+      mean_ = trial;
+    }
   }
 
   /// G^mk = x^m . B x^k.
@@ -242,7 +283,7 @@ template <class T, int D, bool Ring, class Metric = Isotropic> class FlowTogethe
   T dissipation_, kept_, factor_, J_;
   T flowed_;  ///< 1 where a coordinate flows, else 0
   Symmetric<T, D> trial_;  ///< as put_trial() was told
-  T dp_;
+  T dp_;                   ///< plastic strain that the law has taken
   [[no_unique_address]] Metric A_;
 };
 

@@ -30,6 +30,7 @@ template <class T, int D, bool Ring> struct OnePointCell {
     point.yield.value = a.yield.value;
     point.yield.slope = a.yield.slope;
     point.yield.bend = a.yield.bend;
+    point.dp = a.dp;
   }
   /// What the forces ask for, as another cell has it, in the same way.
   void wait_as(const OnePointCell& other) {
@@ -56,7 +57,7 @@ template <class T, int D, bool Ring> void flow_alone(const SolidConstants& m, co
   FlowTogether<T, D, Ring> flow;
   put_one_layer(flow, 0, cell);
   flow.find_planes(cell.constants);
-  flow.flow(m, moduli);
+  flow.flow(m, m.layer[0].hardening, moduli);
   take_one_layer(flow, 0, cell);
 }
 
@@ -92,7 +93,7 @@ void step_of_layers(const SolidConstants& m, const PlaneModuli& moduli, OnePoint
         is_put = true;
       }
       flow.put_layer(0, cell.point, memory, hourglass_memory);
-      flow.flow(m, moduli);
+      flow.flow(m, m.layer[k].hardening, moduli);
       cell.hourglass.take_flow(flow, 0, cell.point, memory, hourglass_memory);
     }
     const T w(m.layer[k].weight);
@@ -119,7 +120,7 @@ template <class T, int D, bool Ring> void step_of_hill(const SolidConstants& m, 
     HillResponse<T, D> r;
     hill_layer_step<1>(m, k, 1, &point, Keep::yes, &r);
     cell.answer(r);
-    flow.put_trial(r.flowed ? r.trial : r.S, r.dp);
+    flow.put_trial(r.flowed ? r.trial : r.S);
   });
 }
 

@@ -80,7 +80,7 @@ template <class T, int D, bool Ring>
   constexpr int size = Symmetric<T, D>::size;
   PointResponse<T, D> r;
   r.S = load_memory<T, D>(memory);
-  r.dissipation = T(0);
+  r.dissipation = r.dp = T(0);
   if (!moved) return r;
   advance(m.mu, Increment<T, D, Ring>(e, moved), r.S);
   T p;
@@ -95,10 +95,13 @@ template <class T, int D, bool Ring>
       YieldStress<T> reached = yield;
       const T safe_q = select(yields, q, yield.value);
       const T u = select(yields, solve_correction(h, safe_q, p, k, first_correction(safe_q, k, yield), reached), T(0));
-      p += u * k;
+      r.dp = u * k;
+      p += r.dp;
       for (int i = 0; i < size; ++i) r.S[i] *= T(1) - u;  // (2.15)
       r.dissipation = J * (T(1) - u) * q * u * k;         // q_S dp
       r.kept = T(1) - u;
+      r.yield = reached;
+      r.knows_yield = true;
     }
   }
   if (keep == Keep::yes) {

@@ -62,6 +62,24 @@ struct AnisotropyConfig {
   }
 };
 
+/// How fast flow raises the yield stress (material/rate.h).
+struct RateDependenceConfig {
+  std::string law;                 ///< cowper_symonds | johnson_cook | power
+  double reference_rate = 0;
+  double exponent = 0;             ///< cowper_symonds: P; power: m
+  double coefficient = 0;          ///< johnson_cook: C
+  double speed_up = 1;
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(law), Field().required().choices({"cowper_symonds", "johnson_cook", "power"})
+          .doc("factor of the yield stress at the plastic strain rate r: cowper_symonds: 1 + (r/reference_rate)^(1/exponent); johnson_cook: 1 + coefficient ln(r/reference_rate); power: (r/reference_rate)^exponent; of the last two 1 below the reference_rate"));
+    visit(FORMING_SIM_FIELD(reference_rate), Field().unit("1/s").above(0).required().doc("plastic strain rate to which others are compared: that of a static test in johnson_cook and power, D of cowper_symonds"));
+    visit(FORMING_SIM_FIELD(exponent), Field().unit("1").above(0).required().when("law", {"cowper_symonds", "power"}).doc("P of cowper_symonds, at least 1; m of power, at most 1"));
+    visit(FORMING_SIM_FIELD(coefficient), Field().unit("1").above(0).at_most(1).required().when("law", {"johnson_cook"}).doc("C of Johnson and Cook"));
+    visit(FORMING_SIM_FIELD(speed_up), Field().above(0).doc("how many times faster the scene moves than what it stands for: its rates are divided by that"));
+  }
+};
+
 /// An elastic, elastic-plastic or hyperelastic solid.
 struct MaterialConfig {
   double density = 0;
@@ -71,6 +89,7 @@ struct MaterialConfig {
   std::optional<HardeningConfig> hardening;  ///< absent, and no layers: elastic
   std::vector<LayerConfig> layers;
   std::optional<AnisotropyConfig> anisotropy;  ///< absent: none
+  std::optional<RateDependenceConfig> rate_dependence;  ///< absent: none
   double h1 = 0, h2 = 0, bulk_modulus = 0;   ///< hyperelastic
 
   double mu() const { return law == "hyperelastic" ? h1 + 2 * h2 : youngs_modulus / (2 * (1 + poissons_ratio)); }
@@ -86,6 +105,7 @@ struct MaterialConfig {
     visit(FORMING_SIM_FIELD(hardening), Field().when("law", {"green_elastic", "paper", "classical"}).doc("von Mises plasticity with this isotropic hardening; absent: elastic"));
     visit(FORMING_SIM_FIELD(layers), Field().when("law", {"green_elastic", "paper"}).doc("several levels of plasticity instead of hardening: together they follow a measured curve and its reversal (Bauschinger effect)"));
     visit(FORMING_SIM_FIELD(anisotropy), Field().when("law", {"green_elastic"}).doc("Hill's quadratic yield stress of 1948 in place of von Mises', with this hardening or these layers; absent: all directions yield alike"));
+    visit(FORMING_SIM_FIELD(rate_dependence), Field().when("law", {"green_elastic", "paper", "classical"}).doc("fast flow raises the yield stress, that of every layer by its own rate; absent: it does not"));
     visit(FORMING_SIM_FIELD(h1), Field().unit("Pa").above(0).required().when("law", {"hyperelastic"}).doc("h1 of (3.74); the shear modulus at rest is h1 + 2 h2"));
     visit(FORMING_SIM_FIELD(h2), Field().unit("Pa").at_least(0).when("law", {"hyperelastic"}).doc("h2 of (3.74)"));
     visit(FORMING_SIM_FIELD(bulk_modulus), Field().unit("Pa").above(0).required().when("law", {"hyperelastic"}).doc("bulk modulus K"));

@@ -37,6 +37,9 @@ struct SolidConstants {
 /// Points of tabulated curves; they must outlive the constants made with them.
 using CurveTables = std::vector<std::vector<double>>;
 
+/// Steps from now on take dt, s: what raises the yield stress by its rate asks for it. 0: no time, in which nothing flows that is raised so.
+void set_step(SolidConstants& solid, double dt);
+
 /// Weights are divided by their sum. Throws Error(invalid_scene) for an unknown word
 /// or more than kMaxLayers layers.
 SolidConstants solid_constants(const MaterialConfig& config, CurveTables& tables);

@@ -1,6 +1,6 @@
 #pragma once
 // Isotropic hardening curves sigma_s(p), p the equivalent plastic strain.
-#include "forming_sim/tensor/pack.h"
+#include "forming_sim/material/rate.h"
 
 namespace forming_sim {
 
@@ -12,6 +12,7 @@ struct HardeningCurve {
   const double* strain = nullptr;   ///< table
   const double* stress = nullptr;
   int points = 0;
+  RateLaw rate;                     ///< what raises it while it flows
 };
 
 /// sigma_s at p, and its first and second derivative with p.

@@ -116,10 +116,52 @@ template <class T, int D> struct HillFlow {
   T z, dg;            ///< z of every lane that yields, 0 of others
 };
 
+/// q2 and falls after the return by z.
+template <class T, int D> void find_squares(const HillModes& h, const T& z, const InModes<T, D>& y, T& q2, T& falls) {
+  T kept[InModes<T, D>::count];
+  find_kept_shares<T, D>(h, z, kept);
+  q2 = falls = T(0);
+  for (int i = 0; i < InModes<T, D>::count; ++i) {
+    const T one = y.y[i] * kept[i], part = T(h.p[i]) * one * one;
+    q2 += part;
+    falls += T(h.p[i]) * part * kept[i];
+  }
+}
+
+/// As below where the rate raises the yield stress: f q(z) = sigma_s(p + dp) R(dp/dt), dp = k z q(z)/(2s), by Newton's iteration in ln z
+/// as in material/rate_flow.h, from the least z of which it is known that it is too large.
+template <class T, int D> [[gnu::noinline]] void solve_return_at_rate(const HillModes& h, const HardeningCurve& hardening, const T& f, const T& s, YieldStress<T>& at, HillFlow<T, D>& flow) {
+  const auto yields = flow.q2 * f * f > at.value * at.value * T(1 + 2 * kOnTheSurface);
+  const T trial = select(yields, f * sqrt(larger(flow.q2, T(1e-300))), at.value), per = select(yields, flow.k / (T(2) * s), T(1));
+  const YieldStress<T> start = at;
+  const T cap = log_of_share((trial / at.value - T(1)) * T(1 / h.least));
+  T q2, falls;
+  find_squares(h, exp(cap), flow.y, q2, falls);
+  T q = sqrt(larger(q2, T(1e-300))), w = smaller(cap, log_strain_of(hardening.rate, trial / at.value) - log_of_share(per * q)), z;
+  for (int round = 0; round < 60; ++round) {
+    z = exp(w);
+    find_squares(h, z, flow.y, q2, falls);
+    q2 = larger(q2, T(1e-300));
+    q = sqrt(q2);
+    const T dp = per * z * q;
+    const YieldStress<T> there = yield_stress_beyond(hardening, flow.p, start, select(yields, dp, T(0)));
+    const RateFactor<T> R = rate_factor(hardening.rate, log_of_share(dp));
+    at = {R.value * there.value, R.value * there.slope, T(0)};
+    const T value = f * q - at.value;
+    const auto off = yields & (absolute(value) > T(kOnTheSurface) * trial);
+    if (!any(off)) break;
+    const T slope = z * f * falls / q + (at.slope * dp + there.value * R.slope) * (T(1) - z * falls / q2);
+    w = select(off, smaller(w + value / select(yields, slope, T(1)), cap), w);
+  }
+  flow.z = select(yields, z, T(0));
+  flow.dg = flow.z * q / (T(2) * s);
+}
+
 /// Solves f q(z) = sigma_s(p + k dg) for z. f, s: as above; at: sigma_s at p, and then after the flow.
 /// Newton's iteration of 1/(f q) - 1/sigma_s, which were all p_i one, as without anisotropy, would be linear in z.
 template <class T, int D> void solve_return(const HillModes& h, const HardeningCurve& hardening, const T& f, const T& s, YieldStress<T>& at, HillFlow<T, D>& flow) {
   T q2 = flow.q2, q = sqrt(q2), falls = flow.falls;  // -q dq/dz
+  if (hardening.rate.kind != RateLaw::none) return solve_return_at_rate(h, hardening, f, s, at, flow);
   const auto yields = q2 * f * f > at.value * at.value * T(1 + 2 * kOnTheSurface);
   const T trial = select(yields, f * q, at.value), per_s = flow.k / (T(2) * s), f_per_s = f * per_s;
   const YieldStress<T> start = at;
@@ -133,14 +175,7 @@ template <class T, int D> void solve_return(const HillModes& h, const HardeningC
     T next = z + value * q2 * at.value / select(yields, slope, T(1));
     next = select(next > high, T(0.5) * (low + high), next);
     z = select(yields, select(next < low, T(0.5) * (low + high), next), T(0));
-    T kept[InModes<T, D>::count];
-    find_kept_shares<T, D>(h, z, kept);
-    q2 = falls = T(0);
-    for (int i = 0; i < InModes<T, D>::count; ++i) {
-      const T one = flow.y.y[i] * kept[i], part = T(h.p[i]) * one * one;
-      q2 += part;
-      falls += T(h.p[i]) * part * kept[i];
-    }
+    find_squares(h, z, flow.y, q2, falls);
     q = sqrt(q2);
     at = yield_stress_beyond(hardening, flow.p, start, z * q * per_s);
   }
@@ -194,7 +229,6 @@ template <class T, int D, bool Ring> HillPoint<T, D, Ring> hill_point(const Soli
 template <class T, int D> struct HillResponse : PointResponse<T, D> {
   bool flowed;            ///< any of its lanes has; else there is no
   Symmetric<T, D> trial;  ///< S before it, Pa
-  T dp;                   ///< plastic strain of the step
 };
 
 /// One step of layer k of n points, at most N, in passes as in material/von_mises_points.h.

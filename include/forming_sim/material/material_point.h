@@ -22,6 +22,8 @@ class MaterialPoint {
     double energy;  ///< stored, per initial volume, J/m3
   };
 
+  /// The time of each of the following steps, s, of laws that ask for it; 1 at first.
+  void set_step(double dt) { forming_sim::set_step(solid_, dt); }
   /// The step from the last deformation gradient to F; without `keep` it is only tried.
   Answer step(const Mat3& F, bool keep = true);
 

@@ -4,7 +4,7 @@
 //
 //   S = sum_i w_i S_i (3.68),  S_i = mu J^(-5/3) B_iD   (own law; (3.5) S = mu B_D as `paper`)
 //   B_i = x_m x_k G_i^mk (3.69): every layer has a memory of its own
-//   yield (3.70): q_S = mu J^(-5/3) q_B <= sigma_s(p),  q_B = sqrt(3/2 B_D : B_D)
+//   yield (3.70): q_S = mu J^(-5/3) q_B <= sigma_s(p),  q_B = sqrt(3/2 B_D : B_D); sigma_s(p) R where its rate raises it (material/rate.h)
 //   correction (3.54): G <- a G + (1-a) G^x, so that B = a B' + (1-a) I (3.55)
 //
 // With (1-a) the plastic stretching of the correction is exactly
@@ -19,6 +19,7 @@
 //
 // Memory of a point: G^X and p of every layer, one layer after the other.
 #include "forming_sim/material/constants.h"
+#include "forming_sim/material/rate_flow.h"
 #include "forming_sim/tensor/tensor.h"
 
 namespace forming_sim {
@@ -29,7 +30,8 @@ template <class T, int D> struct PointResponse {
   T dissipation;      ///< plastic work of the step per initial volume, J/m3
   T kept = T(1);      ///< of a single layer: S over that of the trial, 1: elastic
   bool knows_yield = false;  ///< of a single layer: whether the law asked for `yield`
-  YieldStress<T> yield;      ///< at its p after the step
+  YieldStress<T> yield;      ///< at its p after the step, raised by its rate
+  T dp;                      ///< of a single layer: plastic strain of the step
 };
 
 /// Numbers of memory of one layer: G^X and p.
@@ -47,8 +49,17 @@ template <class T> T first_correction(const T& q, const T& k, const YieldStress<
   return smaller(first * (T(1) - T(0.5) * k * k * at.bend * first * over_slope), T(1));
 }
 
+/// Where the rate raises it, (1-u) q = sigma_s(p + u k) R(u k/dt); u: more than that, and at: as below, times R.
+template <class T> [[gnu::noinline]] T correction_at_rate(const HardeningCurve& h, const T& q, const T& p, const T& k, const T& u, YieldStress<T>& at) {
+  const YieldStress<T> start = at;
+  const T safe_k = larger(k, T(1e-300));
+  const T w = log_of_flow(h.rate, q, q / safe_k, u * k, start, [&](const T& dp) { return yield_stress_beyond(h, p, start, dp); }, at);
+  return select(q > start.value, exp(w) / safe_k, T(0));
+}
+
 /// The same to round-off, from there on by Newton inside a bracket; at: sigma_s at p, and then at p + u k.
 template <class T> T solve_correction(const HardeningCurve& h, const T& q, const T& p, const T& k, T u, YieldStress<T>& at) {
+  if (h.rate.kind != RateLaw::none) return correction_at_rate(h, q, p, k, u, at);
   const YieldStress<T> start = at;
   T low(0), high(1);
   for (int i = 0; i < 60; ++i) {
@@ -149,7 +160,7 @@ PointResponse<T, D> update_layer(const HardeningCurve& hardening, const T& facto
   PointResponse<T, D> r;
   Trial<T> trial;
   const Symmetric<T, D> deviator = find_trial(B, trial);
-  r.dissipation = T(0);
+  r.dissipation = r.dp = T(0);
   if (hardening.kind != HardeningCurve::elastic && any(may_yield(hardening, trial, factor))) {
     r.yield = yield_stress(hardening, p);
     r.knows_yield = true;
@@ -158,6 +169,7 @@ PointResponse<T, D> update_layer(const HardeningCurve& hardening, const T& facto
       r.kept = T(1) - c.u;
       r.dissipation = c.dissipation;
       r.yield = c.yield;
+      r.dp = c.p - p;
       p = c.p;
     }
   }

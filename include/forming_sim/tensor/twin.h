@@ -34,6 +34,8 @@ template <class Mask, class T> Twin<T> select(const TwinMask<Mask>& mask, const 
 }
 template <class T> Twin<T> larger(const Twin<T>& a, const Twin<T>& b) { return {larger(a.half[0], b.half[0]), larger(a.half[1], b.half[1])}; }
 template <class T> Twin<T> smaller(const Twin<T>& a, const Twin<T>& b) { return {smaller(a.half[0], b.half[0]), smaller(a.half[1], b.half[1])}; }
+template <class T> Twin<T> exp(const Twin<T>& a) { return {exp(a.half[0]), exp(a.half[1])}; }
+template <class T> Twin<T> log(const Twin<T>& a) { return {log(a.half[0]), log(a.half[1])}; }
 template <class T> Twin<T> sqrt(const Twin<T>& a) { return {sqrt(a.half[0]), sqrt(a.half[1])}; }
 template <class T> Twin<T> absolute(const Twin<T>& a) { return {absolute(a.half[0]), absolute(a.half[1])}; }
 

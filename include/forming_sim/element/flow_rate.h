@@ -1,0 +1,39 @@
+#pragma once
+// How much its rate raises the yield stress of a layer of a one-point cell whose mean and variation flow together (element/flow_together.h).
+//
+// R follows from the plastic strain dp of the step, and dp from R. With a given R they flow as far as
+//   dp = B (R_most - R)
+// very nearly: nothing flows where R is how many times the trial is outside of the surface of sigma_s, and B is that of the
+// radial return at first, sigma_s/(3 mu), and then that of the last flow. Between flows R is where the line meets R(dp/dt).
+#include "forming_sim/material/rate_flow.h"
+
+namespace forming_sim {
+
+template <class T> class RateOfFlow {
+ public:
+  static constexpr int kFlows = 3;  ///< in the last of them R is found
+
+  /// radial: sigma_s/(3 mu).
+  RateOfFlow(const RateLaw& law, const T& most, const T& radial) : law_(law), most_(larger(most, T(1))), radial_(radial), B_(radial) { meet(); }
+
+  const T& R() const { return R_; }
+  /// R of the next flow, after the last has come to dp.
+  void follow(const T& dp) {
+    const T way = most_ - R_;
+    B_ = select(way > T(1e-9), smaller(larger(dp / select(way > T(1e-9), way, T(1)), T(0.1) * radial_), T(10) * radial_), B_);
+    meet();
+  }
+
+ private:
+  void meet() {
+    const YieldStress<T> level{B_, T(0), T(0)};
+    YieldStress<T> at = level;
+    const T w = log_of_flow(law_, B_ * most_, T(1), B_ * (most_ - T(1)), level, [&](const T&) { return level; }, at);
+    R_ = select(most_ > T(1), rate_factor(law_, w).value, T(1));
+  }
+
+  const RateLaw& law_;
+  T most_, radial_, B_, R_;
+};
+
+}  // namespace forming_sim
