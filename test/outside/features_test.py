@@ -118,6 +118,34 @@ class Features(SceneRun):
                 area = 0.010 * 0.002 * math.exp(strain['y'] + strain['z'])
                 self.assertAlmostEqual(abs(float(last['probe_right_reaction_force_x_N'])) / (stress * area), 1, delta=0.003)
 
+    def test_a_fast_pull_is_borne_at_the_yield_stress_of_its_rate(self):
+        """A bar whose ends part at 20 m/s while it moves evenly between; the scene may stand for a slower pull."""
+        laws = (({'law': 'cowper_symonds', 'reference_rate': 6500.0, 'exponent': 4.0}, lambda rate: 1 + (rate / 6500)**0.25),
+                ({'law': 'johnson_cook', 'reference_rate': 1.0, 'coefficient': 0.015}, lambda rate: 1 + 0.015 * math.log(rate)),
+                ({'law': 'power', 'reference_rate': 0.1, 'exponent': 0.02}, lambda rate: (10 * rate)**0.02))
+        for pattern in ('fine', 'one_point'):
+            for law, factor in laws:
+                for speed_up in (1.0, 100.0):
+                    with self.subTest(pattern=pattern, law=law['law'], speed_up=speed_up):
+                        bar = body('plate', {'hardening': {'curve': 'perfect', 'yield_stress': 150e6}, 'rate_dependence': dict(law, speed_up=speed_up)})
+                        bar['blank'].update(pattern=pattern, width=0.002, cells_along=6, cells_across=2, cells_through=2)
+                        bar['initial_velocity_field'] = ['2000*(x-0.005)', '-1000*y', '-1000*z']
+                        bar['boundaries'] = [{'set': side, 'kind': 'velocity', 'axes': ['x'], 'times': [0.0], 'velocities': [[way, 0, 0]]} for side, way in (('left', -10.0), ('right', 10.0))]
+                        self.run_scene(scene(bar, dimension=3, duration=5e-5, output={'frames': 2, 'probes': [{'name': 'middle', 'point': [0.005, 0.001, 0.001]}]}))
+                        rows = self.history()
+                        found = [float(row['probe_middle_stress_xx_Pa']) / (150e6 * factor(20 / (0.010 + 20 * float(row['time_s'])) / speed_up)) for row in rows[len(rows) // 2:]]
+                        self.assertAlmostEqual(numpy.mean(found), 1, delta=0.002)
+                        self.assertAlmostEqual(max(found), 1, delta=0.01)
+
+    def test_a_rate_dependence_says_what_it_misses(self):
+        for rate, hardening, word in (({'law': 'cowper_symonds', 'reference_rate': 40.0}, True, 'rate_dependence.exponent'),
+                                      ({'law': 'cowper_symonds', 'reference_rate': 40.0, 'exponent': 0.2}, True, 'at least 1'),
+                                      ({'law': 'power', 'reference_rate': 1.0, 'exponent': 20.0}, True, 'at most 1'),
+                                      ({'law': 'johnson_cook', 'reference_rate': 0.0, 'coefficient': 0.01}, True, 'rate_dependence.reference_rate'),
+                                      ({'law': 'johnson_cook', 'reference_rate': 1.0, 'coefficient': 0.01}, False, 'without hardening and layers')):
+            material = dict({'rate_dependence': rate}, **({'hardening': {'curve': 'perfect', 'yield_stress': 150e6}} if hardening else {}))
+            self.assertIn(word, self.refused(scene(body('strip', material))))
+
     def test_directions_that_no_section_can_follow_are_told(self):
         strip = body('strip', {'hardening': {'curve': 'perfect', 'yield_stress': 150e6}, 'anisotropy': {'r0': 0.7, 'rolling_direction': [1, 0, 1]}})
         with open(self.path('scene.yaml'), 'w') as file:
