@@ -53,6 +53,14 @@ QuadFaces quad_faces_of(RawKind kind) {
   return split_faces_of(kind == RawKind::hexahedron ? CellKind::hex24 : kind == RawKind::wedge ? CellKind::wedge14 : kind == RawKind::pyramid ? CellKind::pyramid8 : CellKind::tetrahedron);
 }
 
+/// The triangular faces of a solid cell, by their corners.
+std::vector<std::array<int, 3>> triangles_of(RawKind kind) {
+  if (kind == RawKind::tetrahedron) return {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
+  if (kind == RawKind::wedge) return {{0, 1, 2}, {3, 4, 5}};
+  if (kind == RawKind::pyramid) return {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  return {};
+}
+
 /// Of four nodes those that are not the one at `skip`, rising.
 std::array<int, 3> three_of(const std::array<int, 4>& nodes, int skip) {
   std::array<int, 3> three;
@@ -67,7 +75,7 @@ const RawCell* first_of(const RawMesh& raw, RawKind kind) {
   return found == raw.cells.end() ? nullptr : &*found;
 }
 
-// Tetrahedra know nothing of the centre that hex24, wedge14 and pyramid8 put on a shared face, and hexahedra that stay whole have none.
+// Triangular faces know nothing of the centre that hex24, wedge14 and pyramid8 put on a shared face, and hexahedra that stay whole have none.
 void check_kinds_apart(const RawMesh& raw) {
   const bool whole = raw.one_point && first_of(raw, RawKind::hexahedron);
   for (RawKind kind : {RawKind::wedge, RawKind::pyramid})
@@ -83,11 +91,13 @@ void check_kinds_apart(const RawMesh& raw) {
   }
   if (corners_of_faces.empty()) return;
   for (const RawCell& cell : raw.cells)
-    if (cell.kind == RawKind::tetrahedron)
-      for (int skip = 0; skip < 4; ++skip)
-        if (const auto face = corners_of_faces.find(three_of({cell.nodes[0], cell.nodes[1], cell.nodes[2], cell.nodes[3]}, skip)); face != corners_of_faces.end())
-          refuse(raw, "tetrahedron " + std::to_string(cell.tag) + " lies on a face with four corners of a " + face->second + ", which is " +
-                          (whole ? "not split" : "split about its centre") + "; mesh a body with one of the two kinds");
+    for (const std::array<int, 3>& corners : triangles_of(cell.kind)) {
+      std::array<int, 3> nodes{cell.nodes[corners[0]], cell.nodes[corners[1]], cell.nodes[corners[2]]};
+      std::sort(nodes.begin(), nodes.end());
+      if (const auto face = corners_of_faces.find(nodes); face != corners_of_faces.end())
+        refuse(raw, std::string(shape_of(cell.kind).name) + " " + std::to_string(cell.tag) + " lies on a face with four corners of a " + face->second + ", which is " +
+                        (whole ? "not split" : "split about its centre") + "; mesh a body with one of the two kinds" + (whole ? "" : ", or put pyramids between them"));
+    }
 }
 
 struct Split {
@@ -196,6 +206,18 @@ void check_seams(const RawMesh& raw, const Mesh& mesh) {
   refuse(raw, text.str());
 }
 
+// Cells hang together by faces.
+void check_cuts(const RawMesh& raw, const Mesh& mesh) {
+  const std::vector<CrossedCut> cuts = find_crossed_cuts(mesh);
+  if (cuts.empty()) return;
+  std::ostringstream text;
+  text << "the cells on both sides of a face with four corners cut it along different diagonals, " << (cuts.size() == 1 ? "once" : std::to_string(cuts.size()) + " times") << ": the first time with the nodes";
+  for (int n : cuts.front()) text << ' ' << raw.point_tags[n];
+  text << ", the first of which is at " << place(mesh.nodes[cuts.front()[0]]) << "; the body is torn there, since the cells share its corners but no triangle: cut both sides along the same diagonal, or do not cut hexahedra, wedges and pyramids: "
+          "they are split about the centres of their faces here";
+  refuse(raw, text.str());
+}
+
 }  // namespace
 
 const RawShape& shape_of(RawKind kind) {
@@ -222,6 +244,7 @@ Mesh assemble(RawMesh raw) {
     throw Error(error.code(), raw.source + what.substr(what.find(':')));
   }
   check_seams(raw, mesh);
+  check_cuts(raw, mesh);
   return mesh;
 }
 

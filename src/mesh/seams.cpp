@@ -64,6 +64,40 @@ std::vector<Seam> find_seams(const Mesh& mesh) {
   return seams;
 }
 
+std::vector<CrossedCut> find_crossed_cuts(const Mesh& mesh) {
+  if (mesh.dimension != 3) return {};
+  struct Side {  // of a facet, and the corner across from it
+    std::array<int, 2> nodes;
+    int across;
+    const Facet* facet;
+    bool operator<(const Side& other) const { return nodes < other.nodes; }
+  };
+  std::vector<Side> sides;
+  for (const Facet& facet : mesh.surface)
+    for (int k = 0; k < 3; ++k) {
+      const int a = facet.nodes[(k + 1) % 3], b = facet.nodes[(k + 2) % 3];
+      sides.push_back({{std::min(a, b), std::max(a, b)}, facet.nodes[k], &facet});
+    }
+  std::sort(sides.begin(), sides.end());
+  const auto along = [&](int a, int b) { return std::equal_range(sides.begin(), sides.end(), Side{{std::min(a, b), std::max(a, b)}, -1, nullptr}); };
+  const auto normal = [&](const Facet& facet) -> Vec3 {
+    const Vec3& a = mesh.nodes[facet.nodes[0]];
+    return (mesh.nodes[facet.nodes[1]] - a).cross(mesh.nodes[facet.nodes[2]] - a);
+  };
+  std::vector<CrossedCut> cuts;
+  for (auto one = sides.begin(); one != sides.end(); ++one)
+    for (auto next = one + 1; next != sides.end() && next->nodes == one->nodes; ++next) {
+      // The faces of a single tetrahedron, or of a hole in its place, meet at an edge too; those of one cut are nearly in one plane.
+      if (one->facet->element == next->facet->element || one->across == next->across || normal(*one->facet).dot(normal(*next->facet)) <= 0) continue;
+      const int a = one->nodes[0], c = one->nodes[1], b = one->across, d = next->across;
+      if (a > std::min(b, d)) continue;  // each is found by both of its diagonals
+      const auto [first, last] = along(b, d);
+      const auto has = [&](int n) { return std::any_of(first, last, [&](const Side& side) { return side.across == n && normal(*side.facet).dot(normal(*one->facet)) < 0; }); };
+      if (has(a) && has(c)) cuts.push_back({a, b, c, d});
+    }
+  return cuts;
+}
+
 int count_parts(const Mesh& mesh) {
   std::vector<int> root(mesh.nodes.size());
   std::iota(root.begin(), root.end(), 0);

@@ -328,6 +328,43 @@ TEST(MeshImportBody, CellsThatTouchAreJoined) {
   EXPECT_NO_THROW(load(tower, {0, 1, 2, 3, 4, 5, 6, 7, 4, 5, 6, 7, 8, 9, 10, 11}, "hexahedron"));
 }
 
+// Two cubes on each other, each cut into tetrahedra or wedges, along the same diagonal of the face between them and along different ones.
+TEST(MeshImportBody, CellsOnBothSidesCutAFaceAlike) {
+  std::vector<Vec3> tower = kCube;
+  for (int k = 4; k < 8; ++k) tower.push_back(kCube[k] + Vec3(0.1, 0, 1));
+  tower[6] += Vec3(0, 0, 0.1);  // not quite flat
+  const auto wedges = [](int from, bool other) {  // of the cube whose lower corners begin at `from`
+    std::vector<int> cells;
+    for (int k : other ? std::vector<int>{1, 2, 3, 1, 3, 0} : std::vector<int>{0, 1, 2, 0, 2, 3}) cells.push_back(from + k);
+    std::vector<int> both;
+    for (int w = 0; w < 2; ++w)
+      for (int above : {0, 4})
+        for (int k = 0; k < 3; ++k) both.push_back(cells[3 * w + k] + above);
+    return both;
+  };
+  const auto tetrahedra = [&](int from, bool other) {
+    std::vector<int> cells;
+    const std::vector<int> of = wedges(from, other);
+    for (int w = 0; w < 2; ++w)
+      for (int k : {0, 1, 2, 3, 1, 2, 3, 4, 2, 3, 4, 5}) cells.push_back(of[6 * w + k]);
+    for (std::size_t t = 0; t < cells.size(); t += 4)
+      if ((tower[cells[t + 1]] - tower[cells[t]]).cross(tower[cells[t + 2]] - tower[cells[t]]).dot(tower[cells[t + 3]] - tower[cells[t]]) < 0) std::swap(cells[t], cells[t + 1]);
+    return cells;
+  };
+  const auto load = [&](const char* kind, std::vector<int> low, const std::vector<int>& high) {
+    low.insert(low.end(), high.begin(), high.end());
+    return load_body_mesh(given(kind, tower, low), "");
+  };
+  for (bool other : {false, true}) {
+    EXPECT_NO_THROW(load("wedge", wedges(0, other), wedges(4, other)));
+    EXPECT_NO_THROW(load("tetrahedron", tetrahedra(0, other), tetrahedra(4, other)));
+    for (const std::string& text : {error_of([&] { load("wedge", wedges(0, other), wedges(4, !other)); }), error_of([&] { load("tetrahedron", tetrahedra(0, other), tetrahedra(4, !other)); })}) {
+      EXPECT_TRUE(has(text, "cut it along different diagonals, once: the first time with the nodes 4 ")) << text;
+      EXPECT_TRUE(has(text, "(0, 0, 1)")) << text;
+    }
+  }
+}
+
 TEST(MeshImportBody, InlineNonsenseIsRefusedByItsField) {
   const auto refused = [](const MeshConfig& c) { return error_of([&] { load_body_mesh(c, ""); }); };
   EXPECT_TRUE(has(refused(given("", kCube, {0, 1, 2, 3})), "mesh.cell_type: given \"\""));

@@ -1,5 +1,6 @@
 #pragma once
 // Where the cells of one body lie against each other without being joined.
+#include <array>
 #include <vector>
 
 #include "forming_sim/mesh/mesh.h"
@@ -15,6 +16,11 @@ struct Seam {
 
 /// All nodes that lie within 1e-8 of its longest edge of a facet, one seam a node, in rising order of the nodes.
 std::vector<Seam> find_seams(const Mesh& mesh);
+
+/// Four nodes between which the cells on one side have two triangles along the diagonal 0-2, and those on the other two along 1-3:
+/// they hang together at these corners alone.
+using CrossedCut = std::array<int, 4>;
+std::vector<CrossedCut> find_crossed_cuts(const Mesh& mesh);
 
 /// Parts of a mesh that share no node.
 int count_parts(const Mesh& mesh);
