@@ -134,11 +134,11 @@ template <class T, int D> [[gnu::noinline]] void solve_return_at_rate(const Hill
   const auto yields = flow.q2 * f * f > at.value * at.value * T(1 + 2 * kOnTheSurface);
   const T trial = select(yields, f * sqrt(larger(flow.q2, T(1e-300))), at.value), per = select(yields, flow.k / (T(2) * s), T(1));
   const YieldStress<T> start = at;
-  const T cap = log_of_share((trial / at.value - T(1)) * T(1 / h.least));
+  LogSearch<T> search{T(-800), log_of_share((trial / at.value - T(1)) * T(1 / h.least))};
   T q2, falls;
-  find_squares(h, exp(cap), flow.y, q2, falls);
-  T q = sqrt(larger(q2, T(1e-300))), w = smaller(cap, log_strain_of(hardening.rate, trial / at.value) - log_of_share(per * q)), z;
-  for (int round = 0; round < 60; ++round) {
+  find_squares(h, exp(search.high), flow.y, q2, falls);
+  T q = sqrt(larger(q2, T(1e-300))), w = smaller(search.high, log_strain_of(hardening.rate, trial / at.value) - log_of_share(per * q)), z;
+  for (int round = 0; round < 100; ++round) {
     z = exp(w);
     find_squares(h, z, flow.y, q2, falls);
     q2 = larger(q2, T(1e-300));
@@ -151,7 +151,7 @@ template <class T, int D> [[gnu::noinline]] void solve_return_at_rate(const Hill
     const auto off = yields & (absolute(value) > T(kOnTheSurface) * trial);
     if (!any(off)) break;
     const T slope = z * f * falls / q + (at.slope * dp + there.value * R.slope) * (T(1) - z * falls / q2);
-    w = select(off, smaller(w + value / select(yields, slope, T(1)), cap), w);
+    w = select(off, search.next(w, value, select(yields, slope, T(1))), w);
   }
   flow.z = select(yields, z, T(0));
   flow.dg = flow.z * q / (T(2) * s);

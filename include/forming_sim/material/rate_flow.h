@@ -2,7 +2,7 @@
 // Flow whose rate raises the yield stress (material/rate.h), in a step that is given: how much is found together with its own rate.
 //
 // In w = ln dp what has to be solved falls and is concave: Newton's iteration comes down on its root from above, however steep
-// R rises from where nothing flows.
+// R rises from where nothing flows. Where a table of hardening bends up it is not, and a bracket keeps the iteration.
 #include "forming_sim/material/hardening.h"
 
 namespace forming_sim {
@@ -10,13 +10,26 @@ namespace forming_sim {
 /// Distance of q from the yield stress, relative to q, below which a flow is found.
 constexpr double kFoundFlow = 1e-13;
 
+/// Newton's iteration on a root of what falls, in w, between what is known to lie below it and above it: a table's kinks can throw it out.
+template <class T> struct LogSearch {
+  T low, high;  ///< of w
+
+  /// From w on, where it is `value` and falls by `falls` per w.
+  T next(const T& w, const T& value, const T& falls) {
+    low = select(value > T(0), w, low);
+    high = select(value < T(0), w, high);
+    const T newton = w + value / falls, middle = T(0.5) * (low + high);
+    return select((newton > high) | (newton < low), middle, newton);
+  }
+};
+
 /// Solves q - per dp = sigma_s(p + dp) R(dp/dt) for w = ln dp. start: sigma_s at p; at(dp): at p + dp; most: nothing more flows, at any rate.
 /// What is not above its start flows by nothing that counts. yield: sigma_s R at the root, and its slope as if R stayed what it is there.
 template <class T, class At> T log_of_flow(const RateLaw& law, const T& q, const T& per, const T& most, const YieldStress<T>& start, const At& at, YieldStress<T>& yield) {
   const auto flows = q > start.value * T(1 + 2 * kFoundFlow);
-  const T cap = log_of_share(q / per);
+  LogSearch<T> search{T(-800), log_of_share(q / per)};
   T w = smaller(log_of_share(most), log_strain_of(law, larger(q / start.value, T(1))));
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 100; ++i) {
     const T dp = exp(w);
     const YieldStress<T> there = at(dp);
     const RateFactor<T> R = rate_factor(law, w);
@@ -24,7 +37,7 @@ template <class T, class At> T log_of_flow(const RateLaw& law, const T& q, const
     const T value = q - per * dp - yield.value;
     const auto off = flows & (absolute(value) > T(kFoundFlow) * q);
     if (!any(off)) break;
-    w = select(off, smaller(w + value / ((per + yield.slope) * dp + there.value * R.slope), cap), w);
+    w = select(off, search.next(w, value, (per + yield.slope) * dp + there.value * R.slope), w);
   }
   return w;
 }
