@@ -92,8 +92,10 @@ std::vector<double> Elements::plastic_strain() const {
 void Elements::observe_blocks(const Group& g, long first_block, long last_block, const NodalView& view, double* stress, double* ratio, double* energy) const {
   const auto observe = g.at_edges ? kernels_.edge.observe : g.nodal() ? kernels_.nodal.observe : kernels_.observe;
   const long lanes = static_cast<long>(g.cell_simplices) * kLanes;
+  CellGroup cells = g;
+  set_step(cells.solid, view.last_dt);
   team_->share(last_block - first_block, blocks_of_a_thread(g), [&](long first, long last) {
-    observe(g, view, static_cast<int>(first_block + first), static_cast<int>(first_block + last), stress ? stress + first * lanes * 6 : nullptr,
+    observe(cells, view, static_cast<int>(first_block + first), static_cast<int>(first_block + last), stress ? stress + first * lanes * 6 : nullptr,
             ratio ? ratio + first * lanes : nullptr, energy + first);
   });
 }
@@ -121,8 +123,8 @@ double Elements::stored_energy(const NodalView& view, const BodyModel* of) const
   return sum;
 }
 
-ElementFields Elements::observe(const NodeField& x) const {
-  const NodalView view{x.data()->data(), nullptr, nullptr, pressure_.data(), 0, 0};
+ElementFields Elements::observe(const NodeField& x, double since) const {
+  const NodalView view{x.data()->data(), nullptr, nullptr, pressure_.data(), 0, since};
   observe_pressure(view);
   ElementFields fields;
   fields.stress.resize(simplices_.size());
@@ -155,16 +157,16 @@ ElementFields Elements::observe(const NodeField& x) const {
   return fields;
 }
 
-std::vector<Sym> Elements::stress_of(const std::vector<int>& elements, const NodeField& x) const {
+std::vector<Sym> Elements::stress_of(const std::vector<int>& elements, const NodeField& x, double since) const {
   std::vector<Sym> stress(elements.size());
   if (elements.empty()) return stress;
   // With pressures in the nodes an element has a share in those of its neighbours; and where an element in a block is asked for, all are found.
   if (any_nodal_ || elements.size() * kLanes >= simplices_.size()) {
-    const std::vector<Sym> all = observe(x).stress;
+    const std::vector<Sym> all = observe(x, since).stress;
     std::transform(elements.begin(), elements.end(), stress.begin(), [&](int e) { return all[e]; });
     return stress;
   }
-  const NodalView view{x.data()->data(), nullptr, nullptr, nullptr, 0, 0};
+  const NodalView view{x.data()->data(), nullptr, nullptr, nullptr, 0, since};
   std::vector<Lane> S, ratio;
   const Group* group = nullptr;
   int block = -1;

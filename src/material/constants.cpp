@@ -30,7 +30,7 @@ double lowest_of(const HardeningCurve& h) {
 
 RateLaw rate_of(const RateDependenceConfig& config) {
   RateLaw rate;
-  rate.log_reference = std::log(config.reference_rate * config.speed_up);
+  rate.log_reference = std::log(config.reference_rate) + std::log(config.speed_up);
   if (config.law == "cowper_symonds") {
     rate.kind = RateLaw::cowper_symonds;
     rate.sensitivity = 1 / config.exponent;

@@ -156,9 +156,9 @@ FormedMemory Simulation::memory_of(const BodyModel& body) const {
   return memory;
 }
 std::vector<double> Simulation::plastic_strain() const { return impl_->elements.plastic_strain(); }
-std::vector<Sym> Simulation::stress(const std::vector<int>& elements) const { return impl_->elements.stress_of(elements, impl_->x); }
+std::vector<Sym> Simulation::stress(const std::vector<int>& elements) const { return impl_->elements.stress_of(elements, impl_->x, impl_->previous_dt); }
 std::vector<int> Simulation::pressed_cells() const { return impl_->elements.pressed_cells(impl_->x); }
-ElementFields Simulation::element_fields() const { return impl_->elements.observe(impl_->x); }
+ElementFields Simulation::element_fields() const { return impl_->elements.observe(impl_->x, impl_->previous_dt); }
 std::vector<Sym> Simulation::stress() const { return element_fields().stress; }
 std::vector<double> Simulation::volume_ratio() const { return element_fields().volume_ratio; }
 

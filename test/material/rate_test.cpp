@@ -129,8 +129,8 @@ TEST(Rate, HardeningIsRaisedWithTheYieldStress) {
   }
 }
 
-// A table that is level and then steep: the flow of a long step ends behind the bend, where what has to be solved is no longer concave.
-TEST(Rate, ATableMayBendUp) {
+// A table that is level, steep and level again: the flow of a long step ends anywhere about the bends, where what has to be solved is not concave.
+TEST(Rate, ATableMayBend) {
   for (const char* law : kRateLaws)
     for (bool hill : {false, true})
       for (double bend = 0.001; bend < 0.2; bend *= 1.1) {

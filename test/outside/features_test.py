@@ -142,7 +142,7 @@ class Features(SceneRun):
                                       ({'law': 'cowper_symonds', 'reference_rate': 40.0, 'exponent': 0.2}, True, 'at least 1'),
                                       ({'law': 'power', 'reference_rate': 1.0, 'exponent': 20.0}, True, 'at most 1'),
                                       ({'law': 'johnson_cook', 'reference_rate': 0.0, 'coefficient': 0.01}, True, 'rate_dependence.reference_rate'),
-                                      ({'law': 'johnson_cook', 'reference_rate': 1.0, 'coefficient': 0.01}, False, 'without hardening and layers')):
+                                      ({'law': 'johnson_cook', 'reference_rate': 1.0, 'coefficient': 0.01}, False, 'without hardening')):
             material = dict({'rate_dependence': rate}, **({'hardening': {'curve': 'perfect', 'yield_stress': 150e6}} if hardening else {}))
             self.assertIn(word, self.refused(scene(body('strip', material))))
 

@@ -68,7 +68,7 @@ struct NodalView {
   const double* inertia = nullptr;    ///< [node] of rings: equal shares of the mass over the node's own, read in the time step only
   const double* pressure = nullptr;   ///< [node] nodal pressure, read only in PressureMode::node
   double last_kick = 0;               ///< s, in which the forces of the last pass acted, for the viscous work
-  double last_dt = 0;                 ///< s, in which v led to x, for Law::classical
+  double last_dt = 0;                 ///< s, in which v led to x, for Law::classical and plastic rates
 };
 
 /// What bounds the step of the cells of one block (element/time_step.h).

@@ -105,9 +105,10 @@ class Elements {
   double plastic_work() const;   ///< dissipated so far, J
   double viscous_work() const;   ///< dissipated so far by bulk viscosity, J
   std::vector<double> plastic_strain() const;
-  ElementFields observe(const NodeField& x) const;
+  /// since: the nodes have come to x in this time, s, since the forces were last found: what the rate of flow there is taken of.
+  ElementFields observe(const NodeField& x, double since = 0) const;
   /// Of these elements alone, in their order.
-  std::vector<Sym> stress_of(const std::vector<int>& elements, const NodeField& x) const;
+  std::vector<Sym> stress_of(const std::vector<int>& elements, const NodeField& x, double since = 0) const;
   /// J. v, since: the nodes have come here with these velocities in this time, s, since the memory was kept, for Law::classical;
   /// without them its stresses are those of the memory.
   double stored_energy(const NodeField& x, const NodeField* v = nullptr, double since = 0) const;

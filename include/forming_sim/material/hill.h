@@ -134,7 +134,7 @@ template <class T, int D> [[gnu::noinline]] void solve_return_at_rate(const Hill
   const auto yields = flow.q2 * f * f > at.value * at.value * T(1 + 2 * kOnTheSurface);
   const T trial = select(yields, f * sqrt(larger(flow.q2, T(1e-300))), at.value), per = select(yields, flow.k / (T(2) * s), T(1));
   const YieldStress<T> start = at;
-  LogSearch<T> search{T(-800), log_of_share((trial / at.value - T(1)) * T(1 / h.least))};
+  LogSearch<T> search{T(kFarBelow), log_of_share((trial / at.value - T(1)) * T(1 / h.least))};
   T q2, falls;
   find_squares(h, exp(search.high), flow.y, q2, falls);
   T q = sqrt(larger(q2, T(1e-300))), w = smaller(search.high, log_strain_of(hardening.rate, trial / at.value) - log_of_share(per * q)), z;

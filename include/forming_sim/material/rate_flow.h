@@ -2,7 +2,7 @@
 // Flow whose rate raises the yield stress (material/rate.h), in a step that is given: how much is found together with its own rate.
 //
 // In w = ln dp what has to be solved falls and is concave: Newton's iteration comes down on its root from above, however steep
-// R rises from where nothing flows. Where a table of hardening bends up it is not, and a bracket keeps the iteration.
+// R rises from where nothing flows. Where a curve levels off at once, as tables may, it is not concave, and a bracket keeps the iteration.
 #include "forming_sim/material/hardening.h"
 
 namespace forming_sim {
@@ -10,16 +10,23 @@ namespace forming_sim {
 /// Distance of q from the yield stress, relative to q, below which a flow is found.
 constexpr double kFoundFlow = 1e-13;
 
-/// Newton's iteration on a root of what falls, in w, between what is known to lie below it and above it: a table's kinks can throw it out.
+/// Below every w that is asked for.
+constexpr double kFarBelow = -800;
+
+/// Newton's iteration on a root of what falls, in w, between what is known to lie below it and above it; halfway between them where it leaves them
+/// or gets on too slowly, as about the kink of a table.
 template <class T> struct LogSearch {
-  T low, high;  ///< of w
+  T low, high;       ///< of w
+  T last = T(1e300); ///< |value| before
 
   /// From w on, where it is `value` and falls by `falls` per w.
   T next(const T& w, const T& value, const T& falls) {
     low = select(value > T(0), w, low);
     high = select(value < T(0), w, high);
-    const T newton = w + value / falls, middle = T(0.5) * (low + high);
-    return select((newton > high) | (newton < low), middle, newton);
+    const T newton = w + value / falls, middle = T(0.5) * (low + high), off = absolute(value);
+    const auto slow = (off > T(0.5) * last) & (low > T(kFarBelow));
+    last = off;
+    return select((newton > high) | (newton < low) | slow, middle, newton);
   }
 };
 
@@ -27,7 +34,7 @@ template <class T> struct LogSearch {
 /// What is not above its start flows by nothing that counts. yield: sigma_s R at the root, and its slope as if R stayed what it is there.
 template <class T, class At> T log_of_flow(const RateLaw& law, const T& q, const T& per, const T& most, const YieldStress<T>& start, const At& at, YieldStress<T>& yield) {
   const auto flows = q > start.value * T(1 + 2 * kFoundFlow);
-  LogSearch<T> search{T(-800), log_of_share(q / per)};
+  LogSearch<T> search{T(kFarBelow), log_of_share(q / per)};
   T w = smaller(log_of_share(most), log_strain_of(law, larger(q / start.value, T(1))));
   for (int i = 0; i < 100; ++i) {
     const T dp = exp(w);
