@@ -9,6 +9,17 @@
 
 namespace forming_sim {
 
+namespace {
+
+/// Whether the stage is the last that forms.
+bool ends_forming(const Simulation& simulation, int stage) {
+  const std::vector<StageConfig>& stages = simulation.plan().stages;
+  const auto forms = [](const StageConfig& s) { return s.kind == "form"; };
+  return forms(stages[stage]) && std::none_of(stages.begin() + stage + 1, stages.end(), forms);
+}
+
+}  // namespace
+
 void Recorder::on_start(const Simulation& simulation) {
   schedule_.start(simulation.time());
   if (record_.surface_strain.element < 0) look(simulation);  // not again after a resume
@@ -27,6 +38,7 @@ void Recorder::on_stage_end(const Simulation& simulation, int index) {
   ended.kinetic_over_internal_peak = record_.kinetic_peak.at_end(energies.elastic + energies.plastic);
   tell_inertia(simulation, stage);
   tell_sharp_bends(simulation, index);
+  tell_great_strain(simulation, index);
   record_.kinetic_peak.levels.clear();
   record_.stages.push_back(ended);
   if (stage.kind != "form") return;
@@ -56,9 +68,7 @@ void Recorder::tell_inertia(const Simulation& simulation, const StageConfig& sta
 
 void Recorder::tell_sharp_bends(const Simulation& simulation, int stage) {
   constexpr double kSharp = 15;  // degrees; a bend of 8 to 11 a cell springs back by a tenth too little or too much, of 23 by a factor (docs/elements.md)
-  const std::vector<StageConfig>& stages = simulation.plan().stages;
-  const auto forms = [](const StageConfig& s) { return s.kind == "form"; };
-  if (!forms(stages[stage]) || std::any_of(stages.begin() + stage + 1, stages.end(), forms)) return;
+  if (!ends_forming(simulation, stage)) return;
   const Model& model = simulation.model();
   for (const BodyModel& body : model.bodies) {
     const SharpBend bend = sharpest_bend(body, simulation.positions());
@@ -66,6 +76,14 @@ void Recorder::tell_sharp_bends(const Simulation& simulation, int stage) {
       record_.notes.push_back("body " + body.name + " is bent by up to " + three_digits(bend.degrees) + " degrees from one cell to the next, at " + place(bend.place) +
                               " when forming ends: cells that follow a bend in steps of 10 degrees and less (docs/elements.md) give its force and its springback, longer ones neither");
   }
+}
+
+void Recorder::tell_great_strain(const Simulation& simulation, int stage) {
+  constexpr double kGreat = 3;
+  const Peak& strain = gauge_.at(simulation).plastic_strain;
+  if (!ends_forming(simulation, stage) || !(strain.value > kGreat)) return;
+  record_.notes.push_back("the plastic strain is up to " + three_digits(strain.value) + ", at " + place(strain.position) +
+                          ", when forming ends: nothing parts here and nothing is meshed anew, so that where a tool cuts through metal its force and the shape about it are not those of metal. In bulk that is pressed from all sides such strains are real, and ask for small cells");
 }
 
 void Recorder::on_end(const Simulation& simulation, Code code, const std::string&) {

@@ -80,10 +80,11 @@ void note_long_cells(const BodyConfig& config, Model& model) {
                           number_text(blank.thickness) + " m; give both in metres, or more cells_along");
 }
 
-/// The wall of a tube, say: its thickness is what lies between the sets bottom and top.
+/// The wall of a tube, say: its thickness is what lies between the sets bottom and top. A solid bar about the axis has no wall.
 void note_standing_strip(const BodyConfig& config, Model& model) {
   constexpr double kStands = 2;  // times as thick as long
   if (!config.blank || config.blank->shape != "strip" || !(config.blank->thickness > kStands * config.blank->length)) return;
+  if (model.axisymmetric && config.blank->origin.x() == 0) return;
   model.notes.push_back("body " + config.name + " is a strip " + three_digits(config.blank->thickness / config.blank->length) +
                         " times as thick as it is long: thickness and thinning of the results are those of its larger side, between its sets bottom and top, and not of the wall between left and right");
 }

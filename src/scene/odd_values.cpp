@@ -97,18 +97,23 @@ void tell_late(const Scene& scene, double end, std::vector<std::string>& notes) 
 
 void tell_odd_friction(const Scene& scene, std::vector<std::string>& notes) {
   constexpr double kMost = 1;
-  const auto tell = [&](double friction, const std::string& whose) {
-    if (friction > kMost) notes.push_back("friction " + whose + " is " + number_text(friction) + ": metals in forming have .02 to .6; give a part of the normal force, not percent");
+  const auto tell = [&](double friction, const std::string& whose, bool limited = false) {
+    if (friction > kMost && !limited) notes.push_back("friction " + whose + " is " + number_text(friction) + ": metals in forming have .02 to .6; give a part of the normal force, not percent");
   };
-  for (const ToolConfig& tool : scene.tools) tell(tool.friction, "of tool " + tool.name);
-  tell(scene.contact.friction, "of bodies against each other");
-  for (const PairConfig& pair : scene.contact.pairs) tell(pair.friction, "of the pair " + pair.first + ", " + pair.second);
+  for (const ToolConfig& tool : scene.tools) tell(tool.friction, "of tool " + tool.name, tool.friction_limit > 0);
+  tell(scene.contact.friction, "of bodies against each other", scene.contact.friction_limit > 0);
+  for (const PairConfig& pair : scene.contact.pairs) tell(pair.friction, "of the pair " + pair.first + ", " + pair.second, pair.friction_limit > 0);
 }
 
 void tell_odd_centres(const Scene& scene, std::vector<std::string>& notes) {
   for (const ToolConfig& tool : scene.tools) {
-    if (!tool.motion || !tool.motion->centre.isZero(0) || tool.position.isZero(0)) continue;
-    if (greatest(tool.motion->spins_deg_s) == 0 && greatest(tool.motion->rotations_deg) == 0) continue;
+    if (!tool.motion) continue;
+    const Vec3& centre = tool.motion->centre;
+    const bool spins = greatest(tool.motion->spins_deg_s) != 0;
+    if (spins && !centre.isZero(0) && tool.position.isZero(0))
+      notes.push_back("tool " + tool.name + " turns about " + given_text(centre) + ", and its position, [0, 0, 0], goes round with it: the moments that are written are about that. For the torque of a roll draw it about [0, 0, 0] and give its centre as position too");
+    if (!centre.isZero(0) || tool.position.isZero(0)) continue;
+    if (!spins && greatest(tool.motion->rotations_deg) == 0) continue;
     notes.push_back("tool " + tool.name + " turns about [0, 0, 0], since motion.centre is not given, and its position is " + given_text(tool.position) + ": a roll that turns about itself has that as its centre");
   }
 }

@@ -55,6 +55,8 @@ A rolled sheet yields by the direction: `anisotropy` takes its r values (Hill's 
 which turn with the sheet as it is formed. The hardening curve is that of tension along the rolling direction. In a section both directions
 lie in the plane or along z.
 
+Metal does not part here, however far it is strained: to blank or to pierce a sheet, cut its cells away between two operations (`trim`).
+
 A fast flow raises the yield stress with `rate_dependence`: after Cowper and Symonds, Johnson and Cook, or a power of the plastic strain rate. A scene whose tools
 move faster than in the press, to take fewer steps, says how many times with `speed_up`.
 

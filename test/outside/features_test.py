@@ -137,6 +137,15 @@ class Features(SceneRun):
                         self.assertAlmostEqual(numpy.mean(found), 1, delta=0.002)
                         self.assertAlmostEqual(max(found), 1, delta=0.01)
 
+    def test_strains_at_which_metal_parts_are_told(self):
+        for squeezed, told in ((0.6, False), (0.945, True)):
+            block = body('strip', {'hardening': {'curve': 'perfect', 'yield_stress': 100e6}})
+            block['blank'].update(length=0.001, thickness=0.001, cells_along=2)
+            block['boundaries'] = [{'set': name, 'kind': 'symmetric', 'normal': normal} for name, normal in (('left', [1, 0, 0]), ('bottom', [0, 1, 0]))]
+            block['boundaries'].append({'set': 'top', 'kind': 'velocity', 'axes': ['y'], 'times': [0.0], 'velocities': [[0, -10, 0]]})
+            warnings = self.run_scene(scene(block, duration=1e-4 * squeezed))['warnings']
+            self.assertEqual(any('nothing parts here' in each for each in warnings), told, warnings)
+
     def test_a_rate_dependence_says_what_it_misses(self):
         for rate, hardening, word in (({'law': 'cowper_symonds', 'reference_rate': 40.0}, True, 'rate_dependence.exponent'),
                                       ({'law': 'cowper_symonds', 'reference_rate': 40.0, 'exponent': 0.2}, True, 'at least 1'),

@@ -157,6 +157,14 @@ TEST(OddScene, OddValuesAreTold) {
   };
   told("tool " + plate_scene().tools[0].name + " turns about [0, 0, 0], since motion.centre is not given", roll(Vec3::Zero()));
   EXPECT_TRUE(notes_of(roll(Vec3(0, 0, -1e-3))).empty());
+  told("turns about [0, 0, -0.001], and its position, [0, 0, 0], goes round with it", [&](Scene& s) {
+    roll(Vec3(0, 0, -1e-3))(s);
+    s.tools[0].position = Vec3::Zero();
+  });
+  EXPECT_TRUE(notes_of([](Scene& s) {  // a friction factor alone
+    s.tools[0].friction = s.contact.friction = 10;
+    s.tools[0].friction_limit = s.contact.friction_limit = 50e6;
+  }).empty());
   const auto driven = [](double speed, double until) {
     BoundaryConfig drive;
     drive.set = "left";
@@ -239,10 +247,11 @@ TEST(OddScene, ABodyInTwoPartsIsTold) {
 
 // A length in millimetres, and a wall that stands.
 TEST(OddScene, StripsOfOddShapesAreTold) {
-  const auto told = [](double length, double thickness) {
+  const auto told = [](double length, double thickness, bool about_axis = false) {
     Scene scene = plate_scene();
     scene.tools.clear();
     scene.dimension = 2;
+    scene.axisymmetric = about_axis;
     BlankConfig& blank = *scene.bodies[0].blank;
     blank.shape = "strip";
     blank.length = length, blank.thickness = thickness;
@@ -253,6 +262,7 @@ TEST(OddScene, StripsOfOddShapesAreTold) {
   EXPECT_EQ(told(.04, .001), "");
   EXPECT_NE(told(9, .001).find("cells of body plate are 450 times as long as they are high: its length is 9 m"), std::string::npos) << told(9, .001);
   EXPECT_NE(told(.001, .06).find("is a strip 60 times as thick as it is long: thickness and thinning"), std::string::npos) << told(.001, .06);
+  EXPECT_EQ(told(.001, .06, true), "") << "a solid bar";
 }
 
 TEST(OddScene, SpringbackNeedsTwoNodes) {

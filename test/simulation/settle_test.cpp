@@ -168,6 +168,16 @@ TEST(Settle, ThatTheLimitCutsOffWhileALoadRisesSaysSo) {
   EXPECT_NE(cut.message.find("still changed"), std::string::npos) << cut.message;
   run.plan.stages[0].ends = "limit";
   EXPECT_EQ(run.start()->run(never).code, Code::success);
+  // One that takes its time before others is no failure; what it leaves is told.
+  run = loaded(0, 1e-6, 2e-6);
+  run.plan.stages[0].ends = "limit";
+  run.plan.stages[0].name = "hold";
+  run.plan.stages.push_back(settle(1e-2));
+  auto sim = run.start();
+  const Outcome after = sim->run(never);
+  EXPECT_EQ(after.code, Code::success) << after.message;
+  ASSERT_EQ(sim->warnings().size(), 1u);
+  EXPECT_EQ(sim->warnings()[0].find("settle stage hold reached its limit"), 0u) << sim->warnings()[0];
 }
 
 TEST(Settle, ThatMovesOnIsToldToEndIt) {

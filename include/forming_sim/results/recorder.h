@@ -21,6 +21,7 @@ class Recorder : public Observer {
   void look(const Simulation& simulation);
   void tell_inertia(const Simulation& simulation, const StageConfig& stage);  ///< of the stage that ends
   void tell_sharp_bends(const Simulation& simulation, int stage);             ///< when the last of the form stages ends
+  void tell_great_strain(const Simulation& simulation, int stage);
   const OutputConfig output_;
   Schedule schedule_;
   Gauge& gauge_;
