@@ -105,20 +105,34 @@ void rest_costs(std::vector<Row>& rows) {
   rows.push_back(just("a body at rest, hex24", "forces, of those of one that moves", waits / moves, clock.seconds()));
 }
 
-/// Forces of a body with r values, over those of the same without, all of which yields.
-void anisotropy_costs(std::vector<Row>& rows) {
+/// Forces of a body of this material, over those of plain aluminium, all of which yields.
+void law_costs(const std::string& what, const MaterialConfig& special, std::vector<Row>& rows) {
   for (CellKind kind : {CellKind::crossed, CellKind::hex24, CellKind::hex1}) {
     const Clock clock;
-    MaterialConfig rolled = aluminium(true);
-    rolled.anisotropy.emplace();
-    rolled.anisotropy->r0 = 0.7, rolled.anisotropy->r45 = 0.6, rolled.anisotropy->r90 = 0.8;
     std::vector<TimedBody> bodies;
-    for (const MaterialConfig& material : {rolled, aluminium(true)}) bodies.emplace_back(kind, kind == CellKind::crossed ? 32 : kind == CellKind::hex24 ? 5 : 10, material, 0.02);
+    for (const MaterialConfig& material : {special, aluminium(true)}) bodies.emplace_back(kind, kind == CellKind::crossed ? 32 : kind == CellKind::hex24 ? 5 : 10, material, 0.02);
     const std::vector<std::vector<double>> ns = alternate(bodies, 30);
-    const std::string name = std::string("r values, ") + shape_of(kind).name;
+    const std::string name = what + ", " + shape_of(kind).name;
     rows.push_back(just(name, "forces, ns an element", *std::min_element(ns[0].begin(), ns[0].end()), clock.seconds()));
     rows.push_back(just(name, "forces, of those without", median_ratio(ns[0], ns[1]), clock.seconds()));
   }
+}
+
+MaterialConfig with_r_values() {
+  MaterialConfig rolled = aluminium(true);
+  rolled.anisotropy.emplace();
+  rolled.anisotropy->r0 = 0.7, rolled.anisotropy->r45 = 0.6, rolled.anisotropy->r90 = 0.8;
+  return rolled;
+}
+
+MaterialConfig raised_by_rate(const std::string& law) {
+  MaterialConfig raised = aluminium(true);
+  raised.rate_dependence.emplace();
+  raised.rate_dependence->law = law;
+  raised.rate_dependence->reference_rate = law == "cowper_symonds" ? 6500 : 1;
+  raised.rate_dependence->exponent = 4;
+  raised.rate_dependence->coefficient = 0.015;
+  return raised;
 }
 
 /// Bytes a second of a sum over an array that no cache holds.
@@ -150,7 +164,8 @@ std::vector<Row> costs(const Request&) {
   }
   file_costs(rows);
   rest_costs(rows);
-  anisotropy_costs(rows);
+  law_costs("r values", with_r_values(), rows);
+  for (const char* law : {"cowper_symonds", "johnson_cook"}) law_costs(law, raised_by_rate(law), rows);
   layer_costs(rows);
   contact_costs(rows);
   return rows;

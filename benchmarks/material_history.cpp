@@ -79,7 +79,8 @@ class Driver {
     const int n = std::max(by_time_ ? kStepsInTime : 1, static_cast<int>(std::ceil(way / kLargestStep - 1e-9)));
     if (by_time_) {
       const double time = table_.rows[row][columns_.time];
-      point_.set_step((time - (row > 0 ? table_.rows[row - 1][columns_.time] : std::min(0.0, time))) / n);
+      if (row == 0 && time < 0) throw std::runtime_error(table_.place(0, columns_.time) + ": given " + csv_number(time) + "; right is 0 or more: the first row is reached from time 0");
+      point_.set_step((time - (row > 0 ? table_.rows[row - 1][columns_.time] : 0)) / n);
     }
     const Mat3 from = given_;
     const int every = 1 + n / 200;

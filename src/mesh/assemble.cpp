@@ -54,10 +54,14 @@ QuadFaces quad_faces_of(RawKind kind) {
 }
 
 /// The triangular faces of a solid cell, by their corners.
-std::vector<std::array<int, 3>> triangles_of(RawKind kind) {
-  if (kind == RawKind::tetrahedron) return {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
-  if (kind == RawKind::wedge) return {{0, 1, 2}, {3, 4, 5}};
-  if (kind == RawKind::pyramid) return {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+struct Triangles {
+  int count = 0;
+  int corners[4][3] = {};
+};
+constexpr Triangles triangles_of(RawKind kind) {
+  if (kind == RawKind::tetrahedron) return {4, {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}};
+  if (kind == RawKind::wedge) return {2, {{0, 1, 2}, {3, 4, 5}}};
+  if (kind == RawKind::pyramid) return {4, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}};
   return {};
 }
 
@@ -90,14 +94,17 @@ void check_kinds_apart(const RawMesh& raw) {
       for (int skip = 0; skip < 4; ++skip) corners_of_faces.emplace(three_of(face_of(cell.nodes, faces.corners[f]), skip), shape_of(cell.kind).name);
   }
   if (corners_of_faces.empty()) return;
-  for (const RawCell& cell : raw.cells)
-    for (const std::array<int, 3>& corners : triangles_of(cell.kind)) {
+  for (const RawCell& cell : raw.cells) {
+    const Triangles triangles = triangles_of(cell.kind);
+    for (int t = 0; t < triangles.count; ++t) {
+      const int* corners = triangles.corners[t];
       std::array<int, 3> nodes{cell.nodes[corners[0]], cell.nodes[corners[1]], cell.nodes[corners[2]]};
       std::sort(nodes.begin(), nodes.end());
       if (const auto face = corners_of_faces.find(nodes); face != corners_of_faces.end())
         refuse(raw, std::string(shape_of(cell.kind).name) + " " + std::to_string(cell.tag) + " lies on a face with four corners of a " + face->second + ", which is " +
                         (whole ? "not split" : "split about its centre") + "; mesh a body with one of the two kinds" + (whole ? "" : ", or put pyramids between them"));
     }
+  }
 }
 
 struct Split {
@@ -191,16 +198,17 @@ void lay_sets(const RawMesh& raw, const Centres& centres, Mesh& mesh) {
   }
 }
 
+std::string name_of(const RawMesh& raw, int node) { return node < static_cast<int>(raw.point_tags.size()) ? std::to_string(raw.point_tags[node]) : "(the middle of a cell's side)"; }
+
 // A body is whole: its cells are joined wherever they touch.
 void check_seams(const RawMesh& raw, const Mesh& mesh) {
   const std::vector<Seam> seams = find_seams(mesh);
   if (seams.empty()) return;
-  const auto name = [&](int n) { return n < static_cast<int>(raw.point_tags.size()) ? std::to_string(raw.point_tags[n]) : std::string("(the middle of a cell's side)"); };
   const Seam& first = seams.front();
   std::ostringstream text;
-  text << "cells touch without being joined, at " << seams.size() << (seams.size() == 1 ? " node" : " nodes") << " of the surface: the first is node " << name(first.node) << " at "
+  text << "cells touch without being joined, at " << seams.size() << (seams.size() == 1 ? " node" : " nodes") << " of the surface: the first is node " << name_of(raw, first.node) << " at "
        << place(mesh.nodes[first.node]) << ", which lies on the side of another cell with the nodes";
-  for (int k = 0; k < mesh.dimension; ++k) text << ' ' << name(first.facet.nodes[k]);
+  for (int k = 0; k < mesh.dimension; ++k) text << ' ' << name_of(raw, first.facet.nodes[k]);
   text << "; the body is torn there, and its parts would pass through each other: merge doubled nodes (Coherence Mesh in gmsh), "
           "mesh parts that meet with the same nodes, or give them as bodies of their own, tied or sliding";
   refuse(raw, text.str());
@@ -212,7 +220,7 @@ void check_cuts(const RawMesh& raw, const Mesh& mesh) {
   if (cuts.empty()) return;
   std::ostringstream text;
   text << "the cells on both sides of a face with four corners cut it along different diagonals, " << (cuts.size() == 1 ? "once" : std::to_string(cuts.size()) + " times") << ": the first time with the nodes";
-  for (int n : cuts.front()) text << ' ' << raw.point_tags[n];
+  for (int n : cuts.front()) text << ' ' << name_of(raw, n);
   text << ", the first of which is at " << place(mesh.nodes[cuts.front()[0]]) << "; the body is torn there, since the cells share its corners but no triangle: cut both sides along the same diagonal, or do not cut hexahedra, wedges and pyramids: "
           "they are split about the centres of their faces here";
   refuse(raw, text.str());

@@ -107,7 +107,7 @@ void check_rate(const MaterialConfig& material, const std::string& path, FaultLi
   const std::string here = path + ".rate_dependence";
   if (!yields(material)) faults.add(here, "rate_dependence without hardening", "give hardening, or layers that have one: it is the yield stress that depends on the rate");
   const RateDependenceConfig& rate = *material.rate_dependence;
-  if (rate.law == "cowper_symonds" && rate.exponent < 1) faults.add(here + ".exponent", given_text(rate.exponent), "give P of 1 + (r/D)^(1/P), at least 1");
+  if (rate.law == "cowper_symonds" && rate.exponent > 0 && rate.exponent < 1) faults.add(here + ".exponent", given_text(rate.exponent), "give P of 1 + (r/D)^(1/P), at least 1");
   if (rate.law == "power" && rate.exponent > 1) faults.add(here + ".exponent", given_text(rate.exponent), "give m of (r/r0)^m, at most 1");
 }
 

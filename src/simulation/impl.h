@@ -72,7 +72,7 @@ struct Simulation::Impl {
   double first_element_dt = 0;  ///< stable step of the limiting element at the start, s
   double farthest = 0;          ///< coordinate of a node at the start, m
   Settle settle;                    ///< of the running stage
-  std::string unsettled;            ///< why the last settle stage that ran into its limit did; empty: none has
+  std::string unsettled;            ///< why the last settle stage that was to rest and ran into its limit did; empty: none has
   Ways ways, tool_ways;             ///< of the bodies and of the tools in the running settle stage
   bool rests = false;               ///< a settling body has come to rest
   double wall = 0, observed = 0;  ///< s

@@ -104,7 +104,7 @@ std::string Simulation::Impl::what_moves() const {
 
 std::string Simulation::Impl::why_unsettled() const {
   std::ostringstream text;
-  text << "settle stage " << stages.stage().title() << " reached its limit ";
+  text << "stage " << stages.stage().title() << " reached its limit ";
   if (settle.restless() > settle.quiet()) {
     text << "before the bodies rested: at its end the kinetic energy of the one farthest from rest, and what the forces out of balance could still set free in it, were " << settle.restless()
          << " J, and should stay below stages[].kinetic_fraction of its elastic energy, " << settle.quiet() << " J; ";

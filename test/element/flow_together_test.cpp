@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "forming_sim/element/one_point.h"
@@ -15,7 +16,7 @@ namespace {
 struct Cell {
   static constexpr int size = 6;
   CurveTables curves;
-  SolidConstants solid = solid_constants(aluminium(true), curves);
+  SolidConstants solid;
   std::vector<double> constants;
   Edges<double, 3, false> e;
   HourglassStrain<double, 3> strain;
@@ -23,8 +24,16 @@ struct Cell {
   double J = 0.999, memory[size + 1] = {}, hourglass[kHourglassItems<3>] = {};
   double limit = 0, left = 0;
 
-  /// bent: strain that varies, over that of first yield.
-  Cell(unsigned seed, double bent) {
+  /// bent: strain that varies, over that of first yield; law: of rate_dependence, in a step of 1 us.
+  Cell(unsigned seed, double bent, const char* law = nullptr) {
+    MaterialConfig material = aluminium(true);
+    if (law) {
+      material.rate_dependence.emplace();
+      material.rate_dependence->law = law;
+      material.rate_dependence->reference_rate = 40, material.rate_dependence->exponent = 5, material.rate_dependence->coefficient = 0.02;
+    }
+    solid = solid_constants(material, curves);
+    set_step(solid, 1e-6);
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> even(-1, 1);
     Vec3 corners[8];
@@ -43,6 +52,12 @@ struct Cell {
     point.dissipation = 1e3;
     point.kept = 0.9;
     point.yield = yield_stress(solid.layer[0].hardening, 0.0);
+    point.dp = seed % 3 == 0 ? 0 : 1e-4;
+    if (law && point.dp > 0) {
+      const double R = rate_factor(solid.layer[0].hardening.rate, std::log(point.dp)).value;
+      point.yield = {R * point.yield.value, R * point.yield.slope, 0};
+      for (int i = 0; i < size; ++i) point.S[i] *= R;
+    }
     for (int d = 0; d < 3; ++d) strain.plane[d] = {bent * first * even(random), bent * first * even(random), bent * first * even(random)};
     const Symmetric<double, 3> G = metric_of<3, false>(e.up, 1.0);
     for (int i = 0; i < size; ++i) memory[i] = G[i] * (1 + 0.001 * even(random));
@@ -71,8 +86,8 @@ struct Cell {
 };
 
 /// Those of `half` flow in a twin beside the other.
-std::vector<double> beside(unsigned seed, double bent, unsigned other_seed, double other_bent, int half) {
-  Cell own(seed, bent), other(other_seed, other_bent);
+std::vector<double> beside(unsigned seed, double bent, unsigned other_seed, double other_bent, int half, const char* law = nullptr) {
+  Cell own(seed, bent, law), other(other_seed, other_bent, law);
   FlowTogether<Twin<double>, 3, false> flow{};
   own.put(flow, half);
   other.put(flow, 1 - half);
@@ -84,14 +99,15 @@ std::vector<double> beside(unsigned seed, double bent, unsigned other_seed, doub
 }
 
 TEST(FlowTogether, ACellBesideAnotherFlowsAsItDoesAlone) {
-  for (unsigned seed = 1; seed < 40; ++seed) {
-    const double bent = 0.5 * seed;  // also so far outside that it returns near the surface first
-    const std::vector<double> alone = Cell(seed, bent).alone().all();
-    EXPECT_NE(alone, Cell(seed, bent).all()) << seed << ": it flows";
-    for (int half : {0, 1})
-      for (double other : {0.0, 1.0, 20.0})  // one that does not flow, one that does, one that is far outside
-        EXPECT_EQ(beside(seed, bent, seed + 100, other, half), alone) << "seed " << seed << ", half " << half << ", beside " << other;
-  }
+  for (const char* law : {static_cast<const char*>(nullptr), "cowper_symonds", "johnson_cook"})
+    for (unsigned seed = 1; seed < 40; ++seed) {
+      const double bent = 1 + 0.5 * seed;  // also so far outside that it returns near the surface first
+      const std::vector<double> alone = Cell(seed, bent, law).alone().all();
+      EXPECT_NE(alone, Cell(seed, bent, law).all()) << seed << ": it flows";
+      for (int half : {0, 1})
+        for (double other : {0.0, 1.0, 20.0})  // one that does not flow, one that does, one that is far outside
+          EXPECT_EQ(beside(seed, bent, seed + 100, other, half, law), alone) << "seed " << seed << ", half " << half << ", beside " << other << (law ? law : "");
+    }
 }
 
 TEST(FlowTogether, ACellThatDoesNotFlowKeepsItsMemoryBesideOneThatDoes) {

@@ -122,9 +122,20 @@ TEST(RateOfElements, ABentOnePointCellBearsThePlasticMomentOfItsRate) {
             if (body.X[n][0] > 1) moment -= body.f[n][0] * (body.X[n][t] - 0.5);
           return std::abs(moment);
         };
+        MaterialConfig rolled = perfectly_plastic(), layered = perfectly_plastic();
+        rolled.anisotropy.emplace();
+        rolled.anisotropy->r0 = rolled.anisotropy->r45 = rolled.anisotropy->r90 = 1;
+        rolled.anisotropy->sheet_normal = Vec3::Unit(t);
+        layered.layers.resize(2);
+        layered.layers[0].weight = 0.4, layered.layers[1].weight = 0.6;
+        for (LayerConfig& layer : layered.layers) layer.hardening = layered.hardening;
+        layered.layers[0].hardening->yield_stress *= 0.6;
+        layered.hardening.reset();
         const double r = 2 / std::sqrt(3.) * (0.05 / 400 / dt) / 4;
         const double R = *law == 'c' ? 1 + std::pow(r / 40, 0.2) : r < 40 ? 1 : *law == 'j' ? 1 + 0.02 * std::log(r / 40) : std::pow(r / 40, 0.05);
-        EXPECT_NEAR(moment_of(at_rates(perfectly_plastic(), law)) / moment_of(perfectly_plastic()), R, 3e-3 * R) << shape_of(kind).name << ", " << law << ", " << dt;
+        for (const MaterialConfig& material : {perfectly_plastic(), rolled, layered})
+          EXPECT_NEAR(moment_of(at_rates(material, law)) / moment_of(material), R, 3e-3 * R)
+              << shape_of(kind).name << ", " << law << ", " << dt << (material.anisotropy ? ", r values" : material.hardening ? "" : ", two layers");
       }
 }
 

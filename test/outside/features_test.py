@@ -154,6 +154,8 @@ class Features(SceneRun):
                                       ({'law': 'johnson_cook', 'reference_rate': 1.0, 'coefficient': 0.01}, False, 'without hardening')):
             material = dict({'rate_dependence': rate}, **({'hardening': {'curve': 'perfect', 'yield_stress': 150e6}} if hardening else {}))
             self.assertIn(word, self.refused(scene(body('strip', material))))
+        for field, value in (('rate_dependence', {'law': 'johnson_cook', 'reference_rate': 1.0, 'coefficient': 0.01}), ('anisotropy', {'r0': 0.7})):
+            self.assertIn(field + ' without hardening', self.refused(scene(body('strip', {field: value, 'layers': [{'weight': 1.0}]}))))
 
     def test_directions_that_no_section_can_follow_are_told(self):
         strip = body('strip', {'hardening': {'curve': 'perfect', 'yield_stress': 150e6}, 'anisotropy': {'r0': 0.7, 'rolling_direction': [1, 0, 1]}})

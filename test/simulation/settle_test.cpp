@@ -177,7 +177,7 @@ TEST(Settle, ThatTheLimitCutsOffWhileALoadRisesSaysSo) {
   const Outcome after = sim->run(never);
   EXPECT_EQ(after.code, Code::success) << after.message;
   ASSERT_EQ(sim->warnings().size(), 1u);
-  EXPECT_EQ(sim->warnings()[0].find("settle stage hold reached its limit"), 0u) << sim->warnings()[0];
+  EXPECT_EQ(sim->warnings()[0].find("stage hold reached its limit"), 0u) << sim->warnings()[0];
 }
 
 TEST(Settle, ThatMovesOnIsToldToEndIt) {

@@ -11,10 +11,10 @@ namespace forming_sim {
 
 template <class T> class RateOfFlow {
  public:
-  static constexpr int kFlows = 3;  ///< in the last of them R is found
+  static constexpr int kFlows = 3;  ///< the last goes by the R that two have led to; a bent cell then bears its moment to 3e-3 (rate_elements_test)
 
-  /// radial: sigma_s/(3 mu).
-  RateOfFlow(const RateLaw& law, const T& most, const T& radial) : law_(law), most_(larger(most, T(1))), radial_(radial), B_(radial) { meet(); }
+  /// most: R_most, at least 1; radial: sigma_s/(3 mu).
+  RateOfFlow(const RateLaw& law, const T& most, const T& radial) : law_(law), most_(most), radial_(radial), B_(radial) { meet(); }
 
   const T& R() const { return R_; }
   /// R of the next flow, after the last has come to dp.

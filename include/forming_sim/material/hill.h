@@ -130,7 +130,7 @@ template <class T, int D> void find_squares(const HillModes& h, const T& z, cons
 
 /// As below where the rate raises the yield stress: f q(z) = sigma_s(p + dp) R(dp/dt), dp = k z q(z)/(2s), by Newton's iteration in ln z
 /// as in material/rate_flow.h, from the least z of which it is known that it is too large.
-template <class T, int D> [[gnu::noinline]] void solve_return_at_rate(const HillModes& h, const HardeningCurve& hardening, const T& f, const T& s, YieldStress<T>& at, HillFlow<T, D>& flow) {
+template <class T, int D> [[gnu::noinline, gnu::flatten]] void solve_return_at_rate(const HillModes& h, const HardeningCurve& hardening, const T& f, const T& s, YieldStress<T>& at, HillFlow<T, D>& flow) {
   const auto yields = flow.q2 * f * f > at.value * at.value * T(1 + 2 * kOnTheSurface);
   const T trial = select(yields, f * sqrt(larger(flow.q2, T(1e-300))), at.value), per = select(yields, flow.k / (T(2) * s), T(1));
   const YieldStress<T> start = at;
@@ -145,7 +145,7 @@ template <class T, int D> [[gnu::noinline]] void solve_return_at_rate(const Hill
     q = sqrt(q2);
     const T dp = per * z * q;
     const YieldStress<T> there = yield_stress_beyond(hardening, flow.p, start, select(yields, dp, T(0)));
-    const RateFactor<T> R = rate_factor(hardening.rate, log_of_share(dp));
+    const RateFactor<T> R = rate_factor(hardening.rate, w + log_of_share(per * q));
     at = {R.value * there.value, R.value * there.slope, T(0)};
     const T value = f * q - at.value;
     const auto off = yields & (absolute(value) > T(kOnTheSurface) * trial);
@@ -153,6 +153,8 @@ template <class T, int D> [[gnu::noinline]] void solve_return_at_rate(const Hill
     const T slope = z * f * falls / q + (at.slope * dp + there.value * R.slope) * (T(1) - z * falls / q2);
     w = select(off, search.next(w, value, select(yields, slope, T(1))), w);
   }
+  at.value = select(yields, at.value, start.value);
+  at.slope = select(yields, at.slope, start.slope);
   flow.z = select(yields, z, T(0));
   flow.dg = flow.z * q / (T(2) * s);
 }

@@ -2,7 +2,7 @@
 // Flow whose rate raises the yield stress (material/rate.h), in a step that is given: how much is found together with its own rate.
 //
 // In w = ln dp what has to be solved falls and is concave: Newton's iteration comes down on its root from above, however steep
-// R rises from where nothing flows. Where a curve levels off at once, as tables may, it is not concave, and a bracket keeps the iteration.
+// R rises from where nothing flows. Where a curve levels off fast, as tables may, it is not concave, and a bracket keeps the iteration.
 #include "forming_sim/material/hardening.h"
 
 namespace forming_sim {
@@ -10,8 +10,8 @@ namespace forming_sim {
 /// Distance of q from the yield stress, relative to q, below which a flow is found.
 constexpr double kFoundFlow = 1e-13;
 
-/// Below every w that is asked for.
-constexpr double kFarBelow = -800;
+/// e^w is nothing from here on; a first guess may lie below, where it is the root already.
+constexpr double kFarBelow = -700;
 
 /// Newton's iteration on a root of what falls, in w, between what is known to lie below it and above it; halfway between them where it leaves them
 /// or gets on too slowly, as about the kink of a table.
@@ -30,7 +30,7 @@ template <class T> struct LogSearch {
   }
 };
 
-/// Solves q - per dp = sigma_s(p + dp) R(dp/dt) for w = ln dp. start: sigma_s at p; at(dp): at p + dp; most: nothing more flows, at any rate.
+/// Solves q - per dp = sigma_s(p + dp) R(dp/dt) for w = ln dp. start: sigma_s at p; at(dp): at p + dp; most: about what flows without a rate; the search begins there or below.
 /// What is not above its start flows by nothing that counts. yield: sigma_s R at the root, and its slope as if R stayed what it is there.
 template <class T, class At> T log_of_flow(const RateLaw& law, const T& q, const T& per, const T& most, const YieldStress<T>& start, const At& at, YieldStress<T>& yield) {
   const auto flows = q > start.value * T(1 + 2 * kFoundFlow);

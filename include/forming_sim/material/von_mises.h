@@ -49,8 +49,8 @@ template <class T> T first_correction(const T& q, const T& k, const YieldStress<
   return smaller(first * (T(1) - T(0.5) * k * k * at.bend * first * over_slope), T(1));
 }
 
-/// Where the rate raises it, (1-u) q = sigma_s(p + u k) R(u k/dt); u: more than that, and at: as below, times R.
-template <class T> [[gnu::noinline]] T correction_at_rate(const HardeningCurve& h, const T& q, const T& p, const T& k, const T& u, YieldStress<T>& at) {
+/// Where the rate raises it, (1-u) q = sigma_s(p + u k) R(u k/dt); u: about its value without a rate; at: as below, times R.
+template <class T> [[gnu::noinline, gnu::flatten]] T correction_at_rate(const HardeningCurve& h, const T& q, const T& p, const T& k, const T& u, YieldStress<T>& at) {
   const YieldStress<T> start = at;
   const T safe_k = larger(k, T(1e-300));
   const T w = log_of_flow(h.rate, q, q / safe_k, u * k, start, [&](const T& dp) { return yield_stress_beyond(h, p, start, dp); }, at);
@@ -165,11 +165,12 @@ PointResponse<T, D> update_layer(const HardeningCurve& hardening, const T& facto
     r.yield = yield_stress(hardening, p);
     r.knows_yield = true;
     if (any(yields(trial, factor, r.yield))) {
-      const Correction<T> c = correct(hardening, factor, find_flow(trial, factor, r.yield), J, p, r.yield);
+      const Flow<T> flow = find_flow(trial, factor, r.yield);
+      const Correction<T> c = correct(hardening, factor, flow, J, p, r.yield);
       r.kept = T(1) - c.u;
       r.dissipation = c.dissipation;
       r.yield = c.yield;
-      r.dp = c.p - p;
+      r.dp = c.u * flow.k;
       p = c.p;
     }
   }

@@ -18,7 +18,7 @@ struct Seam {
 std::vector<Seam> find_seams(const Mesh& mesh);
 
 /// Four nodes between which the cells on one side have two triangles along the diagonal 0-2, and those on the other two along 1-3:
-/// they hang together at these corners alone.
+/// they hang together at these corners alone. (A body in the shape of a flat tetrahedron that is cut into several cells counts as one.)
 using CrossedCut = std::array<int, 4>;
 std::vector<CrossedCut> find_crossed_cuts(const Mesh& mesh);
 
