@@ -177,13 +177,10 @@ TEST(OnePoint, ABentCellReachesThePlasticMoment) {
     const bool flat = kind == CellKind::quad1;
     const int t = flat ? 1 : 2;
     Moved body(cell_of(kind, flat ? Vec3(2, 1, 0) : Vec3(2, 1.5, 1)), perfectly_plastic());
-    for (int step = 1; step <= 400; ++step) {
-      const double k = 0.05 * step / 400;
-      body.place([&](const Vec3& X) { return Vec3(X + (X.x() - 1) * (X[t] - 0.5) * -k * Vec3::UnitX()); });
-      body.forces();
-    }
+    double carried = 0;
+    for (int step = 1; step <= 400; ++step) carried = body.bend(0.05 * step / 400, t) / (flat ? 1 : 1.5);
     const double exact = 2 / std::sqrt(3.) * 192.1e6 / 4;
-    EXPECT_NEAR(moment(body, t, 0.5, flat ? 1 : 1.5), exact, 0.01 * exact);
+    EXPECT_NEAR(carried, exact, 0.01 * exact);
   }
 }
 

@@ -21,6 +21,15 @@ struct Moved {
     elements.forces(x, v, dt, 0, f);
     return f;
   }
+  /// Bends a body between x = 0 and 2, whose height along axis t is 1, to the curvature k; the moment that the forces at its end bear, N m.
+  double bend(double k, int t) {
+    place([&](const Vec3& at) { return Vec3(at + (at.x() - 1) * (at[t] - 0.5) * -k * Vec3::UnitX()); });
+    forces();
+    double moment = 0;
+    for (std::size_t n = 0; n < X.size(); ++n)
+      if (X[n][0] > 1) moment += f[n][0] * (X[n][t] - 0.5);
+    return moment;
+  }
   double energy() const { return elements.stored_energy(x); }
   /// Goes to at(1 / steps), at(2 / steps), ..., at(1), positions of the nodes; the work that is done against its forces, J.
   double work_along(int steps, const std::function<NodeField(double)>& at) {
