@@ -79,7 +79,8 @@ HardeningCurve curve_of(const HardeningConfig& h, CurveTables& tables) {
 }  // namespace
 
 void set_step(SolidConstants& solid, double dt) {
-  for (int k = 0; k < solid.layers; ++k) solid.layer[k].hardening.rate.log_step = log_of_share(dt);
+  const double log_step = log_of_share(dt);
+  for (int k = 0; k < solid.layers; ++k) solid.layer[k].hardening.rate.log_step = log_step;
 }
 
 SolidConstants solid_constants(const MaterialConfig& config, CurveTables& tables) {
