@@ -97,7 +97,7 @@ void tell_late(const Scene& scene, double end, std::vector<std::string>& notes) 
 
 void tell_odd_friction(const Scene& scene, std::vector<std::string>& notes) {
   constexpr double kMost = 1;
-  const auto tell = [&](double friction, const std::string& whose, bool limited = false) {
+  const auto tell = [&](double friction, const std::string& whose, bool limited) {
     if (friction > kMost && !limited) notes.push_back("friction " + whose + " is " + number_text(friction) + ": metals in forming have .02 to .6; give a part of the normal force, not percent");
   };
   for (const ToolConfig& tool : scene.tools) tell(tool.friction, "of tool " + tool.name, tool.friction_limit > 0);

@@ -20,6 +20,9 @@ template <class T> struct YieldStress {
   T value, slope, bend;
 };
 
+/// Relative distance of q from sigma_s below which a point is on the yield surface: what stands still there keeps its memory.
+constexpr double kOnTheSurface = 1e-13;
+
 /// That of a table: on the last line that starts at or below p, from the one on which the least p of the lanes lies.
 template <class T> YieldStress<T> table_stress(const HardeningCurve& h, const T& p) {
   const auto rise = [&](int i) { return i + 1 < h.points ? (h.stress[i + 1] - h.stress[i]) / (h.strain[i + 1] - h.strain[i]) : 0; };

@@ -7,9 +7,6 @@
 
 namespace forming_sim {
 
-/// Distance of q from the yield stress, relative to q, below which a flow is found.
-constexpr double kFoundFlow = 1e-13;
-
 /// e^w is nothing from here on; a first guess may lie below, where it is the root already.
 constexpr double kFarBelow = -700;
 
@@ -33,7 +30,7 @@ template <class T> struct LogSearch {
 /// Solves q - per dp = sigma_s(p + dp) R(dp/dt) for w = ln dp. start: sigma_s at p; at(dp): at p + dp; most: about what flows without a rate; the search begins there or below.
 /// What is not above its start flows by nothing that counts. yield: sigma_s R at the root, and its slope as if R stayed what it is there.
 template <class T, class At> T log_of_flow(const RateLaw& law, const T& q, const T& per, const T& most, const YieldStress<T>& start, const At& at, YieldStress<T>& yield) {
-  const auto flows = q > start.value * T(1 + 2 * kFoundFlow);
+  const auto flows = q > start.value * T(1 + 2 * kOnTheSurface);
   LogSearch<T> search{T(kFarBelow), log_of_share(q / per)};
   T w = smaller(log_of_share(most), log_strain_of(law, larger(q / start.value, T(1))));
   for (int i = 0; i < 100; ++i) {
@@ -42,7 +39,7 @@ template <class T, class At> T log_of_flow(const RateLaw& law, const T& q, const
     const RateFactor<T> R = rate_factor(law, w);
     yield = {R.value * there.value, R.value * there.slope, T(0)};
     const T value = q - per * dp - yield.value;
-    const auto off = flows & (absolute(value) > T(kFoundFlow) * q);
+    const auto off = flows & (absolute(value) > T(kOnTheSurface) * q);
     if (!any(off)) break;
     w = select(off, search.next(w, value, (per + yield.slope) * dp + there.value * R.slope), w);
   }

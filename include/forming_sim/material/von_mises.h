@@ -40,9 +40,6 @@ template <int D> constexpr int kLayerItems = Symmetric<double, D>::size + 1;
 /// Whether a law stores what a step did to its memory.
 enum class Keep { yes, no };
 
-/// Relative distance of q from sigma_s below which a point is on the yield surface: what stands still there keeps its memory.
-constexpr double kOnTheSurface = 1e-13;
-
 /// u = 1 - a of (1-u) q = sigma_s(p + u k), where the parabola at u = 0 has its root to second order; at: sigma_s at p.
 template <class T> T first_correction(const T& q, const T& k, const YieldStress<T>& at) {
   const T over_slope = T(1) / (q + k * at.slope), first = (q - at.value) * over_slope;
