@@ -83,7 +83,8 @@ void file_costs(std::vector<Row>& rows) {
     Elements engine({body}, 3, X, ElementOptions(), 1);
     return 1e9 * time_of_forces(engine, X, x) / static_cast<double>(engine.simplices().size());
   };
-  const double of_file = time_of(body_of(load_body_mesh(config, scratch.path()), aluminium(true), free.average)), of_block = time_of(block(free, made.cells[0].count()));
+  std::vector<std::string> nothing_odd;
+  const double of_file = time_of(body_of(load_body_mesh(config, scratch.path(), nothing_odd), aluminium(true), free.average)), of_block = time_of(block(free, made.cells[0].count()));
   const std::string name = std::to_string(made.cells[0].count()) + " tetrahedra of a file by gmsh";
   rows.push_back(just(name, "forces, ns an element", of_file, clock.seconds()));
   rows.push_back(just(name, "forces, of those of a block in order", of_file / of_block, clock.seconds()));

@@ -43,6 +43,8 @@ def main():
         rows.append((f"peak force on {tool['name']}", "(" + ", ".join(number(f) for f in force) + f") {newton}"))
         if tool["peak_radial_force"] is not None:
             rows.append((f"peak radial force on {tool['name']}", number(tool["peak_radial_force"]) + " N outward, summed around the circle"))
+        if tool["turned_deg"] is not None:
+            rows.append((f"{tool['name']} turned", number(tool["turned_deg"]) + " deg about its axle"))
         if tool["stopped_s"] is not None:
             rows.append((f"{tool['name']} stopped", f"at {number(tool['stopped_s'], 1e3)} ms, under its stop_force"))
     spring = s.get("springback") or {}

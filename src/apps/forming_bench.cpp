@@ -49,7 +49,7 @@ int usage(std::FILE* to) {
                "           bending, cook, taylor, cube, sphere, torsion, impact, flange, flange-time, slivers, layers,\n"
                "           release, or all of these (some minutes); writes DIR/speed-error.csv and a plot of each problem too\n"
                "  stability [CASE ...]  hard cases and what must hold in them: incompressible, large-strain, shapes,\n"
-               "           steps, spin, impact, sudden, or all of these; and ten-million-steps\n"
+               "           steps, spin, impact, swings, sudden, or all of these; and ten-million-steps\n"
                "Prints a table; with --output also DIR/COMMAND.json, and the figures of a command as CSV and PNG.\n");
   return to == stdout ? 0 : 2;
 }

@@ -14,6 +14,10 @@ int main(int argc, char** argv) {
       return 0;
     }
   ros::init(argc, argv, "forming_server", ros::init_options::NoSigintHandler);
+  if (argc > 1) {  // what ROS did not take
+    std::fprintf(stderr, "forming_server: the argument %s does not exist; see forming_server --help\n", argv[1]);
+    return 64;
+  }
   forming_sim::catch_stop_signals();
   if (!forming_sim::wait_for_master("forming_server")) return 1;
   try {

@@ -118,7 +118,7 @@ void Contact::Impl::follow_steady_motion(double dt, const NodeField& x, const No
   for (const ContactPair& pair : near.pairs) {
     if (!rubs(pair)) continue;
     const int tool = pair.tool(features.bodies);
-    const bool by_tool = tool >= 0 && motion[tool].inverse_mass == 0;
+    const bool by_tool = tool >= 0 && !motion[tool].goes_freely();
     double speed_before = 0, speed = 0;
     if (by_tool) {
       Node foot = Node::Zero();

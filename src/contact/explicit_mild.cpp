@@ -75,7 +75,7 @@ double stable_step(const PowerLaw& law, const Workspace& work, const LargeArray<
 void Contact::Impl::advance_explicit(double time, double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at) {
   tools_at(dt, motion);
   predict(dt, v_star);
-  const double tool_way = step_way(x), predicted = both * fastest(v_star) * dt + tool_way;
+  const double tool_way = step_way(x, dt), predicted = both * fastest(v_star) * dt + tool_way;
   const double reach = layer + predicted;  // also those that come into the layer in this step
   const auto check = [&](double way) {
     if (way <= both * features.mean_edge + tool_way) return;

@@ -83,7 +83,7 @@ void Contact::Impl::put_back(ContactPair pair) {
 void Contact::Impl::advance_geometric(double dt, NodeField& x, NodeField& v, NodeField& v_star, const Predict& predict, const Move& move, const ToolsAt& tools_at) {
   tools_at(dt, motion);
   predict(dt, v_star);
-  const double tool_way = step_way(x), predicted = both * fastest(v_star) * dt + tool_way;
+  const double tool_way = step_way(x, dt), predicted = both * fastest(v_star) * dt + tool_way;
   const double deepest = layer + 2 * predicted;
   near = Narrow();
   ensure_list(x, deepest, 2 * predicted);

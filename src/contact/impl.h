@@ -77,7 +77,7 @@ struct Contact::Impl {
   ContactStep step;
   std::vector<ToolMotion> motion;
   std::vector<PlanePose> planes;
-  std::vector<DrivenTool> driven;
+  std::vector<DrivenTool> driven;  ///< one for each freedom
   /// Pairs that are booked together, by one thread.
   struct Chunk {
     ContactStep step;
@@ -98,7 +98,7 @@ struct Contact::Impl {
   // search.cpp
   double fastest(const NodeField& v) const;
   /// Largest way in the step of any point of the present tools that go as they are told, m.
-  double step_way(const NodeField& x) const;
+  double step_way(const NodeField& x, double dt) const;
   /// Throws Error(contact_error) where a body vertex, or this reach, is farther than numbers go.
   void check_reach(const NodeField& x, double radius) const;
   /// A list that holds every pair of features nearer than `reach`.
@@ -150,9 +150,20 @@ struct Contact::Impl {
   void put_back(ContactPair pair);
 
   // driven.cpp
-  /// Those of the present tools that forces drive, and what is of each in the step that has been gathered.
-  void find_driven_tools(double dt);
+  /// The freedoms of the present tools, and what is of each in the step that has been gathered.
+  void find_driven_tools();
   void gather_driven(DrivenTool& tool) const;
+  /// The largest of the tools' ways, each the sum over its freedoms.
+  template <class Way> double farthest_driven(Way&& way) const {
+    double most = 0, sum = 0;
+    int of = -1;
+    for (const DrivenTool& tool : driven) {
+      sum = (tool.tool == of ? sum : 0) + way(tool);
+      of = tool.tool;
+      most = std::max(most, sum);
+    }
+    return most;
+  }
 
   // implicit.cpp
   /// Books the pairs of a step that was taken, lets their layers grow, keeps their records.

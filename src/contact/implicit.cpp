@@ -194,11 +194,11 @@ void Contact::Impl::advance_implicit(double time, double dt, double full_dt, Nod
     predict(dt, v_star);
     work.kick = previous_dt > 0 ? 0.5 * (previous_dt + dt) : dt;
     clock.begins();
-    find_driven_tools(dt);
+    find_driven_tools();
     // How far a driven tool goes is known afterwards: what its force alone would do to a light one is far more than what it does while that lies on something.
-    const double predicted = both * fastest(v_star) * dt, told_way = step_way(x);
+    const double predicted = both * fastest(v_star) * dt, told_way = step_way(x, dt);
     double first_way = told_way;
-    for (const DrivenTool& tool : driven) first_way = std::max(first_way, std::abs(motion[tool.tool].last_speed) * dt);
+    first_way += farthest_driven([&](const DrivenTool& tool) { return tool.way(tool.last_speed, dt); });
     double bound = 2 * (predicted + first_way);
     tools.place_planes(motion, planes);
     SweepResult swept;
@@ -232,7 +232,7 @@ void Contact::Impl::advance_implicit(double time, double dt, double full_dt, Nod
         }
         for (int i = 0; i < work.body_entries; ++i) most = std::max(most, dot3(work.v[i], work.v[i]));
       }
-      for (const DrivenTool& tool : driven) tool_way = std::max(tool_way, std::abs(tool.speed + tool.push) * dt);
+      tool_way += farthest_driven([&](const DrivenTool& tool) { return tool.way(tool.speed + tool.push, dt); });
       way = std::max(bound / 2, std::max(predicted, both * std::sqrt(most) * dt) + tool_way);
       if (way <= bound) break;
       bound = 1.5 * way;
@@ -242,7 +242,7 @@ void Contact::Impl::advance_implicit(double time, double dt, double full_dt, Nod
     clock.ends(&ContactTimes::check);
     if (swept.open && touch < 0) {
       step.settled = swept.settled;
-      for (const DrivenTool& tool : driven) step.tool_push[tool.tool] = tool.push;
+      for (const DrivenTool& tool : driven) step.tool_push[tool.tool][tool.freedom] = tool.push;
       moved_by(way);
       break;
     }

@@ -48,12 +48,19 @@ double Contact::Impl::farthest(const NodeField& x, From&& from, To&& to) const {
   return most;
 }
 
-double Contact::Impl::step_way(const NodeField& x) const {
+double Contact::Impl::step_way(const NodeField& x, double dt) const {
+  // Velocity of a point of a tool that nothing presses on, in what it is free to do.
+  const auto freely = [](const ToolMotion& m, const Vec3& at) {
+    Vec3 sum = Vec3::Zero();
+    for (const ToolFreedom& f : m.freedom)
+      if (f.inverse_mass > 0) sum += f.speed * f.along(at);
+    return sum;
+  };
   bool rests = true;
   for (const ToolMotion& m : motion) rests = rests && m.position0 == m.position1 && m.rotation0 == m.rotation1;
   if (rests) return 0;
   return farthest(x, [&](size_t t, const Vec3& p) { return pose0(motion[t], p); },
-             [&](size_t t, const Vec3& p) { return motion[t].inverse_mass > 0 ? pose0(motion[t], p) : pose1(motion[t], p); });
+             [&](size_t t, const Vec3& p) -> Vec3 { return pose1(motion[t], p) - dt * freely(motion[t], pose0(motion[t], p)); });
 }
 
 // Squares and cubes of lengths must stay numbers.
@@ -108,7 +115,7 @@ void Contact::Impl::ensure_list(const NodeField& x, double reach, double step_bo
 void Contact::Impl::link_ties() {
   tie_pairs.clear();
   std::vector<bool> told;  // of the entries of tools
-  for (std::size_t i = work.body_entries; i < work.vertex.size(); ++i) told.push_back(work.vertex[i] < 0 || motion[features.vertex_surface[work.vertex[i]] - features.bodies].inverse_mass == 0);
+  for (std::size_t i = work.body_entries; i < work.vertex.size(); ++i) told.push_back(work.vertex[i] < 0 || motion[features.vertex_surface[work.vertex[i]] - features.bodies].is_told());
   feet = list.planes.size();
   std::vector<TiePair> given_up;
   parted.resize(ties.size(), 0);
@@ -117,7 +124,7 @@ void Contact::Impl::link_ties() {
     prepare_tie(work, tie);
     if (tie.to_tool) {
       ++feet;
-      told[tie.node[1] - work.body_entries] = motion[tie.tool].inverse_mass == 0;
+      told[tie.node[1] - work.body_entries] = motion[tie.tool].is_told();
     }
     (parted[entry.tie] ? given_up : tie_pairs).push_back(tie);
   }
@@ -173,7 +180,7 @@ void Contact::Impl::gather(const NodeField& x, const NodeField& v, const NodeFie
     const Vec3 now = pose0(m, p);
     work.x[entry] = node(now);
     work.v[entry] = node((pose1(m, p) - now) / dt);
-    work.stands[entry] = m.inverse_mass == 0 && work.v[entry] == Node::Zero();
+    work.stands[entry] = m.is_told() && work.v[entry] == Node::Zero();
     work.before[entry] = previous_dt > 0 ? node((now - pose0(previous_motion[tool], p)) / previous_dt) : work.v[entry];
   };
   const size_t last = work.vertex.size() - feet;

@@ -271,6 +271,7 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
   NodeField place;
   tools.place_all(f, at_start, place);
   std::vector<bool> told(setup.tools.size(), false);
+  std::vector<std::string> laid_on;
   tools.touching.assign(setup.tools.size(), false);
   for (size_t t = 0; t < setup.tools.size(); ++t) {
     if (!at_start[t].present) continue;
@@ -290,11 +291,7 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
       told[t] = true;
     }
     tools.touching[t] = touches;
-    if (touches && !close) {
-      std::ostringstream text;
-      text << "tool " << setup.tools[t].name << " touches a body at the start: it was backed off by the contact layer, " << layer << " m along its normals";
-      warnings.push_back(text.str());
-    }
+    if (touches && !close) laid_on.push_back("tool " + setup.tools[t].name);
     if (!close || told[t]) continue;
     const Node shift = start.back_off(gaps);
     if (shift.isZero(0) || shift.norm() > 8 * layer) continue;  // no way out: left as it is, the check below decides
@@ -303,6 +300,13 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
     if (tools.is_plane[t]) tools.point[t] += local;
     std::ostringstream text;
     text << "tool " << setup.tools[t].name << " touches or overlaps a body at the start: it was backed off by " << length_and_direction(vec3(shift));
+    warnings.push_back(text.str());
+  }
+  if (!laid_on.empty()) {
+    const bool one = laid_on.size() == 1;
+    std::ostringstream text;
+    text << one_of(laid_on, " and ") << (one ? " touches a body at the start: it was" : " touch a body at the start: they were") << " backed off by the contact layer, " << layer << " m along "
+         << (one ? "its" : "their") << " normals";
     warnings.push_back(text.str());
   }
   tools.place_all(f, at_start, place);

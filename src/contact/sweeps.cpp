@@ -288,7 +288,7 @@ void Sweeps::mix(Workspace& work, const LargeArray<ContactPair>& pairs, std::vec
   for (DrivenTool& tool : driven) {
     const double more = mixed_[place] - state_[place];
     tool.push += more;
-    for (const int i : tool.entries) work.v[i] += more * tool.guide;
+    for (const DrivenTool::Entry& e : tool.entries) work.v[e.entry] += more * e.along;
     ++place;
   }
 }

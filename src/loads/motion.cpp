@@ -8,7 +8,6 @@
 #include "forming_sim/config/fault.h"
 #include "forming_sim/config/words.h"
 #include "forming_sim/loads/rotation.h"
-#include "forming_sim/loads/tool.h"
 
 namespace forming_sim {
 namespace {
@@ -71,8 +70,8 @@ Curve shaped(const std::string& profile, bool trajectory, const std::vector<doub
 
 RigidMotion::RigidMotion(const MotionConfig& config, int dimension) {
   const bool trajectory = config.kind == "trajectory";
-  if (!trajectory && config.kind != "velocity")
-    refuse("kind", "\"" + config.kind + "\"", "give trajectory or velocity");
+  if (!trajectory && config.kind != "velocity" && config.kind != "force")
+    refuse("kind", "\"" + config.kind + "\"", "give trajectory, velocity or force");
   const size_t count = config.times.size();
   if (count == 0) refuse("times", "none", "give the times of the knots, or leave the motion out");
   const char* names[] = {trajectory ? "positions" : "velocities",
@@ -122,8 +121,6 @@ RigidMotion::RigidMotion(const MotionConfig& config, int dimension) {
   turns_ = std::make_shared<const Turns>(std::move(reached));
 }
 
-bool RigidMotion::rests() const { return path_.empty(); }
-
 Mat3 RigidMotion::turned(double t) const {
   const auto after = std::upper_bound(turns_->times.begin(), turns_->times.end(), t);
   const size_t k = std::max<std::ptrdiff_t>(0, after - turns_->times.begin() - 1);
@@ -170,9 +167,14 @@ RigidMotion stay(const Pose& at) {
   return motion;
 }
 
-ToolPose tool_pose(const ToolModel& tool, const RigidMotion& motion, double t) {
+Pose turned_about(const Vec3& axle, double angle, double rate, Pose pose) {
+  pose.spin += rate * (pose.rotation * axle);
+  pose.rotation = pose.rotation * rotation_matrix(angle * axle);
+  return pose;
+}
+
+ToolPose tool_pose(const ToolModel& tool, const Pose& pose) {
   const Vec3 centre = tool.motion ? tool.motion->centre : Vec3(Vec3::Zero());
-  const Pose pose = motion.at(t);
   const Vec3 arm = pose.rotation * (tool.position - centre);
   ToolPose frame;
   frame.position = centre + pose.translation + arm;

@@ -70,12 +70,13 @@ RawMesh read_inline(const MeshConfig& config, const std::string& cell_type) {
 
 }  // namespace
 
-Mesh load_body_mesh(const MeshConfig& config, const std::string& base_directory) {
+Mesh load_body_mesh(const MeshConfig& config, const std::string& base_directory, std::vector<std::string>& notes) {
   check_config(config);
   if (config.pattern != "fine" && config.pattern != "one_point")
     refuse("mesh.pattern: given \"" + config.pattern + "\"; fine or one_point is needed");
   const auto finish = [&](RawMesh raw) {
     raw.one_point = config.pattern == "one_point";
+    if (!raw.note.empty()) notes.push_back(raw.note);
     return assemble(std::move(raw));
   };
   if (config.url.empty()) return finish(read_inline(config, config.cell_type));

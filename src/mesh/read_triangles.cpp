@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
 #include "forming_sim/config/fault.h"
 #include "files/read_apart.h"
@@ -53,27 +54,56 @@ void append(const aiScene& scene, const aiNode& node, const Transform& to_root, 
     append(scene, *node.mChildren[c], times(to_root, node.mChildren[c]->mTransformation), all);
 }
 
-/// What assimp does not see in an STL file: that it was cut short.
-void check_stl(const std::string& path, const std::string& source) {
-  constexpr std::uintmax_t kHead = 84, kTriangle = 50;  // bytes, of a binary one
-  constexpr std::streamoff kEnd = 4096;
-  const std::uintmax_t size = std::filesystem::file_size(path);
-  std::ifstream file(path, std::ios::binary);
-  std::string head(kHead, '\0');
-  file.read(head.data(), kHead);
-  std::uint32_t triangles = 0;
-  std::memcpy(&triangles, &head[kHead - sizeof triangles], sizeof triangles);
-  if (size >= kHead && size == kHead + kTriangle * triangles) return;
-  const std::size_t begin = head.find_first_not_of(" \t\r\n");
-  if (begin == std::string::npos || head.compare(begin, 5, "solid") != 0)
-    throw Error(Code::mesh_error, source + ": it does not begin with solid, as an STL file of text does, and as a binary one it would have " + std::to_string(kHead + kTriangle * triangles) + " bytes for the " +
-                                      std::to_string(triangles) + " triangles that it announces, not " + std::to_string(size) + "; it is damaged or cut short: write it again");
-  file.clear();
-  file.seekg(std::max<std::streamoff>(0, static_cast<std::streamoff>(size) - kEnd));
-  const std::string end{std::istreambuf_iterator<char>(file), {}};
-  const std::size_t closed = end.rfind("endsolid"), open = end.rfind("endfacet");
-  if (closed == std::string::npos || (open != std::string::npos && open > closed))
+/// An STL file in the form that assimp reads, and what tells whether it has read all of it.
+struct Stl {
+  std::string bytes;
+  std::size_t triangles = 0;
+};
+
+/// Of an STL file of text: small letters, and neither the names of solids nor the normals of facets, which nothing here uses and in
+/// which assimp takes a word for another or breaks over a normal that is no number.
+Stl plain_text(std::string text, const std::string& source) {
+  std::replace(text.begin(), text.end(), '\r', '\n');
+  text = lower(std::move(text));
+  Stl plain;
+  plain.bytes.reserve(text.size());
+  const auto next = [&](const char* characters, std::size_t from, std::size_t end) { return std::min(end, text.find_first_of(characters, from)); };
+  for (std::size_t begin = 0, end; begin < text.size(); begin = end + 1) {
+    end = next("\n", begin, text.size());
+    const std::size_t word = text.find_first_not_of(" \t\n", begin);
+    if (word >= end) continue;
+    const std::string_view line(&text[begin], end - begin), first(&text[word], next(" \t", word, end) - word);
+    const bool alone = line.find("vertex") == line.npos;  // a name or a normal, and no more
+    if (alone && (first == "solid" || first == "endsolid")) plain.bytes += first;
+    else if (alone && first == "facet") plain.bytes += "facet normal 0 0 0";
+    else plain.bytes += line;
+    plain.bytes += '\n';
+  }
+  constexpr std::string_view kEnd = "endfacet";
+  std::size_t last = 0;
+  for (std::size_t at = 0; (at = plain.bytes.find(kEnd, at)) != std::string::npos; at += kEnd.size()) ++plain.triangles, last = at;
+  if (const std::size_t closed = plain.bytes.rfind("endsolid"); closed == std::string::npos || closed < last)
     throw Error(Code::mesh_error, source + ": it begins with solid, and does not end with endsolid; it is cut short: write it again");
+  return plain;
+}
+
+Stl read_stl(const std::string& path, const std::string& source) {
+  constexpr std::size_t kHead = 84, kTriangle = 50;  // bytes, of a binary one
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t size = bytes.size();
+  std::uint32_t triangles = 0;
+  if (size >= kHead) std::memcpy(&triangles, &bytes[kHead - sizeof triangles], sizeof triangles);
+  const std::size_t binary_size = kHead + kTriangle * triangles;
+  if (size == binary_size) return {std::move(bytes), triangles};
+  if (bytes.compare(0, 3, "\xEF\xBB\xBF") == 0) bytes.erase(0, 3);
+  const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
+  if (begin != std::string::npos && lower(bytes.substr(begin, 5)) == "solid") return plain_text(std::move(bytes), source);
+  if (triangles == 0 || size < binary_size)
+    throw Error(Code::mesh_error, source + ": it does not begin with solid, as an STL file of text does, and as a binary one it would have " + std::to_string(binary_size) + " bytes for the " +
+                                      std::to_string(triangles) + " triangles that it announces, not " + std::to_string(size) + "; it is damaged or cut short: write it again");
+  bytes.resize(binary_size);  // what follows is no triangle
+  return {std::move(bytes), triangles};
 }
 
 Triangles read(const std::string& path, double unit_scale) {
@@ -82,10 +112,11 @@ Triangles read(const std::string& path, double unit_scale) {
   if (std::filesystem::file_size(path) == 0)
     throw Error(Code::mesh_error, all.source + ": the file is empty; a tool needs a surface of triangles");
   const std::string extension = lower(std::filesystem::path(path).extension().string());
-  if (extension == ".stl") check_stl(path, all.source);
+  const bool is_stl = extension == ".stl";
+  const Stl stl = is_stl ? read_stl(path, all.source) : Stl();
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+  const aiScene* scene = is_stl ? importer.ReadFileFromMemory(stl.bytes.data(), stl.bytes.size(), aiProcess_Triangulate, "stl") : importer.ReadFile(path, aiProcess_Triangulate);
   if (!scene || !scene->mRootNode)
     throw Error(Code::mesh_error, all.source + ": assimp cannot read it: " + importer.GetErrorString() + "; write it again");
   // With the up direction left alone, the root of a COLLADA scene holds its unit
@@ -95,6 +126,8 @@ Triangles read(const std::string& path, double unit_scale) {
   root.leftCols<3>().setIdentity();
   if (!collada) root = times(root, scene->mRootNode->mTransformation);
   append(*scene, *scene->mRootNode, unit_scale * root, all);
+  if (is_stl && all.corners.size() != stl.triangles)
+    throw Error(Code::mesh_error, all.source + ": assimp reads " + std::to_string(all.corners.size()) + " of its " + std::to_string(stl.triangles) + " triangles; it is damaged: write it again, as a binary STL if it is one of text");
   return all;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "forming_sim/config/words.h"
+#include "forming_sim/loads/rotation.h"
 
 namespace forming_sim {
 namespace {
@@ -29,6 +30,7 @@ std::vector<std::string> history_columns(const Model& model, const std::vector<P
       columns.push_back("tool_" + tool.name + "_radial_force_N");
     else
       for (const char* axis : kAxes) columns.push_back("tool_" + tool.name + "_moment_" + axis + "_N_m" + per_width);
+    if (tool.turns_freely()) columns.push_back("tool_" + tool.name + "_turned_deg");
   }
   for (const char* name : {"max_plastic_strain", "max_surface_strain", "min_thickness_m", "max_thinning", "min_gap_over_h0"})
     columns.push_back(name);
@@ -113,6 +115,7 @@ void History::write(const Simulation& simulation) {
       values.push_back(csv_number(elapsed > 0 ? felt.radial : tool.radial_force));
     else
       add(values, elapsed > 0 ? about_place(felt, before.position, tool.position) : tool.moment);
+    if (simulation.model().tools[i].turns_freely()) values.push_back(csv_number(tool.turned / kRadiansPerDegree));
     before = {tool.felt, tool.position};
   }
   values.push_back(csv_number(measures.plastic_strain.value));

@@ -110,6 +110,8 @@ std::string plan_text(const Simulation& simulation) {
   }
   for (const ToolModel& tool : model.tools)
     if (tool.motion && tool.motion->kind == "force") lines.add(tool.name + " is driven by a force: its speed is found with the impulses of its pairs");
+  for (const ToolModel& tool : model.tools)
+    if (tool.turns_freely()) lines.add(tool.name + " turns freely about its axle: its spin is found with the impulses of its pairs");
   if (surface_pairs.empty()) absent.push_back("contact");
   else if (!rubs) absent.push_back("friction and slip");
 

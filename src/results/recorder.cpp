@@ -39,6 +39,7 @@ void Recorder::on_stage_end(const Simulation& simulation, int index) {
   tell_inertia(simulation, stage);
   tell_sharp_bends(simulation, index);
   tell_great_strain(simulation, index);
+  tell_short_steps(simulation, index);
   record_.kinetic_peak.levels.clear();
   record_.stages.push_back(ended);
   if (stage.kind != "form") return;
@@ -84,6 +85,14 @@ void Recorder::tell_great_strain(const Simulation& simulation, int stage) {
   if (!ends_forming(simulation, stage) || !(strain.value > kGreat)) return;
   record_.notes.push_back("the plastic strain is up to " + three_digits(strain.value) + ", at " + place(strain.position) +
                           ", when forming ends: nothing parts here and nothing is meshed anew, so that where a tool cuts through metal its force and the shape about it are not those of metal. In bulk that is pressed from all sides such strains are real, and ask for small cells");
+}
+
+void Recorder::tell_short_steps(const Simulation& simulation, int stage) {
+  constexpr double kShort = 0.1;  // of the first
+  const StepLimit smallest = simulation.smallest_step();
+  if (!ends_forming(simulation, stage) || !(smallest.dt < kShort * simulation.first_dt())) return;
+  record_.notes.push_back("the time step fell from " + three_digits(simulation.first_dt()) + " s at the start to " + three_digits(smallest.dt) + " s, limited by " + smallest.reason +
+                          ": cells have become so thin or narrow, and the run took as many more steps. Where they are few, time_step.raise_to gives them mass instead; larger cells where the metal flows most, or other ones, stay longer in shape");
 }
 
 void Recorder::on_end(const Simulation& simulation, Code code, const std::string&) {

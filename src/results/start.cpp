@@ -23,8 +23,10 @@ void check_length(const Simulation& simulation) {
 
 }  // namespace
 
-std::unique_ptr<Simulation> build_run(const Scene& scene, int threads) {
-  auto simulation = std::make_unique<Simulation>(build_plan(scene), build_model(scene), threads);
+std::unique_ptr<Simulation> build_run(const Scene& scene, int threads) { return build_run(scene, build_model(scene), threads); }
+
+std::unique_ptr<Simulation> build_run(const Scene& scene, Model model, int threads) {
+  auto simulation = std::make_unique<Simulation>(build_plan(scene), std::move(model), threads);
   check_length(*simulation);
   std::vector<int> asked;
   for (const Probe& probe : place_probes(scene.output.probes, simulation->model()))
@@ -34,14 +36,16 @@ std::unique_ptr<Simulation> build_run(const Scene& scene, int threads) {
 }
 
 StartCheck check_start(const Scene& scene, std::vector<Fault> known, int threads) {
-  StartCheck found{validate(scene, std::move(known)), {}, nullptr};
+  CheckedModel checked = validated_model(scene, std::move(known));
+  StartCheck found{std::move(checked.faults), {}, nullptr};
   if (!found.faults.empty()) return found;
   try {
-    found.simulation = build_run(scene, threads);
+    found.simulation = build_run(scene, std::move(checked.model), threads);
     found.notes = found.simulation->warnings();
   } catch (const SceneError& error) {
     found.faults = error.faults();
   } catch (const Error& error) {
+    if (error.code() == Code::cancelled) throw;
     found.faults.push_back({error.code(), "scene", error.what(), "change the scene so that it can start"});
   } catch (const std::bad_alloc&) {
     found.faults.push_back({Code::invalid_scene, "scene", "more than the memory that there is", "give fewer cells, or run it where there is more (--estimate tells how much a scene takes)"});

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "forming_sim/config/words.h"
+#include "forming_sim/loads/rotation.h"
 #include "forming_sim/results/body_measures.h"
 #include "forming_sim/results/text_file.h"
 #include "forming_sim/results/unfinished.h"
@@ -115,6 +116,9 @@ Json tools(const Simulation& simulation) {
                     {"peak_force", vector(tool.peak_force)},
                     {"peak_radial_force", simulation.model().axisymmetric ? number(tool.peak_radial_force) : Json(nullptr)},
                     {"unit", simulation.model().per_width() ? "N/m" : "N"},
+                    {"peak_moment", simulation.model().axisymmetric ? Json(nullptr) : vector(tool.peak_moment)},
+                    {"moment_unit", simulation.model().per_width() ? "N" : "N m"},
+                    {"turned_deg", simulation.model().tools[i].turns_freely() ? number(tool.turned / kRadiansPerDegree) : Json(nullptr)},
                     {"position", vector(tool.position)},
                     {"orientation_xyzw", orientation(tool.rotation)},
                     {"present", tool.present},

@@ -80,22 +80,27 @@ template <class Come> bool wait_for(Come&& come, double wait_s) {
   return come();
 }
 
-/// Follows the goal to its end. False where the server has gone, or does not know the goal any more.
-bool follow(Client& client, Client::GoalHandle& goal, ClientProgress& line) {
+enum class Followed { to_its_end, until_lost, until_told };  ///< lost: the server has gone, or does not know the goal any more; told: to stop, again
+
+Followed follow(Client& client, Client::GoalHandle& goal, ClientProgress& line) {
   bool cancelled = false;
-  int missed = 0;
+  int missed = 0, asked = 0;
+  double since = 0;  // s
   for (; goal.getCommState() != actionlib::CommState::DONE; ros::WallDuration(kLook).sleep()) {
-    if (!ros::ok()) return false;
+    if (!ros::ok()) return Followed::until_lost;
     // Not before a status lists it: actionlib gives a goal up as lost when it is cancelled earlier.
     if (stop_requested() && !cancelled && goal.getCommState() != actionlib::CommState::WAITING_FOR_GOAL_ACK) {
-      line.say("cancelling");
+      line.say("cancelling; again to leave the run to itself");
       goal.cancel();
       cancelled = true;
     }
+    // One key stroke may come more than once.
+    if (cancelled && (since += kLook) < 0.5) asked = stops_requested();
+    if (cancelled && stops_requested() > asked && since >= 0.5) return Followed::until_told;
     missed = client.isServerConnected() ? 0 : missed + 1;
-    if (missed > 30) return false;
+    if (missed > 30) return Followed::until_lost;
   }
-  return goal.getTerminalState() != actionlib::TerminalState::LOST;
+  return goal.getTerminalState() != actionlib::TerminalState::LOST ? Followed::to_its_end : Followed::until_lost;
 }
 
 }  // namespace
@@ -125,9 +130,13 @@ int run_client(const ClientRequest& request) {
     return 1;
   }
   Client::GoalHandle sent = client.sendGoal(goal, {}, [&line](Client::GoalHandle, const SimulateFormingFeedbackConstPtr& feedback) { line.show(feedback->status); });
-  const bool ended = follow(client, sent, line);
+  const Followed followed = follow(client, sent, line);
   line.end();
-  if (!ended) {
+  if (followed == Followed::until_told) {
+    std::fprintf(stderr, "forming_client: the server on %s has not answered; it may go on with the run\n", name.c_str());
+    return 130;
+  }
+  if (followed == Followed::until_lost) {
     std::fprintf(stderr, "forming_client: the server on %s has gone, or another has taken its name; what it had written until then can be read\n", name.c_str());
     return 1;
   }

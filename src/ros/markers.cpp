@@ -28,6 +28,8 @@ RunMarkers::RunMarkers(const RunShape& shape, const MarkerOptions& options)
   sheet_ = DisplayMesh(shape.dimension, shape.initial_positions, shape.elements, shape.surface, left);
 }
 
+void RunMarkers::follow(const RunMarkers& earlier) { most_tools_ = std::max(earlier.most_tools_, earlier.tools_.size()); }
+
 std::size_t RunMarkers::triangle_count() const {
   std::size_t count = sheet_.triangles().size();
   for (const ToolDrawing& tool : tools_) count += tool.triangles.size() / 3;
@@ -56,7 +58,14 @@ RunMarkers::ToolDrawing RunMarkers::draw(const ToolModel& tool, int budget) cons
       }
     }
   } else if (dimension_ == 2) {
-    for (const Facet& f : tool.mesh.surface) band(tool.mesh.nodes[f.nodes[0]], tool.mesh.nodes[f.nodes[1]]);
+    // Lines with more pieces than may be shown are drawn through every so manyth point: chains of segments, as profiles are.
+    const std::size_t pieces = tool.mesh.surface.size(), step = (2 * pieces + budget - 1) / budget;
+    for (std::size_t first = 0; first < pieces;) {
+      std::size_t last = first;
+      while (last + 1 < std::min(pieces, first + step) && tool.mesh.surface[last + 1].nodes[0] == tool.mesh.surface[last].nodes[1]) ++last;
+      band(tool.mesh.nodes[tool.mesh.surface[first].nodes[0]], tool.mesh.nodes[tool.mesh.surface[last].nodes[1]]);
+      first = last + 1;
+    }
   } else {
     NodeField nodes;
     for (const Vec3& x : tool.mesh.nodes) nodes.push_back(node(x));
@@ -144,6 +153,15 @@ void RunMarkers::add_tools(const RunFrame& frame, const ros::Time& stamp, Marker
     m.color.a = 1;
     m.points = tools_[k].edges;
     array.markers.push_back(m);
+  }
+  const auto forget = [&](const char* ns, std::size_t k) {
+    Marker m = marker(ns, static_cast<int>(k), Marker::TRIANGLE_LIST, stamp);
+    m.action = Marker::DELETE;
+    array.markers.push_back(m);
+  };
+  for (std::size_t k = 0; k < most_tools_; ++k) {
+    if (k >= tools_.size()) forget("tools", k);
+    if (k >= tools_.size() || tools_[k].edges.empty()) forget("tool_edges", k);
   }
 }
 

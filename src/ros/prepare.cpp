@@ -37,6 +37,9 @@ Prepared prepare(const SceneSpec& message, const std::string& scene_text, int th
     prepared.faults = std::move(start.faults);
     prepared.notes = std::move(start.notes);
     prepared.simulation = std::move(start.simulation);
+  } catch (const Error& error) {
+    if (error.code() == Code::cancelled) throw;
+    prepared.faults.push_back({error.code(), "scene", error.what(), "change the scene so that it can start"});
   } catch (const std::exception& error) {
     prepared.faults.push_back({Code::internal_error, "scene", error.what(), "please report this as a defect"});
   }
@@ -55,9 +58,12 @@ std::string make_output_directory(const std::string& given, const std::string& o
     constexpr std::size_t kLongest = 100;  // of the 255 bytes that a name may have
     const fs::path base = fs::path(local_path(output_root, Code::output_error)) / (topic_name(scene).substr(0, kLongest) + "_" + stamp);
     path = base;
-    for (int n = 2; fs::exists(path, error); ++n) path = base.string() + "_" + std::to_string(n);
+    fs::create_directories(base.parent_path(), error);
+    // Who makes it has it: another server may choose a name at the same time.
+    for (int n = 2; !error && !fs::create_directory(path, error) && !error; ++n) path = base.string() + "_" + std::to_string(n);
+  } else {
+    fs::create_directories(path, error);
   }
-  fs::create_directories(path, error);
   std::error_code unknown;
   if (error || !fs::is_directory(path, unknown)) {
     throw Error(Code::output_error, "cannot make the directory " + path.string() + " (" + error.message() + ")");

@@ -59,7 +59,9 @@ RunPublisher::RunPublisher(const ros::NodeHandle& node, const PublishOptions& op
 }
 
 void RunPublisher::start(const RunShape& shape) {
-  markers_ = RunMarkers(shape, options_.markers);
+  RunMarkers markers(shape, options_.markers);
+  markers.follow(markers_);
+  markers_ = std::move(markers);
   next_ = {};
   surface_nodes_.clear();
   for (const Facet& facet : shape.surface) surface_nodes_.insert(surface_nodes_.end(), facet.nodes.begin(), facet.nodes.begin() + shape.dimension);
@@ -161,7 +163,7 @@ void RunPublisher::publish_poses(const RunFrame& frame, const std_msgs::Header& 
 void RunPublisher::repeat_poses() {
   const std::lock_guard<std::mutex> lock(poses_mutex_);
   if (last_poses_.empty() || std::chrono::steady_clock::now() - poses_sent_ < std::chrono::duration<double>(0.9 / kPosesAgain)) return;
-  if (ros::Time::now() <= last_poses_.front().header.stamp) return;  // a clock that stands: tf warns of what comes twice
+  if (ros::Time::now() == last_poses_.front().header.stamp) return;  // a clock that stands: tf warns of what comes twice. One that goes back begins anew, and so do those who listen
   for (geometry_msgs::TransformStamped& pose : last_poses_) pose.header.stamp = ros::Time::now();
   poses_.sendTransform(last_poses_);
 }

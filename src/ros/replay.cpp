@@ -52,8 +52,8 @@ RunFrame run_frame(const Frame& stored) {
   frame.thinning.assign(stored.thinning.begin(), stored.thinning.end());
   for (const FrameTool& pose : stored.tools) {
     ToolStatus status;
-    for (Vec3* vector : {&status.velocity, &status.peak_force}) vector->setConstant(kUnknown);
-    status.radial_force = status.peak_radial_force = kUnknown;
+    for (Vec3* vector : {&status.velocity, &status.peak_force, &status.peak_moment}) vector->setConstant(kUnknown);
+    status.radial_force = status.peak_radial_force = status.turned = kUnknown;
     status.position = pose.position;
     status.rotation = pose.rotation;
     status.force = pose.force;

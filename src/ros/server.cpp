@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "forming_sim/ResultCode.h"
+#include "forming_sim/parallel/interrupt.h"
 #include "forming_sim/parallel/team.h"
 #include "forming_sim/ros/convert.h"
 #include "forming_sim/ros/observer.h"
@@ -211,6 +212,7 @@ void FormingServer::run(Goal& goal, Answer& answer) {
   Scene scene;
   std::unique_ptr<Simulation> simulation;
   {
+    const Interruptible while_wanted(cancel_);
     Prepared prepared = prepare(request->scene, request->scene_text, threads);
     resume = check_resume(request->resume, prepared);
     answer.scene = prepared.scene.name;

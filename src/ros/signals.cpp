@@ -9,9 +9,12 @@
 namespace forming_sim {
 namespace {
 
-volatile std::sig_atomic_t stop_flag = 0;
+constexpr int kMostAsked = 100;
+volatile std::sig_atomic_t stop_flag = 0;  ///< how often it was asked
 
-extern "C" void forming_sim_on_stop(int) { stop_flag = 1; }
+extern "C" void forming_sim_on_stop(int) {
+  if (stop_flag < kMostAsked) stop_flag = stop_flag + 1;
+}
 
 }  // namespace
 
@@ -23,6 +26,7 @@ void catch_stop_signals() {
 }
 
 bool stop_requested() { return stop_flag != 0; }
+int stops_requested() { return stop_flag; }
 
 bool wait_for_master(const char* program, double wait_s) {
   for (double waited = 0; !stop_requested(); waited += 0.1) {

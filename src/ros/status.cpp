@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "forming_sim/loads/rotation.h"
 #include "forming_sim/simulation/simulation.h"
 #include "geometry.h"
 
@@ -30,6 +31,8 @@ ToolState tool_message(const std::string& name, const ToolStatus& status) {
   message.force = vector_message(status.force);
   message.moment = vector_message(status.moment);
   message.peak_force = vector_message(status.peak_force);
+  message.peak_moment = vector_message(status.peak_moment);
+  message.turned_deg = status.turned / kRadiansPerDegree;
   message.radial_force = status.radial_force;
   message.peak_radial_force = status.peak_radial_force;
   message.present = status.present;

@@ -7,7 +7,7 @@
 
 #include "forming_sim/config/words.h"
 #include "forming_sim/loads/rotation.h"
-#include "forming_sim/loads/velocity_field.h"
+#include "forming_sim/config/formula_field.h"
 #include "forming_sim/mesh/axis.h"
 #include "forming_sim/mesh/generate.h"
 #include "forming_sim/mesh/import.h"
@@ -17,6 +17,7 @@
 #include "forming_sim/mesh/sets.h"
 #include "forming_sim/mesh/sweep.h"
 #include "forming_sim/mesh/trim.h"
+#include "forming_sim/parallel/interrupt.h"
 #include "formed_body.h"
 #include "rules.h"
 
@@ -39,6 +40,7 @@ template <class Make> bool attempt(const std::string& path, const std::string& g
     make();
     return true;
   } catch (const Error& error) {
+    if (error.code() == Code::cancelled) throw;
     faults.push_back({error.code(), path, given, error.what()});
   } catch (const std::bad_alloc&) {
     faults.push_back({Code::mesh_error, path, given, "there is not memory enough for this mesh; give fewer cells"});
@@ -105,8 +107,25 @@ void check_used_sets(const BodyConfig& body, const std::string& path, const Mesh
 
 void check_velocity_field(const BodyConfig& body, const std::string& path, const Mesh& mesh, std::vector<Fault>& faults) {
   attempt(path, "formulas", faults, [&] {
-    const VelocityField field(body.initial_velocity_field);
+    const FormulaField field(body.initial_velocity_field);
     for (const Vec3& X : mesh.nodes) field.at(X);
+  });
+}
+
+/// Moves the nodes by the body's imperfection.
+void make_imperfect(const Scene& scene, std::size_t i, Mesh& mesh, std::vector<Fault>& faults) {
+  const std::vector<std::string>& formulas = scene.bodies[i].imperfection;
+  const std::string path = body_path(i) + ".imperfection";
+  if (formulas.empty() || mesh.nodes.empty()) return;
+  attempt(path, "formulas", faults, [&] {
+    const FormulaField field(formulas);
+    for (Vec3& X : mesh.nodes) {
+      const Vec3 x = X + field.at(X);
+      if (scene.axisymmetric && (X.x() == 0 ? x.x() != 0 : !(x.x() > 0)))
+        throw Error(Code::invalid_scene, "give formulas that leave what is on the axis y there, and the rest beside it: the node at " + place(X) + " goes to x = " + number_text(x.x()) + " m");
+      X = x;
+    }
+    check_volumes(mesh);
   });
 }
 
@@ -132,14 +151,16 @@ bool make_body(const Scene& scene, std::size_t i, const std::vector<Fault>& know
   const std::string source = path + (body.blank ? ".blank" : body.formed ? ".formed.url" : body.mesh->url.empty() ? ".mesh" : ".mesh.url");
   const std::string origin = body.formed ? given_text(body.formed->url) : origin_of(body.mesh, "this blank");
   const std::size_t before = faults.size();
+  check_interrupt();
   const bool made = attempt(source, origin, faults, [&] {
     if (body.formed) {
       FormedBody part = load_formed_body(scene, body, path, faults, geometry.model.notes);
       mesh = std::move(part.mesh);
       formed = std::move(part.memory);
     } else {
-      mesh = body.blank ? generate_blank(*body.blank) : load_body_mesh(*body.mesh, scene.base_directory);
+      mesh = body.blank ? generate_blank(*body.blank) : load_body_mesh(*body.mesh, scene.base_directory, geometry.model.notes);
     }
+    check_interrupt();
     if (faults.size() > before) return;
     if (!formed) return check_volumes(mesh);
     Mesh free_of_stress = mesh;  // where it stands now its run has come to, with cells that no fresh mesh should have
@@ -271,9 +292,11 @@ Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known) {
       add_sets(scene.bodies[i], body_path(i), bodies[i], geometry.faults);
       check_used_sets(scene.bodies[i], body_path(i), bodies[i], geometry.faults);
     }
+    if (!has_faults(known, body_path(i) + ".imperfection")) make_imperfect(scene, i, bodies[i], geometry.faults);
     const std::string field = body_path(i) + ".initial_velocity_field";
     if (!has_faults(known, field)) check_velocity_field(scene.bodies[i], field, bodies[i], geometry.faults);
   }
+  check_interrupt();
   const double longest = 2 * finest_edge(bodies);
   for (std::size_t i = 0; i < tools.size(); ++i) {
     if (!make_tool(scene, i, known, longest, tools[i], geometry)) tools[i] = Mesh{};
@@ -291,6 +314,7 @@ Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known) {
     FaultList list(geometry.faults);
     add_missing_set(probe.set, scene.bodies[static_cast<std::size_t>(body)].name, set_names(mesh), join_path("output.probes", i) + ".set", list);
   }
+  check_interrupt();
   check_springback_nodes(scene, bodies, known, geometry.faults);
   check_sizes(scene, bodies, tools, geometry.faults, geometry.model.notes);
   if (known.empty()) tell_odd_values(scene, geometry.model.notes);

@@ -24,6 +24,7 @@ class Rules {
     faults_.each(motion.velocities, [&](std::size_t i) { along_axis(motion.velocities[i], join_path(path + ".velocities", i), remedy); });
     faults_.each(motion.forces, [&](std::size_t i) { along_axis(motion.forces[i], join_path(path + ".forces", i), remedy); });
     along_axis(motion.initial_velocity, path + ".initial_velocity", remedy);
+    no_turn(motion.axle, path + ".axle");
     faults_.each(motion.rotations_deg, [&](std::size_t i) { no_turn(motion.rotations_deg[i], join_path(path + ".rotations_deg", i)); });
     faults_.each(motion.spins_deg_s, [&](std::size_t i) { no_turn(motion.spins_deg_s[i], join_path(path + ".spins_deg_s", i)); });
   }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "forming_sim/loads/velocity_field.h"
+#include "forming_sim/config/formula_field.h"
 #include "forming_sim/material/constants.h"
 #include "forming_sim/simulation/release.h"
 
@@ -134,14 +134,12 @@ void check_material(const BodyConfig& body, const std::string& path, int dimensi
   if (std::abs(sum - 1) > 1e-3) faults.add(here + ".layers", "weights with the sum " + number_text(sum), "let the weights sum to 1: they are the shares of the shear modulus");
 }
 
-void check_velocity_field(const BodyConfig& body, const std::string& path, int dimension, FaultList& faults) {
-  const std::vector<std::string>& formulas = body.initial_velocity_field;
-  const std::string here = path + ".initial_velocity_field";
+void check_formulas(const std::vector<std::string>& formulas, const std::string& here, int dimension, FaultList& faults) {
   if (!formulas.empty() && static_cast<int>(formulas.size()) != dimension && (dimension == 2 || dimension == 3))
     faults.add(here, std::to_string(formulas.size()) + " formulas", "give " + std::to_string(dimension) + ", one for each coordinate; \"0\" where nothing moves");
   faults.each(formulas, [&](std::size_t i) {
     try {
-      const VelocityField alone({formulas[i]});
+      const FormulaField alone({formulas[i]});
     } catch (const Error& error) {
       faults.add(join_path(here, i), given_text(formulas[i]), error.what());
     }
@@ -158,7 +156,10 @@ void check_bodies(const Scene& scene, FaultList& faults) {
     check_source(body, path, scene.dimension, faults);
     check_material(body, path, scene.dimension, faults);
     check_one_point(body, path, faults);
-    check_velocity_field(body, path, scene.dimension, faults);
+    check_formulas(body.initial_velocity_field, path + ".initial_velocity_field", scene.dimension, faults);
+    check_formulas(body.imperfection, path + ".imperfection", scene.dimension, faults);
+    if (body.formed && !body.imperfection.empty())
+      faults.add(path + ".imperfection", std::to_string(body.imperfection.size()) + " formulas, for a formed part", "leave it out: it is what a blank has before it is formed");
     const auto sets = known_sets(body);
     const auto check_set = [&](const std::string& set, const std::string& here) {
       if (!sets || set.empty() || std::find(sets->begin(), sets->end(), set) != sets->end()) return;

@@ -33,7 +33,8 @@ template <class Config> void check_plane(const Config& config, const std::string
       }
     } else if constexpr (std::is_same_v<T, Vec3>) {
       const bool corner_of_box = std::is_base_of_v<PlaceConfig, Config> && (name == "min" || name == "max");
-      const bool through_the_plane = corner_of_box || std::is_same_v<Config, AnisotropyConfig>;  // rules_bodies.cpp knows what is right
+      const bool axle = std::is_same_v<Config, MotionConfig> && name == "axle";
+      const bool through_the_plane = corner_of_box || axle || std::is_same_v<Config, AnisotropyConfig>;  // rules_bodies.cpp and rules_tools.cpp know what is right
       if (!through_the_plane) check_vector(value, here, field, faults);
     }
   });

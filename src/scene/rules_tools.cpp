@@ -1,4 +1,4 @@
-#include "forming_sim/loads/force_drive.h"
+#include "forming_sim/loads/drive.h"
 #include "forming_sim/simulation/release.h"
 #include "rules.h"
 
@@ -36,8 +36,9 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
   if (trajectory && motion.times.size() == 1) {
     faults.add(path + ".times", "one time", "give at least two: a trajectory goes from one to the next");
   }
-  if (motion.kind == "velocity" && motion.velocities.empty() && motion.spins_deg_s.empty()) {
-    faults.add(path, "a velocity without velocities and spins_deg_s", "give at least one of them, an entry for each time");
+  const bool turns_freely = !motion.axle.isZero(0);
+  if (motion.kind == "velocity" && motion.velocities.empty() && motion.spins_deg_s.empty() && !turns_freely) {
+    faults.add(path, "a velocity without velocities and spins_deg_s", "give at least one of them, an entry for each time, or an axle about which it turns freely");
   }
   if (motion.kind != "trajectory" && motion.profile == "spline") {
     faults.add(path + ".profile", given_text(motion.profile), "give smooth or linear: a spline is for trajectories");
@@ -47,6 +48,26 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
   check_as_many(motion.velocities, motion.times, path + ".velocities", faults);
   check_as_many(motion.spins_deg_s, motion.times, path + ".spins_deg_s", faults);
   check_as_many(motion.forces, motion.times, path + ".forces", faults);
+  check_as_many(motion.torques, motion.times, path + ".torques", faults);
+  if (turns_freely) {
+    const auto about_it = [&](const std::vector<Vec3>& turns, const char* field) {
+      faults.each(turns, [&](std::size_t i) {
+        if (turns[i].allFinite() && motion.axle.allFinite() && turns[i].dot(motion.axle.stableNormalized()) != 0 && goes_along(turns[i], motion.axle.stableNormalized()))
+          faults.add(join_path(path + "." + field, i), given_text(turns[i]) + ", about the axle, about which the tool turns freely", "leave out the axle of a tool that is turned, and what turns about the axle of an idle one");
+      });
+    };
+    about_it(motion.rotations_deg, "rotations_deg");
+    about_it(motion.spins_deg_s, "spins_deg_s");
+    if (!motion.torques.empty() && motion.profile == "spline") faults.add(path + ".profile", given_text(motion.profile), "give smooth or linear: with torques there is no spline");
+  } else {
+    const auto without = [&](bool given, const char* field, const std::string& value) {
+      if (given) faults.add(path + "." + field, value + " without an axle", "give the axle about which the tool turns freely, or leave this out");
+    };
+    without(!motion.torques.empty(), "torques", given_text(static_cast<double>(motion.torques.size())) + " values");
+    without(motion.initial_spin_deg_s != 0, "initial_spin_deg_s", given_text(motion.initial_spin_deg_s));
+    without(motion.inertia != 0, "inertia", given_text(motion.inertia));
+    if (motion.kind != "force") without(motion.damping != 0, "damping", given_text(motion.damping));
+  }
   const Vec3 guide = guide_of(motion);
   if (!motion.forces.empty() && guide.isZero(0))
     faults.add(path + ".forces", "no force other than 0, and no initial_velocity", "give one of them; a tool without either rests, and needs no motion");
@@ -68,6 +89,14 @@ void check_tools(const Scene& scene, FaultList& faults) {
     if (tool.motion && tool.motion->kind == "force" && scene.contact.method != "implicit")
       faults.add(tool_path(i) + ".motion.kind", "force, with contact.method " + given_text(scene.contact.method), "set contact.method to implicit: only that finds how fast the tool goes together with what presses on it");
     if (!tool.motion) continue;
+    const std::string axle = tool_path(i) + ".motion.axle";
+    const Vec3& along = tool.motion->axle;
+    if (!along.isZero(0)) {
+      if (scene.contact.method != "implicit")
+        faults.add(axle, given_text(along) + ", with contact.method " + given_text(scene.contact.method), "set contact.method to implicit: only that finds how fast the tool turns together with what presses on it");
+      if (!tool.normal.isZero(0)) faults.add(axle, given_text(along) + " of a plane", "give the tool a mesh or a profile: what turns freely has a shape about its axle");
+      if (scene.dimension == 2 && !scene.axisymmetric && (along.x() != 0 || along.y() != 0)) faults.add(axle, given_text(along), "in dimension 2 give [0, 0, 1]");
+    }
     check_motion(*tool.motion, tool_path(i) + ".motion", faults);
     const std::string since = tool_path(i) + ".motion.since";
     if (tool.motion->since.empty() || !check_stage_name(tool.motion->since, stages, 0, since, faults)) continue;

@@ -102,7 +102,7 @@ In dimension 3 a profile lies in the x-z plane, looked at along y with z upwards
 
 A tool that touches a body at the start is backed off by what the contact layer needs, and the run says by how much; a
 body that starts inside a tool is refused. The motion of a tool is a trajectory (where it is at given times, from
-where it stands at the start), a velocity, or a force. Without a motion it rests. A press
+where it stands at the start), a velocity, or a force, and with an `axle` it turns freely beside that. Without a motion it rests. A press
 that stops under its force has a way and a `stop_force`.
 
 A tool of kind `force` is a blank holder: guided along the line of its force, it goes where the force and the bodies push it,
@@ -112,6 +112,19 @@ a light one follows at once, a heavy one takes time to start and to stop, and on
 what falls on it rattles. A set that is held rigidly does not stop it, but ends the run: keep it off what is clamped.
 With an `initial_velocity` and its own `mass` it is a hammer: what it has lost when it flies back went into the bodies, as `work`. Its weight is one of its forces.
 Its place is in `history.csv`. A `withdraw` stage takes it away like any other tool, from rest where it has come to.
+
+A tool with an `axle` is an idle roll: it turns about that as friction and its `torques` make it, and goes where the rest of its motion
+takes it, axle and all. A roll of a mill turns at `spins_deg_s` instead, pressed on by a force if its `kind` is `force`. How far an idle roll has
+turned is in `history.csv`, the torque on a driven one there as its moment:
+
+```yaml
+tools:
+  - name: idler                                      # in the plane x, z of a strip that runs along x
+    profile: {sweep: straight, width: 0.2, start: [0.02, 0, 0], pieces: [{to: [-0.02, 0, 0], radius: 0.02}, {to: [0.02, 0, 0], radius: 0.02}]}
+    position: [0.1, 0, 0.021]
+    friction: 0.1
+    motion: {kind: velocity, times: [0], centre: [0.1, 0, 0.021], axle: [0, 1, 0], inertia: 1e-3}
+```
 
 ## Stages
 
@@ -159,7 +172,7 @@ Into the directory of `--output`:
 |---|---|
 | `result.h5` | the mesh once, and the fields of every frame, with units as attributes and the text of the scene; readable up to the last complete frame, whatever ends the run |
 | `result.xdmf` | opens `result.h5` in ParaView and VTK |
-| `history.csv` | a row per `history_interval`: time, energies, for every tool its force, place and moment about its place, extremes, and for every probe its position, velocity and mean stress (xx yy zz xy yz zx), where boundaries hold or drive it the force and moment that they push with; the first line names the columns, with units |
+| `history.csv` | a row per `history_interval`: time, energies, for every tool its force, place, moment about its place and, if it has an axle, how far it has turned about that, extremes, and for every probe its position, velocity and mean stress (xx yy zz xy yz zx), where boundaries hold or drive it the force and moment that they push with; the first line names the columns, with units |
 | `summary.json` | the result in figures |
 | `formed.h5` | with `output.formed`: the bodies as the run leaves them, for a next scene |
 
@@ -182,7 +195,7 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom` |
 | `thinning` | the largest 1 - t/t0 of a node of `top`, t its thickness, t0 that of the start, of a formed part that of its blank; where and when it is |
 | `bodies` | for each body: name, mass (that of the solver, with what `mass_scaling` and `raise_to` add), centre, momentum, angular momentum about the origin, `bounding_box` (`min`, `max`) |
-| `tools` | for each tool: name and the vector of its peak force (axisymmetric: along the axis, and `peak_radial_force` outward, summed around the circle), of means over some 50 steps: shorter peaks are in `history.csv`, as means from row to row; their `unit`; `position` and `orientation_xyzw` (a quaternion) at the end, whether it is `present` then, and `stopped_s`, when it stopped under its `stop_force` |
+| `tools` | for each tool: name and the vector of its peak force (axisymmetric: along the axis, and `peak_radial_force` outward, summed around the circle), of means over some 50 steps: shorter peaks are in `history.csv`, as means from row to row; their `unit`; `peak_moment` likewise, about the place of the tool at that time (in its `moment_unit`; null in an axisymmetric scene); `turned_deg`, of a tool with an axle, about that; `position` and `orientation_xyzw` (a quaternion) at the end, whether it is `present` then, and `stopped_s`, when it stopped under its `stop_force` |
 | `springback` | `angle_deg_formed`, `angle_deg_released`, `change_deg`, `probe`, `kinetic_over_internal` |
 | `stages` | for each stage that has ended: name, kind, when, and the energies then |
 | `warnings` | what was odd in the scene or happened on the way, in sentences |

@@ -31,13 +31,16 @@ std::vector<Fault> check_scene(const Scene& scene) {
   return faults;
 }
 
-std::vector<Fault> validate(const Scene& scene, std::vector<Fault> known) {
+CheckedModel validated_model(const Scene& scene, std::vector<Fault> known) {
   // A text that is no scene at all has nothing else to be told about.
-  if (std::any_of(known.begin(), known.end(), [](const Fault& fault) { return fault.field == "scene"; })) return known;
+  if (std::any_of(known.begin(), known.end(), [](const Fault& fault) { return fault.field == "scene"; })) return {std::move(known), {}};
   merge_faults(known, check_scene(scene));
-  merge_faults(known, make_geometry(scene, known).faults);
-  return known;
+  Geometry geometry = make_geometry(scene, known);
+  merge_faults(known, geometry.faults);
+  return {std::move(known), std::move(geometry.model)};
 }
+
+std::vector<Fault> validate(const Scene& scene, std::vector<Fault> known) { return validated_model(scene, std::move(known)).faults; }
 
 Scene read_valid_scene(const std::string& path) {
   std::vector<Fault> faults;

@@ -11,7 +11,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f6600000018u;
+constexpr std::uint64_t kLayout = 0x6d726f6600000019u;
 
 template <class T> std::size_t mark_of(const T* values, std::size_t count) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(values), count * sizeof(T)});
@@ -85,7 +85,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   };
   for (Reaction& reaction : reactions) exchange_reaction(reaction);
   for (ToolStatus& tool : tools) {
-    for (Vec3* value : {&tool.way, &tool.force, &tool.moment, &tool.peak_force}) a.numbers(value->data(), 3);
+    for (Vec3* value : {&tool.way, &tool.force, &tool.moment, &tool.peak_force, &tool.peak_moment}) a.numbers(value->data(), 3);
     a.number(tool.radial_force);
     a.number(tool.peak_radial_force);
     a.number(tool.most_against);
@@ -93,6 +93,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
     a.number(tool.touched);
     a.number(tool.landings);
     a.number(tool.first_landing);
+    a.number(tool.turned);
     a.number(tool.pressed);
   }
 }

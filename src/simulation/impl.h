@@ -110,6 +110,7 @@ struct Simulation::Impl {
   /// Which of the held nodes book_reactions() looks at.
   void choose_booked();
   /// Gives those that a force drives a mass where the scene says none. Throws SceneError for one too light.
+  void give_tools_inertia(double mass_of_bodies);
   void give_tools_mass();
   /// Where the tools stand, and where they will after a step of this dt; what forces drive, where it would without contact.
   void tool_motions(double step_dt, std::vector<ToolMotion>& motions) const;

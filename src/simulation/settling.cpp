@@ -52,8 +52,11 @@ void Simulation::Impl::watch_settling() {
 }
 
 void Simulation::Impl::slow_tools() {
-  for (int k = 0; k < static_cast<int>(tools.size()); ++k)
-    if (ForceDrive* drive = stages.drive(k)) drive->slow_down(stages.settling() && settles(k) ? settle.damping() : 0);
+  for (int k = 0; k < static_cast<int>(tools.size()); ++k) {
+    const double rate = stages.settling() && tools[k].present && tools[k].pressed ? settle.damping() : 0;
+    if (ForceDrive* drive = stages.drive(k)) drive->slow_down(rate);
+    if (AxleDrive* drive = stages.axle(k)) drive->slow_down(rate);
+  }
 }
 
 bool Simulation::Impl::still_driven() const { return stages.stage().ends != "limit" && driven_on(); }

@@ -7,9 +7,10 @@
 #include <sstream>
 
 #include "forming_sim/config/words.h"
-#include "forming_sim/loads/velocity_field.h"
+#include "forming_sim/config/formula_field.h"
 #include "forming_sim/mesh/axis.h"
 #include "forming_sim/mesh/measure.h"
+#include "forming_sim/parallel/interrupt.h"
 #include "forming_sim/simulation/release.h"
 #include "simulation/impl.h"
 
@@ -82,21 +83,26 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
   for (BodyModel& body : model.bodies)
     if (body.formed) body.formed->cells.clear(), body.formed->edges = {};  // the elements have them
   for (const Node& n : x) farthest = std::max(farthest, n.cwiseAbs().maxCoeff());
+  check_interrupt();
   set_up_loads();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     BodyModel& body = model.bodies[b];
     body.cut = cut_facets(body.mesh, symmetry_planes(plan.bodies[b].boundaries, model.axisymmetric));
     body.thickness = thickness_of(body.mesh, model.axisymmetric, body.cut);
   }
+  check_interrupt();
   raise_step();
   give_tools_mass();
+  check_interrupt();
   set_up_contact();
   double kinetic = 0;
   for (std::size_t i = 0; i < v.size(); ++i) kinetic += 0.5 * elements.nodal_mass()[i] * v[i].squaredNorm();
   initial = most = kinetic + elements.stored_energy(x);  // of a formed part, which is under stress
+  check_interrupt();
   elements.find_rates(x, v, rates);
   first_element_dt = elements.slowest_cell(rates).dt;
   for (const BodyModel& body : model.bodies) resting_bodies.push_back(resting_body(body));
+  check_interrupt();
   begin_stage();
   choose_dt();
   told_at_start = warnings.size();
@@ -119,7 +125,7 @@ void Simulation::Impl::set_up_loads() {
     const BodyModel& body = model.bodies[b];
     const BodyLoads& loads = plan.bodies[b];
     const Vec3 spin = loads.initial_spin_deg_s * (M_PI / 180);
-    const VelocityField field(loads.initial_velocity_field);
+    const FormulaField field(loads.initial_velocity_field);
     for (int i = body.first_node; i < body.first_node + body.node_count; ++i)
       v[i] = node(loads.initial_velocity + spin.cross(vec3(X[i]) - loads.spin_centre) + field.at(vec3(X[i])));
     for (std::size_t k = 0; k < loads.boundaries.size(); ++k) {
@@ -316,9 +322,33 @@ void Simulation::Impl::tell_contact_what_is_held() {
   contact->set_masses(inverse_mass, held);
 }
 
+void Simulation::Impl::give_tools_inertia(double mass_of_bodies) {
+  const char* unit = model.per_width() ? " kg m" : " kg m2";
+  for (std::size_t k = 0; k < model.tools.size(); ++k) {
+    ToolModel& tool = model.tools[k];
+    if (!tool.turns_freely()) continue;
+    const ToolPose start = tool_pose(tool, Pose());
+    const Vec3 axle = tool.motion->axle.stableNormalized();
+    double farthest = 0;
+    for (const Vec3& node : tool.mesh.nodes) farthest = std::max(farthest, axle.cross(start.position + start.rotation * node - tool.motion->centre).norm());
+    const double usual = mass_of_bodies * farthest * farthest;
+    std::ostringstream text;
+    if (tool.motion->inertia > 0) {
+      if (tool.motion->inertia >= kLightest * usual) continue;
+      text << "give at least " << kLightest * usual << unit << ", " << kLightest << " of the mass of the bodies times the square of the tool's radius, or leave it out: what contact leaves open would throw a lighter one about";
+      throw SceneError({{Code::invalid_scene, "tools[" + std::to_string(k) + "].motion.inertia", number_text(tool.motion->inertia) + unit, text.str()}});
+    }
+    tool.motion->inertia = usual;
+    stages = StageRunner(plan.stages, model);  // so that it knows
+    text << "tool " << tool.name << ", which turns freely about its axle, has the inertia of the mass of the bodies at its radius of " << farthest << " m, " << usual << unit << ": set its motion.inertia where it matters how soon it turns";
+    warnings.push_back(text.str());
+  }
+}
+
 void Simulation::Impl::give_tools_mass() {
   const double all = mass_of_bodies();
-  const char* unit = model.dimension == 2 && !model.axisymmetric ? " kg/m" : " kg";
+  const char* unit = model.per_width() ? " kg/m" : " kg";
+  give_tools_inertia(all);
   for (std::size_t k = 0; k < model.tools.size(); ++k) {
     ToolModel& tool = model.tools[k];
     if (!tool.motion || tool.motion->kind != "force") continue;
@@ -345,15 +375,25 @@ void Simulation::Impl::tool_motions(double step_dt, std::vector<ToolMotion>& mot
   motions.clear();
   for (int k = 0; k < static_cast<int>(model.tools.size()); ++k) {
     const ToolPose a = stages.pose(k, time);
-    ToolMotion motion{a.position, a.position, a.rotation, a.rotation, stages.present(k)};
+    ToolMotion motion{a.position, a.position, a.rotation, a.rotation, stages.present(k), {}};
+    const double kick = 0.5 * (previous_dt + step_dt);
+    const auto give_way = [&](const Drive& drive, ToolFreedom& freedom) {
+      freedom.inverse_mass = drive.inverse_mass(kick);
+      freedom.speed = drive.free_speed(time, kick);
+      freedom.last_speed = drive.speed();
+    };
     if (const ForceDrive* drive = stages.drive(k)) {
-      const double kick = 0.5 * (previous_dt + step_dt);
-      motion.guide = drive->guide();
-      motion.last_speed = drive->velocity().dot(motion.guide);
-      motion.inverse_mass = drive->inverse_mass(kick);
-      motion.position1 += step_dt * drive->free_speed(time, kick) * motion.guide;
-    } else if (step_dt > 0) {
-      const ToolPose b = stages.pose(k, time + step_dt);
+      motion.freedom[0].guide = drive->guide();
+      give_way(*drive, motion.freedom[0]);
+    }
+    if (const AxleDrive* drive = stages.axle(k)) {
+      const StageRunner::Line line = stages.axle_now(k, time);
+      motion.freedom[1].axle = line.along;
+      motion.freedom[1].centre = line.point;
+      give_way(*drive, motion.freedom[1]);
+    }
+    if (step_dt > 0) {
+      const ToolPose b = stages.pushed_by_none(k, time, kick, step_dt);
       motion.position1 = b.position;
       motion.rotation1 = b.rotation;
     }
@@ -367,6 +407,7 @@ void Simulation::Impl::place_tools() {
     tools[k].position = pose.position;
     tools[k].rotation = pose.rotation;
     tools[k].velocity = pose.velocity;
+    if (const AxleDrive* axle = stages.axle(static_cast<int>(k))) tools[k].turned = axle->gone();
     if (!pose.travel.isZero(0)) tools[k].way = pose.travel.stableNormalized();
     tools[k].present = stages.present(static_cast<int>(k));
     if (const double stop = stages.stops()[k]; !std::isnan(stop)) tools[k].stopped = stop;

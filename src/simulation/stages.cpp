@@ -11,11 +11,13 @@ namespace forming_sim {
 StageRunner::StageRunner(const std::vector<StageConfig>& stages, const Model& model) : stages_(stages), model_(&model) {
   for (const ToolModel& tool : model.tools) {
     const bool by_force = tool.motion && tool.motion->kind == "force";
-    courses_.push_back(tool.motion && !by_force ? RigidMotion(*tool.motion, model.dimension) : RigidMotion());
+    courses_.push_back(tool.motion ? RigidMotion(*tool.motion, model.dimension) : RigidMotion());
     motions_.push_back(tool.motion ? stay(courses_.back().at(0)) : RigidMotion());
     stop_force_.push_back(0);
     drives_.push_back(by_force ? std::optional<ForceDrive>(*tool.motion) : std::nullopt);
+    axles_.push_back(tool.turns_freely() ? std::optional<AxleDrive>(*tool.motion) : std::nullopt);
   }
+  free_.assign(model.tools.size(), 0);
   present_.assign(model.tools.size(), 1);
   stops_.assign(model.tools.size(), std::numeric_limits<double>::quiet_NaN());
   known_.resize(motions_.size());
@@ -32,8 +34,10 @@ double StageRunner::began(const std::string& since) const {
 
 void StageRunner::begin_motion(int tool, double t) {
   motions_[tool] = courses_[tool].beginning(t);
+  free_[tool] = 1;
   if (drives_[tool]) drives_[tool]->begin(t);
-  else stop_force_[tool] = model_->tools[tool].motion->stop_force;
+  if (axles_[tool]) axles_[tool]->begin(t);
+  stop_force_[tool] = model_->tools[tool].motion->stop_force;
 }
 
 void StageRunner::begin(double t) {
@@ -42,9 +46,8 @@ void StageRunner::begin(double t) {
     if (present_[k] && model_->tools[k].motion && first_stage(model_->tools[k].motion->since, stages_) == index_) begin_motion(static_cast<int>(k), t);
     if (!present_[k] || !leaves(stages_[index_], static_cast<int>(k))) continue;
     const Vec3& displacement = stages_[index_].displacement;
-    const ForceDrive* by = drive(static_cast<int>(k));
-    Pose from = motions_[k].at(t);
-    if (by) from.translation = by->way();
+    const Pose from = course(static_cast<int>(k), t);
+    free_[k] = 0;
     stop_force_[k] = 0;
     present_[k] = !displacement.isZero();
     motions_[k] = present_[k] ? withdraw(from, displacement, t, stages_[index_].duration) : stay(from);
@@ -76,18 +79,43 @@ double StageRunner::progress(double t) const {
   return total > 0 ? done / total : 1;
 }
 
-ToolPose StageRunner::pose(int tool, double t) const {
+Pose StageRunner::course(int tool, double t) const {
+  Pose pose = motions_[tool].at(t);
   if (const ForceDrive* by = drive(tool)) {
-    ToolPose pose = tool_pose(model_->tools[tool], RigidMotion(), t);
-    pose.position += by->way();
-    pose.velocity = pose.travel = by->velocity();
-    return pose;
+    pose.translation += by->way();
+    pose.velocity += by->velocity();
   }
+  if (const AxleDrive* by = axle(tool)) pose = turned_about(by->axle(), by->gone(), by->speed(), pose);
+  return pose;
+}
+
+ToolPose StageRunner::pushed_by_none(int tool, double t, double kick, double dt) const {
+  if (!drive(tool) && !axle(tool)) return pose(tool, t + dt);
+  Pose pose = motions_[tool].at(t + dt);
+  if (const ForceDrive* by = drive(tool)) {
+    const Vec3 velocity = by->free_speed(t, kick) * by->guide();
+    pose.translation += by->way() + dt * velocity;
+    pose.velocity += velocity;
+  }
+  if (const AxleDrive* by = axle(tool)) {
+    const double spin = by->free_speed(t, kick);
+    pose = turned_about(by->axle(), by->gone() + dt * spin, spin, pose);
+  }
+  return tool_pose(model_->tools[tool], pose);
+}
+
+StageRunner::Line StageRunner::axle_now(int tool, double t) const {
+  const Pose at = course(tool, t);
+  return {model_->tools[tool].motion->centre + at.translation, at.rotation * axles_[tool]->axle()};
+}
+
+ToolPose StageRunner::pose(int tool, double t) const {
+  if (drive(tool) || axle(tool)) return tool_pose(model_->tools[tool], course(tool, t));
   std::array<KnownPose, 2>& known = known_[tool];
   for (const KnownPose& k : known)
     if (k.time == t) return k.pose;
   known[1] = known[0];
-  known[0] = {t, tool_pose(model_->tools[tool], motions_[tool], t)};
+  known[0] = {t, tool_pose(model_->tools[tool], course(tool, t))};
   return known[0].pose;
 }
 

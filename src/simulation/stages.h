@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "forming_sim/loads/force_drive.h"
+#include "forming_sim/loads/drive.h"
 #include "forming_sim/loads/motion.h"
 #include "forming_sim/simulation/model.h"
 #include "forming_sim/simulation/plan.h"
@@ -29,11 +29,21 @@ class StageRunner {
   /// 0..1 by simulated time; a settle stage counts by its limit.
   double progress(double t) const;
 
-  /// Where a tool stands at time t; what a force drives, where it has come to.
+  /// Where a tool stands at time t; what moves as it is pushed, where it has come to.
   ToolPose pose(int tool, double t) const;
+  /// Where it stands after a step of dt from t on if nothing presses on it.
+  ToolPose pushed_by_none(int tool, double t, double kick, double dt) const;
   /// What drives a tool now; null: no force does.
-  const ForceDrive* drive(int tool) const { return driven(tool) ? &*drives_[tool] : nullptr; }
-  ForceDrive* drive(int tool) { return driven(tool) ? &*drives_[tool] : nullptr; }
+  const ForceDrive* drive(int tool) const { return is_free(tool) && drives_[tool] ? &*drives_[tool] : nullptr; }
+  ForceDrive* drive(int tool) { return is_free(tool) && drives_[tool] ? &*drives_[tool] : nullptr; }
+  /// About what it turns freely now; null: it does not.
+  const AxleDrive* axle(int tool) const { return is_free(tool) && axles_[tool] ? &*axles_[tool] : nullptr; }
+  AxleDrive* axle(int tool) { return is_free(tool) && axles_[tool] ? &*axles_[tool] : nullptr; }
+  /// A line in space: where the axle of a tool that has one is at time t.
+  struct Line {
+    Vec3 point, along;
+  };
+  Line axle_now(int tool, double t) const;
   /// When what has this `since` began; infinity: it has not.
   double began(const std::string& since) const;
   bool present(int tool) const { return present_[tool]; }
@@ -54,22 +64,28 @@ class StageRunner {
   /// With them, when tools were stopped; NaN: not.
   const std::vector<double>& stops() const { return stops_; }
   void replay(const std::vector<double>& starts, const std::vector<double>& stops);
-  /// What forces have done to the tools: before replay().
+  /// What pushes have done to the tools: before replay().
   template <class Archive> void exchange_drives(Archive& a) {
     for (std::optional<ForceDrive>& drive : drives_)
       if (drive) drive->exchange(a);
+    for (std::optional<AxleDrive>& axle : axles_)
+      if (axle) axle->exchange(a);
   }
 
  private:
   void begin(double t);
   void begin_motion(int tool, double t);
-  bool driven(int tool) const { return drives_[tool] && motions_[tool].rests(); }  ///< from when its motion begins until it is withdrawn
+  bool is_free(int tool) const { return free_[tool] != 0; }
+  /// Where its motion has come to, pushes included.
+  Pose course(int tool, double t) const;
 
   std::vector<StageConfig> stages_;
   const Model* model_;
-  std::vector<RigidMotion> courses_;  ///< as the scene gives them; none: it rests, or a force drives it
+  std::vector<RigidMotion> courses_;  ///< as the scene tells them; none: it rests
   std::vector<RigidMotion> motions_;  ///< now: waiting, on its course, stopped, withdrawn
   std::vector<std::optional<ForceDrive>> drives_;  ///< of the tools that a force drives
+  std::vector<std::optional<AxleDrive>> axles_;    ///< of those that turn freely
+  std::vector<char> free_;                         ///< 1: moved by pushes, if it has either: from when its motion begins until it is withdrawn
   std::vector<char> present_, left_;
   std::vector<double> starts_, stops_, stop_force_;
   int index_ = 0;

@@ -133,13 +133,16 @@ void Simulation::Impl::book(const ContactStep& done) {
     tool.touched = tool.touched || tool.pressed;
     if (model.axisymmetric) felt = around_circle(felt);
     tool.felt += felt;
-    if (ForceDrive* drive = stages.drive(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k], felt.impulse.dot(drive->guide()));
+    const StageRunner::Line axle = stages.axle(static_cast<int>(k)) ? stages.axle_now(static_cast<int>(k), time) : StageRunner::Line();
+    if (ForceDrive* drive = stages.drive(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k][0], felt.impulse.dot(drive->guide()));
+    if (AxleDrive* drive = stages.axle(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k][1], axle.along.dot(felt.angular - axle.point.cross(felt.impulse)));
     tell_fall(static_cast<int>(k));
     const auto run_on = [&](auto& mean, const auto& impulse) { mean += (impulse / kick - mean) / kForceMeanSteps; };
     run_on(tool.force, felt.impulse);
     run_on(tool.moment, model.axisymmetric ? felt.angular : Vec3(felt.angular - tool.position.cross(felt.impulse)));
     run_on(tool.radial_force, felt.radial);
     if (tool.force.squaredNorm() > tool.peak_force.squaredNorm()) tool.peak_force = tool.force;
+    if (tool.moment.squaredNorm() > tool.peak_moment.squaredNorm()) tool.peak_moment = tool.moment;
     if (std::abs(tool.radial_force) > std::abs(tool.peak_radial_force)) tool.peak_radial_force = tool.radial_force;
     const double most = stages.stop_force(static_cast<int>(k));
     if (most == 0 || (tool.way.isZero(0) && goes(*model.tools[k].motion))) continue;  // it has not begun to go

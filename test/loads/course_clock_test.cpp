@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "forming_sim/loads/dead_load.h"
-#include "forming_sim/loads/force_drive.h"
+#include "forming_sim/loads/drive.h"
 #include "forming_sim/loads/motion.h"
 #include "forming_sim/loads/pressure.h"
 #include "forming_sim/loads/rigid_velocity.h"

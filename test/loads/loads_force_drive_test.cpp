@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "forming_sim/config/fault.h"
-#include "forming_sim/loads/force_drive.h"
+#include "forming_sim/loads/drive.h"
 
 using namespace forming_sim;
 

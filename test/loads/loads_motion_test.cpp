@@ -62,7 +62,6 @@ TEST(Rotation, quarter_turn_and_small_angles) {
 
 TEST(RigidMotion, default_rests) {
   const RigidMotion motion;
-  EXPECT_TRUE(motion.rests());
   const Pose pose = motion.at(7);
   EXPECT_EQ(pose.translation, Vec3::Zero());
   EXPECT_EQ(pose.rotation, Mat3(Mat3::Identity()));
@@ -73,7 +72,6 @@ TEST(RigidMotion, trajectories_meet_their_knots_and_are_consistent) {
   for (const char* profile : {"smooth", "linear", "spline"}) {
     const MotionConfig config = trajectory(profile);
     const RigidMotion motion(config, 3);
-    EXPECT_FALSE(motion.rests());
     for (size_t k = 0; k < config.times.size(); ++k) {
       const Pose pose = motion.at(config.times[k]);
       EXPECT_LT((pose.translation - config.positions[k]).norm(), 1e-15) << profile;
@@ -161,18 +159,36 @@ TEST(ToolPose, turns_about_the_centre_that_moves_along) {
   config.centre = Vec3(1, 0, 0);
   tool.motion = config;
   const RigidMotion motion(config, 2);
-  const ToolPose start = tool_pose(tool, motion, 0), end = tool_pose(tool, motion, 1);
+  const ToolPose start = tool_pose(tool, motion.at(0)), end = tool_pose(tool, motion.at(1));
   EXPECT_LT((start.position - Vec3(2, 0, 0)).norm(), 1e-15);
   EXPECT_LT((start.rotation * Vec3::UnitX() - Vec3::UnitY()).norm(), 1e-15);
   EXPECT_LT((end.position - Vec3(0, 3, 0)).norm(), 1e-15);
   EXPECT_LT((end.rotation * Vec3::UnitX() + Vec3::UnitY()).norm(), 1e-15);
   const double h = 1e-6, t = 0.3;
   const Vec3 velocity =
-      (tool_pose(tool, motion, t + h).position - tool_pose(tool, motion, t - h).position) / (2 * h);
-  EXPECT_LT((tool_pose(tool, motion, t).velocity - velocity).norm(), 1e-8);
+      (tool_pose(tool, motion.at(t + h)).position - tool_pose(tool, motion.at(t - h)).position) / (2 * h);
+  EXPECT_LT((tool_pose(tool, motion.at(t)).velocity - velocity).norm(), 1e-8);
   // Withdrawing keeps the centre, so nothing jumps.
   const RigidMotion away = withdraw(motion.at(t), Vec3(0, 1, 0), t, 1);
-  EXPECT_LT((tool_pose(tool, away, t).position - tool_pose(tool, motion, t).position).norm(), 1e-15);
+  EXPECT_LT((tool_pose(tool, away.at(t)).position - tool_pose(tool, motion.at(t)).position).norm(), 1e-15);
+}
+
+// The axle goes with what is told, and the spin is that of both: as differences in time say.
+TEST(RigidMotion, an_axle_is_taken_along) {
+  MotionConfig config;
+  config.kind = "trajectory";
+  config.profile = "linear";
+  config.times = {0, 1};
+  config.positions = {{0, 0, 0}, {0, 3, 0}};
+  config.rotations_deg = {{0, 0, 0}, {90, 0, 0}};
+  const RigidMotion motion(config, 3);
+  const double rate = 2.5;
+  const auto at = [&](double t) { return turned_about(Vec3::UnitY(), 0.4 + rate * t, rate, motion.at(t)); };
+  const double h = 1e-6, t = 0.3;
+  const Mat3 W = (at(t + h).rotation - at(t - h).rotation) / (2 * h) * at(t).rotation.transpose();
+  EXPECT_LT((at(t).spin - Vec3(W(2, 1), W(0, 2), W(1, 0))).norm(), 1e-8);
+  EXPECT_LT((at(1).rotation * Vec3::UnitY() - Vec3::UnitZ()).norm(), 1e-15);  // a point on the axle does not go round it
+  EXPECT_EQ(at(t).translation, motion.at(t).translation);
 }
 
 TEST(RigidMotion, refusals_name_field_and_remedy) {

@@ -30,7 +30,7 @@ std::string error_of_file(const std::string& name, const std::string& text, cons
   dir.write(name, text);
   MeshConfig config = file(name);
   config.group = group;
-  return error_of([&] { load_body_mesh(config, dir.str()); });
+  return error_of([&] { body_mesh(config, dir.str()); });
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
@@ -81,7 +81,7 @@ TEST(MeshImportBody, NeighboursComeNearToEachOther) {
     for (int a = 0; a < 4; ++a) corners.push_back(number[mesh.cells[0].nodes[cell * 4 + a]]);
   const TempDir dir;
   dir.write("scattered.msh", msh::tetrahedra(points, corners));
-  const Mesh read = load_body_mesh(file("scattered.msh"), dir.str());
+  const Mesh read = body_mesh(file("scattered.msh"), dir.str());
   ASSERT_EQ(read.nodes.size(), mesh.nodes.size());
   EXPECT_NEAR(volume(read), volume(mesh), 1e-4 * volume(mesh));  // six digits in the file
   EXPECT_NEAR(area(read), area(mesh), 1e-4 * area(mesh));
@@ -97,8 +97,8 @@ TEST(MeshImportBody, BothFormatsKeepPhysicalGroups) {
   const TempDir dir;
   dir.write("two22.msh", msh::kTwoCubes22);
   dir.write("two41.msh", msh::kTwoCubes41);
-  const Mesh old_format = load_body_mesh(file("two22.msh", 1e-3), dir.str());
-  const Mesh new_format = load_body_mesh(file("two41.msh", 1e-3), dir.str());
+  const Mesh old_format = body_mesh(file("two22.msh", 1e-3), dir.str());
+  const Mesh new_format = body_mesh(file("two41.msh", 1e-3), dir.str());
   expect_two_cubes(old_format);
   expect_two_cubes(new_format);
   EXPECT_EQ(old_format.nodes, new_format.nodes);
@@ -110,7 +110,7 @@ TEST(MeshImportBody, AGroupIsTakenAsTheBody) {
   dir.write("two.msh", msh::kTwoCubes22);
   MeshConfig config = file("two.msh");
   config.group = "bottom face";
-  const Mesh mesh = load_body_mesh(config, dir.str());
+  const Mesh mesh = body_mesh(config, dir.str());
   EXPECT_EQ(mesh.dimension, 2);
   EXPECT_EQ(mesh.cells[0].kind, CellKind::crossed);
   EXPECT_EQ(mesh.nodes.size(), 8u);
@@ -119,18 +119,18 @@ TEST(MeshImportBody, AGroupIsTakenAsTheBody) {
   EXPECT_EQ(mesh.sets.at("edge").size(), 3u);
   EXPECT_FALSE(mesh.sets.count("body"));
   config.group = "lid";
-  const std::string text = error_of([&] { load_body_mesh(config, dir.str()); });
+  const std::string text = error_of([&] { body_mesh(config, dir.str()); });
   EXPECT_TRUE(has(text, "no physical group \"lid\"; it has edge, group_7, bottom face, body")) << text;
   config.group = "edge";
-  EXPECT_TRUE(has(error_of([&] { load_body_mesh(config, dir.str()); }), "so it is no body"));
+  EXPECT_TRUE(has(error_of([&] { body_mesh(config, dir.str()); }), "so it is no body"));
   config.group = "group_7";
-  EXPECT_TRUE(has(error_of([&] { load_body_mesh(config, dir.str()); }), "a body of dimension 2 lies in z = 0"));
+  EXPECT_TRUE(has(error_of([&] { body_mesh(config, dir.str()); }), "a body of dimension 2 lies in z = 0"));
 }
 
 TEST(MeshImportBody, ASectionOfTrianglesAndQuadrilaterals) {
   const TempDir dir;
   dir.write("section.msh", msh::section("0"));
-  const Mesh mesh = load_body_mesh(file("section.msh", .5), dir.str());
+  const Mesh mesh = body_mesh(file("section.msh", .5), dir.str());
   EXPECT_EQ(mesh.dimension, 2);
   ASSERT_EQ(mesh.cells.size(), 2u);
   EXPECT_EQ(mesh.cells[0].kind, CellKind::triangle);
@@ -141,7 +141,7 @@ TEST(MeshImportBody, ASectionOfTrianglesAndQuadrilaterals) {
   EXPECT_EQ(mesh.sets.at("group_3").size(), 2u);
   MeshConfig whole = file("section.msh", .5);
   whole.pattern = "one_point";
-  const Mesh one_point = load_body_mesh(whole, dir.str());
+  const Mesh one_point = body_mesh(whole, dir.str());
   EXPECT_EQ(one_point.cells[0].kind, CellKind::triangle);
   EXPECT_EQ(one_point.cells[1].kind, CellKind::quad1);
   EXPECT_EQ(one_point.nodes.size(), 5u);
@@ -153,11 +153,46 @@ TEST(MeshImportBody, Tetrahedra) {
   const TempDir dir;
   dir.write("tet.msh", msh::cells("1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n", 5,
                                   "41 4 2 1 1 1 2 3 4\n42 4 2 1 1 2 3 4 5\n", 2));
-  const Mesh mesh = load_body_mesh(file("tet.msh"), dir.str());
+  const Mesh mesh = body_mesh(file("tet.msh"), dir.str());
   EXPECT_EQ(mesh.cells[0].kind, CellKind::tetrahedron);
   EXPECT_EQ(mesh.surface.size(), 6u);
   EXPECT_NEAR(volume(mesh), 1. / 6 + 1. / 3, 1e-15);
   EXPECT_EQ(mesh.sets.at("group_1").size(), 5u);
+}
+
+// Tags and names of groups are one for each dimension alone.
+TEST(MeshImportBody, GroupsOfSeveralDimensionsAreToldApart) {
+  const std::string nodes = "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n";
+  const TempDir dir;
+  dir.write("two.msh", msh::cells(nodes, 4, "1 1 2 1 1 1 4\n2 1 2 2 2 2 3\n3 3 2 1 1 1 2 3 4\n", 3));
+  const Mesh mesh = body_mesh(file("two.msh"), dir.str());
+  EXPECT_EQ(mesh.sets.count("group_1"), 0u);
+  EXPECT_EQ(mesh.sets.at("group_1_curve").size(), 2u);
+  EXPECT_EQ(mesh.sets.at("group_1_surface").size(), 5u);
+  EXPECT_EQ(mesh.sets.at("group_2").size(), 2u);
+}
+
+// Format 2.2 writes a cell once for each group that it is in.
+TEST(MeshImportBody, ACellInTwoGroupsIsOneCell) {
+  const TempDir dir;
+  dir.write("two.msh", msh::cells("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n", 4, "1 3 2 1 1 1 2 3 4\n2 3 2 2 1 1 2 3 4\n", 2));
+  const Mesh mesh = body_mesh(file("two.msh"), dir.str());
+  EXPECT_EQ(mesh.cells[0].count(), 1);
+  EXPECT_EQ(mesh.sets.at("group_1").size(), 5u);
+  EXPECT_EQ(mesh.sets.at("group_2").size(), 5u);
+}
+
+TEST(MeshImportBody, OfCellsOfSecondOrderTheCornersAreTaken) {
+  const TempDir dir;
+  dir.write("t6.msh", msh::cells("1 0 0 0\n2 1 0 0\n3 0 1 0\n4 .5 -.1 0\n5 .5 .5 0\n6 0 .5 0\n", 6, "1 8 2 7 1 1 2 4\n2 9 2 8 1 1 2 3 4 5 6\n", 2));
+  std::vector<std::string> notes;
+  const Mesh mesh = load_body_mesh(file("t6.msh"), dir.str(), notes);
+  EXPECT_EQ(mesh.cells[0].kind, CellKind::triangle);
+  EXPECT_EQ(mesh.nodes.size(), 3u);
+  EXPECT_NEAR(volume(mesh), 0.5, 1e-15);
+  EXPECT_EQ(mesh.sets.at("group_7").size(), 2u);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_TRUE(has(notes[0], "cells of order 2")) << notes[0];
 }
 
 TEST(MeshImportBody, InvertedCellsAreNamedByTheirNumbers) {
@@ -169,9 +204,7 @@ TEST(MeshImportBody, InvertedCellsAreNamedByTheirNumbers) {
 
 TEST(MeshImportBody, WhatCannotBeUsedSaysWhatToDo) {
   const std::string nodes = "1 0 0 0\n2 1 0 0\n3 0 1 0\n4 .5 0 0\n5 .5 .5 0\n6 0 .5 0\n7 0 0 1\n8 1 0 1\n";
-  std::string text = error_of_file("t.msh", msh::cells(nodes, 8, "1 9 2 1 1 1 2 3 4 5 6\n", 1));
-  EXPECT_TRUE(has(text, "holds cells of order 2") && has(text, "-order 1")) << text;
-  text = error_of_file("t.msh", msh::cells(nodes, 8, "1 1 2 1 1 1 2\n", 1));
+  std::string text = error_of_file("t.msh", msh::cells(nodes, 8, "1 1 2 1 1 1 2\n", 1));
   EXPECT_TRUE(has(text, "mesh it first")) << text;
   text = error_of_file("t.msh", msh::cells("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 .5 .5 2\n", 9,
                                            "1 5 2 1 1 1 2 3 4 5 6 7 8\n2 4 2 1 1 5 6 7 9\n", 2));
@@ -194,10 +227,10 @@ TEST(MeshImportBody, BrokenFilesAreRefused) {
   EXPECT_TRUE(has(error_of_file("far.msh", replaced(whole, "10 11 6 7 12", "10 11 6 7 99")), "Wrong node index 99"));
   EXPECT_TRUE(has(error_of_file("body.step", "x"), "the ending \".step\" is not known; a body needs a .msh"));
   EXPECT_TRUE(has(error_of_file("body.stl", "x"), "mesh its volume with gmsh"));
-  EXPECT_TRUE(has(error_of([] { load_body_mesh(file("none.msh"), "/nowhere"); }), "there is no file /nowhere/none.msh"));
+  EXPECT_TRUE(has(error_of([] { body_mesh(file("none.msh"), "/nowhere"); }), "there is no file /nowhere/none.msh"));
   const TempDir dir;  // a good file is read after all the bad ones
   dir.write("two.msh", whole);
-  expect_two_cubes(load_body_mesh(file("two.msh", 1e-3), dir.str()));
+  expect_two_cubes(body_mesh(file("two.msh", 1e-3), dir.str()));
 }
 
 TEST(MeshImportBody, ThreadsReadOneAfterTheOther) {
@@ -207,7 +240,7 @@ TEST(MeshImportBody, ThreadsReadOneAfterTheOther) {
   std::vector<Mesh> meshes(6);
   std::vector<std::thread> threads;
   for (int t = 0; t < 6; ++t)
-    threads.emplace_back([&, t] { meshes[t] = load_body_mesh(file(t % 2 ? "two.msh" : "section.msh", 1e-3), dir.str()); });
+    threads.emplace_back([&, t] { meshes[t] = body_mesh(file(t % 2 ? "two.msh" : "section.msh", 1e-3), dir.str()); });
   for (std::thread& thread : threads) thread.join();
   for (int t = 0; t < 6; ++t) {
     if (t % 2) expect_two_cubes(meshes[t]);
@@ -223,7 +256,7 @@ TEST(MeshImportBody, WedgesStandBesideHexahedraAndUnderTetrahedra) {
   const std::string nodes = "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 2 0 0\n10 2 0 1\n11 1.3 .3 2\n";
   const std::string hex = "1 5 2 1 1 1 2 3 4 5 6 7 8\n", wedge = "2 6 2 1 1 2 9 3 6 10 7\n", tetrahedron = "3 4 2 1 1 6 10 7 11\n", face = "4 3 2 7 7 2 9 10 6\n";
   dir.write("mixed.msh", msh::cells(nodes, 11, hex + wedge + tetrahedron + face, 4));
-  const Mesh mesh = load_body_mesh(file("mixed.msh", 1), dir.str());
+  const Mesh mesh = body_mesh(file("mixed.msh", 1), dir.str());
   ASSERT_EQ(mesh.cells.size(), 3u);
   EXPECT_EQ(mesh.cells[2].kind, CellKind::wedge14);
   EXPECT_EQ(mesh.nodes.size(), 11u + 6 + 1 + 2 + 1);  // centres of the faces, of which two cells share one, and of the cells
@@ -233,9 +266,9 @@ TEST(MeshImportBody, WedgesStandBesideHexahedraAndUnderTetrahedra) {
   EXPECT_EQ(mesh.sets.at("group_7").size(), 5u);
   MeshConfig whole = file("mixed.msh", 1);
   whole.pattern = "one_point";
-  EXPECT_TRUE(has(error_of([&] { load_body_mesh(whole, dir.str()); }), "wedges, which are split, do not fit beside them"));
+  EXPECT_TRUE(has(error_of([&] { body_mesh(whole, dir.str()); }), "wedges, which are split, do not fit beside them"));
   dir.write("on_side.msh", msh::cells(nodes, 11, wedge + "3 4 2 1 1 2 9 6 1\n", 2));
-  EXPECT_TRUE(has(error_of([&] { load_body_mesh(file("on_side.msh", 1), dir.str()); }), "four corners of a wedge"));
+  EXPECT_TRUE(has(error_of([&] { body_mesh(file("on_side.msh", 1), dir.str()); }), "four corners of a wedge"));
 }
 
 // A pyramid on a hexahedron, and a tetrahedron on its side.
@@ -243,7 +276,7 @@ TEST(MeshImportBody, PyramidsStandOnHexahedraAndUnderTetrahedra) {
   const TempDir dir;
   const std::string nodes = "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 .5 .5 2\n10 2 .5 1.6\n";
   dir.write("mixed.msh", msh::cells(nodes, 10, "1 5 2 1 1 1 2 3 4 5 6 7 8\n2 7 2 1 1 5 6 7 8 9\n3 4 2 1 1 6 7 9 10\n", 3));
-  const Mesh mesh = load_body_mesh(file("mixed.msh", 1), dir.str());
+  const Mesh mesh = body_mesh(file("mixed.msh", 1), dir.str());
   ASSERT_EQ(mesh.cells.size(), 3u);
   EXPECT_EQ(mesh.cells[2].kind, CellKind::pyramid8);
   EXPECT_EQ(mesh.nodes.size(), 10u + 6 + 1 + 1);  // the base is the upper face of the hexahedron
@@ -251,12 +284,12 @@ TEST(MeshImportBody, PyramidsStandOnHexahedraAndUnderTetrahedra) {
   EXPECT_EQ(euler_characteristic(mesh), 2);
   MeshConfig whole = file("mixed.msh", 1);
   whole.pattern = "one_point";
-  EXPECT_TRUE(has(error_of([&] { load_body_mesh(whole, dir.str()); }), "pyramids, which are split, do not fit beside them"));
-  EXPECT_EQ(load_body_mesh(given("pyramid", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 1, 2, 3, 4}), "").nodes.size(), 7u);
+  EXPECT_TRUE(has(error_of([&] { body_mesh(whole, dir.str()); }), "pyramids, which are split, do not fit beside them"));
+  EXPECT_EQ(body_mesh(given("pyramid", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 1, 2, 3, 4}), "").nodes.size(), 7u);
 }
 
 TEST(MeshImportBody, InlineWedges) {
-  const Mesh mesh = load_body_mesh(given("wedge", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {0, 1, 2, 3, 4, 5}), "");
+  const Mesh mesh = body_mesh(given("wedge", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {0, 1, 2, 3, 4, 5}), "");
   EXPECT_EQ(mesh.cells[0].kind, CellKind::wedge14);
   EXPECT_EQ(mesh.nodes.size(), 10u);
 }
@@ -264,27 +297,27 @@ TEST(MeshImportBody, InlineWedges) {
 TEST(MeshImportBody, InlineCells) {
   MeshConfig config = given("hexahedron", kCube, {0, 1, 2, 3, 4, 5, 6, 7});
   config.unit_scale = .1;
-  Mesh mesh = load_body_mesh(config, "");
+  Mesh mesh = body_mesh(config, "");
   EXPECT_EQ(mesh.cells[0].kind, CellKind::hex24);
   EXPECT_NEAR(volume(mesh), 1e-3, 1e-17);
   config.pattern = "one_point";
-  mesh = load_body_mesh(config, "");
+  mesh = body_mesh(config, "");
   EXPECT_EQ(mesh.cells[0].kind, CellKind::hex1);
   EXPECT_EQ(mesh.nodes.size(), 8u);
   EXPECT_EQ(mesh.surface.size(), 12u);
   EXPECT_NEAR(enclosed(mesh), 1e-3, 1e-17);
   config.pattern = "coarse";
-  EXPECT_TRUE(has(error_of([&] { load_body_mesh(config, ""); }), "mesh.pattern"));
+  EXPECT_TRUE(has(error_of([&] { body_mesh(config, ""); }), "mesh.pattern"));
   // A quadrilateral whose corner points inwards has no place for its point.
   config = given("quadrilateral", {{0, 0, 0}, {1, 0, 0}, {.2, .2, 0}, {0, 1, 0}}, {0, 1, 2, 3});
   config.pattern = "one_point";
-  EXPECT_TRUE(has(error_of([&] { load_body_mesh(config, ""); }), "not convex"));
-  mesh = load_body_mesh(given("quadrilateral", {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}, {0, 1, 2, 3}), "");
+  EXPECT_TRUE(has(error_of([&] { body_mesh(config, ""); }), "not convex"));
+  mesh = body_mesh(given("quadrilateral", {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}, {0, 1, 2, 3}), "");
   EXPECT_EQ(mesh.cells[0].nodes, (std::vector<int>{0, 3, 2, 1, 4}));  // turned counter-clockwise
   EXPECT_NEAR(volume(mesh), 1, 1e-15);
-  mesh = load_body_mesh(given("tetrahedron", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 1, 2, 3}), "");
+  mesh = body_mesh(given("tetrahedron", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 1, 2, 3}), "");
   EXPECT_EQ(mesh.surface.size(), 4u);
-  mesh = load_body_mesh(given("triangle", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2}), "");
+  mesh = body_mesh(given("triangle", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2}), "");
   EXPECT_EQ(mesh.dimension, 2);
 }
 
@@ -294,17 +327,17 @@ TEST(MeshImportBody, HexahedraMayShareAWarpedFace) {
   const std::vector<Vec3> points{{0, -1, 0}, {1, -1, 0}, {1, -w, 0}, {0, w, 0}, {0, -1, h}, {1, -1, h}, {1, w, h}, {0, -w, h}, {0, 1, 0}, {1, 1, 0}, {0, 1, h}, {1, 1, h}};
   MeshConfig config = given("hexahedron", points, {0, 1, 2, 3, 4, 5, 6, 7, 3, 2, 9, 8, 7, 6, 11, 10});
   config.pattern = "one_point";
-  EXPECT_NEAR(volume(load_body_mesh(config, "")), 2 * h, 1e-12);
+  EXPECT_NEAR(volume(body_mesh(config, "")), 2 * h, 1e-12);
   std::vector<Vec3> folded = points;
   for (int n = 8; n < 12; ++n) folded[n].y() = -.7;  // the second on the side of the first
-  EXPECT_NE(error_of([&] { load_body_mesh(given("hexahedron", folded, config.cells), ""); }), "");
+  EXPECT_NE(error_of([&] { body_mesh(given("hexahedron", folded, config.cells), ""); }), "");
 }
 
 // Cells that lie against each other and share no node there: two quadrilaterals one over the other, whose meeting sides
 // have nodes of their own; half joined; two over one of twice the length; and apart by a gap that contact can keep.
 TEST(MeshImportBody, CellsThatTouchAreJoined) {
   const auto load = [](std::vector<Vec3> points, std::vector<int> cells, const char* kind = "quadrilateral") {
-    return load_body_mesh(given(kind, std::move(points), std::move(cells)), "");
+    return body_mesh(given(kind, std::move(points), std::move(cells)), "");
   };
   const auto error = [&](auto... mesh) { return error_of([&] { load(mesh...); }); };
   const std::vector<Vec3> low{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -353,7 +386,7 @@ TEST(MeshImportBody, CellsOnBothSidesCutAFaceAlike) {
   };
   const auto load = [&](const char* kind, std::vector<int> low, const std::vector<int>& high) {
     low.insert(low.end(), high.begin(), high.end());
-    return load_body_mesh(given(kind, tower, low), "");
+    return body_mesh(given(kind, tower, low), "");
   };
   for (bool other : {false, true}) {
     EXPECT_NO_THROW(load("wedge", wedges(0, other), wedges(4, other)));
@@ -366,7 +399,7 @@ TEST(MeshImportBody, CellsOnBothSidesCutAFaceAlike) {
 }
 
 TEST(MeshImportBody, InlineNonsenseIsRefusedByItsField) {
-  const auto refused = [](const MeshConfig& c) { return error_of([&] { load_body_mesh(c, ""); }); };
+  const auto refused = [](const MeshConfig& c) { return error_of([&] { body_mesh(c, ""); }); };
   EXPECT_TRUE(has(refused(given("", kCube, {0, 1, 2, 3})), "mesh.cell_type: given \"\""));
   EXPECT_TRUE(has(refused(given("hexahedron", kCube, {0, 1, 2})), "mesh.cells: given 3 indices; 8 per hexahedron"));
   EXPECT_TRUE(has(refused(given("triangle", kCube, {0, 1, 8})), "mesh.cells[2]: given 8; the points are numbered from 0 to 7"));

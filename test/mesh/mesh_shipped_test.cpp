@@ -26,7 +26,7 @@ double distance_from_die(const Vec3& x) {
 TEST(MeshShipped, TheSheetIsAStripOfHexahedraWithItsSets) {
   MeshConfig config = file("sheet_strip.msh");
   config.group = "sheet";
-  const Mesh mesh = load_body_mesh(config, kMeshes);
+  const Mesh mesh = body_mesh(config, kMeshes);
   ASSERT_EQ(mesh.cells.size(), 1u);
   EXPECT_EQ(mesh.cells[0].kind, CellKind::hex24);
   EXPECT_EQ(mesh.cells[0].count(), 42 * 5 * 3);
@@ -81,7 +81,7 @@ TEST(MeshShipped, ThePanelsOfTheHemAreSectorsWithTheirSets) {
   };
   for (const Panel& panel : {Panel{"hem_outer.msh", 34.5 * mm, 0, .93 * mm, 25 * 7 * 3, 7}, Panel{"hem_inner.msh", 28.4 * mm, .93 * mm, 1 * mm, 9 * 6 * 2, 6}}) {
     SCOPED_TRACE(panel.name);
-    const Mesh mesh = load_body_mesh(file(panel.name), kMeshes);
+    const Mesh mesh = body_mesh(file(panel.name), kMeshes);
     ASSERT_EQ(mesh.cells.size(), 1u);
     EXPECT_EQ(mesh.cells[0].kind, CellKind::hex24);
     EXPECT_EQ(mesh.cells[0].count(), panel.cells);

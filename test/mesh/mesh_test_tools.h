@@ -37,6 +37,14 @@ class TempDir {
   std::filesystem::path path_;
 };
 
+/// A body of which nothing is to be said.
+inline Mesh body_mesh(const MeshConfig& config, const std::string& directory) {
+  std::vector<std::string> notes;
+  Mesh mesh = load_body_mesh(config, directory, notes);
+  EXPECT_TRUE(notes.empty()) << notes.front();
+  return mesh;
+}
+
 /// Lines and arcs: the end point and the radius of each.
 inline ProfileConfig way(const Vec3& start, const std::vector<std::pair<Vec3, double>>& pieces) {
   ProfileConfig p;

@@ -39,6 +39,28 @@ class Features(SceneRun):
             pull = 2710 * math.radians(turns)**2 * 0.005**2 / 2
             self.assertLess(numpy.abs(last['stress'][:]).max(), 4 * pull)
 
+    def test_a_column_leans_as_its_imperfection_starts_it(self):
+        """Of the shape of the first mode, it grows by 1/(1 - P/P_cr), P_cr = pi^2 E' I/(4 L^2); a perfect column stays straight under more than that."""
+        length, thickness, lean = 0.02, 1e-3, 2e-5
+        blank = {'shape': 'strip', 'length': length, 'thickness': thickness, 'cells_along': 40, 'cells_through': 4}
+        critical = math.pi**2 * ALUMINIUM['youngs_modulus'] / (1 - ALUMINIUM['poissons_ratio']**2) * thickness**3 / 12 / (4 * length**2)
+        imperfect = ['0', f'{lean}*(1-cos(pi*x/{2 * length}))']
+        for part, formulas in ((0.5, imperfect), (1.1, [])):
+            column = body('strip', blank=blank, imperfection=formulas, boundaries=[{'set': 'left', 'kind': 'fixed'}],
+                          loads=[{'set': 'right', 'kind': 'force', 'times': [0, 1e-3], 'forces': [[0, 0], [-part * critical, 0]], 'profile': 'smooth'}])
+            data = scene(column, duration=1e-3, output={'frames': 2, 'probes': [{'name': 'tip', 'point': [length, thickness / 2]}]})
+            data['stages'].append({'kind': 'settle', 'limit': 0.05, 'kinetic_fraction': 1e-8})
+            self.run_scene(data)
+            rows = self.history()
+            first, last = (float(rows[i]['probe_tip_position_y_m']) for i in (0, -1))
+            if formulas:
+                self.assertAlmostEqual(first, thickness / 2 + lean, delta=1e-9)
+                self.assertAlmostEqual((last - thickness / 2) * (1 - part) / lean, 1, delta=0.02)
+            else:
+                self.assertLess(abs(last - thickness / 2), 1e-9)
+        self.assertIn('on the axis', self.refused(scene(body('strip', imperfection=['1e-5', '0'])) | {'axisymmetric': True}))
+        self.assertIn('imperfection', self.refused(scene(body('strip', imperfection=['-2*x', '0']))))
+
     def half_swing(self, cells, third, period, name):
         """The time after which a corner of the swinging cube is back in its place, and how far it was, over that of the shape."""
         speed, wave = 0.02, {a: {'s': f'sin(pi/2*{a})', 'c': f'cos(pi/2*{a})'} for a in 'xyz'}

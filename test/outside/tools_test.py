@@ -77,6 +77,32 @@ class Tools(SceneRun):
         for name in found:
             numpy.testing.assert_allclose(found[name], found['cube.stl'], rtol=1e-9, err_msg=name)
 
+    def test_an_idle_roll_rolls(self):
+        """Laid on a strip that is drawn along under it, friction turns it until it rolls; then it holds the strip back no more."""
+        speed, radius, force, friction = 2.0, 5e-3, 2e4, 0.2
+        strip = {'name': 'strip', 'blank': {'shape': 'strip', 'length': 0.020, 'thickness': 0.002, 'cells_along': 40, 'cells_through': 4},
+                 'material': dict(ALUMINIUM), 'initial_velocity': [speed, 0],
+                 'boundaries': [{'set': 'bottom', 'kind': 'velocity', 'axes': ['x'], 'times': [0], 'velocities': [[speed, 0]]}]}
+        centre = [0.010, 0.002 + radius]
+        roll = {'name': 'roll', 'profile': {'chord_error': 1e-8, 'start': [0, -radius], 'pieces': [{'to': [0, radius], 'radius': radius}, {'to': [0, -radius], 'radius': radius}]},
+                'position': centre, 'friction': friction,
+                'motion': {'kind': 'force', 'times': [0, 1e-4], 'forces': [[0, 0], [0, -force]], 'mass': 1.0, 'centre': centre, 'axle': [0, 0, 1], 'inertia': 1.25e-5}}
+        data = scene(strip, tools=[{'name': 'table', 'normal': [0, 1]}, roll], duration=8e-4, output={'frames': 2, 'history_interval': 2e-5})
+        tool = self.run_scene(data)['tools'][1]
+        rows = self.history()
+        turned = [math.radians(float(row['tool_roll_turned_deg'])) for row in rows]
+        self.assertAlmostEqual((turned[-1] - turned[-11]) * radius / (speed * 2e-4), 1, delta=0.02)
+        self.assertAlmostEqual(math.radians(tool['turned_deg']), turned[-1], delta=1e-6)
+        torque = [float(row['tool_roll_moment_z_N_m_per_m']) for row in rows]
+        slides = [torque[i] / (radius * float(rows[i]['tool_roll_force_y_N_per_m'])) for i in range(1, len(rows)) if 0.01 < turned[i] < 0.03]
+        self.assertGreater(len(slides), 2)
+        for found in slides:
+            self.assertAlmostEqual(found, friction, delta=0.01 * friction)
+        self.assertAlmostEqual(tool['peak_moment'][2] / (friction * radius * tool['peak_force'][1]), 1, delta=0.05)
+        self.assertLess(abs(sum(torque[-10:])) / 10, 0.03 * max(torque))
+        told = self.refused(dict(data, tools=[dict(data['tools'][0], motion={'kind': 'velocity', 'times': [0], 'axle': [0, 0, 1]})]))
+        self.assertIn('of a plane', told)
+
     def test_a_turning_tool(self):
         """A plane that tips by a trajectory of rotations pushes one end of the strip more than the other."""
         data = scene(body('strip', boundaries=[{'set': 'bottom', 'kind': 'fixed'}]), duration=4e-5, tools=[{

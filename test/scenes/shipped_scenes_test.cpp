@@ -52,7 +52,7 @@ TEST_P(ShippedScene, starts_with_its_tools_at_rest_in_their_places) {
   ASSERT_GT(model.element_count(), 0);
   for (const ToolModel& tool : model.tools) {
     const RigidMotion motion = is_moved(tool) ? RigidMotion(*tool.motion, model.dimension) : RigidMotion();
-    const ToolPose pose = tool_pose(tool, motion, 0);
+    const ToolPose pose = tool_pose(tool, motion.at(0));
     EXPECT_LT(pose.position.norm() + pose.velocity.norm(), 1e-12)
         << tool.name << " should start at rest in its place";
     if (!tool.is_plane()) continue;

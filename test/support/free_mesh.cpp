@@ -39,7 +39,8 @@ Mesh meshed(int dimension, double edge, const std::function<void()>& shape) {
     config.cells.push_back(place->second);
   }
   gmsh::model::remove();
-  return load_body_mesh(config, "");
+  std::vector<std::string> nothing_odd;
+  return load_body_mesh(config, "", nothing_odd);
 }
 
 void name_side(Mesh& mesh, const std::string& name, int axis, double at) {

@@ -12,6 +12,8 @@
 // at the end of the step. A is the mean of the areas that the pair's deformable
 // nodes stand for; E and A are fixed at
 // set-up, h0 but for what closes fast (src/contact/layers.cpp); weights and normals are those of the start of the step.
+#include <Eigen/Geometry>
+#include <array>
 #include <functional>
 #include <memory>
 #include <set>
@@ -44,17 +46,29 @@ struct ContactSurface {
   Vec3 point = Vec3::Zero(), normal = Vec3::Zero();  ///< plane, in the tool's frame; normal of length 1 towards the bodies
 };
 
+/// A way in which a rigid tool gives way to what presses on it: a point at x moves by so much along guide + axle x (x - centre).
+/// As the step begins; along a guide in m and kg, about an axle in rad and kg m2.
+struct ToolFreedom {
+  Vec3 guide = Vec3::Zero(), axle = Vec3::Zero(), centre = Vec3::Zero();
+  double inverse_mass = 0;  ///< 0: it does not give way
+  double speed = 0;         ///< in the step, if nothing presses on it
+  double last_speed = 0;    ///< in the step before: so far contact looks at first
+
+  Vec3 along(const Vec3& x) const { return guide + axle.cross(x - centre); }
+};
+
 /// Where a rigid tool stands at the beginning and the end of a step:
 /// x = rotation * (place in the tool's frame) + position.
 struct ToolMotion {
   Vec3 position0 = Vec3::Zero(), position1 = Vec3::Zero();
   Mat3 rotation0 = Mat3::Identity(), rotation1 = Mat3::Identity();
   bool present = true;  ///< false: the tool has left
-  /// Of one that a force drives along its guide: a unit vector, and 1/kg. At the end of the step it stands at position1 if nothing
-  /// presses on it, and else where contact lets it (ContactStep::tool_push). 0: it goes to position1. Method implicit only.
-  Vec3 guide = Vec3::Zero();
-  double inverse_mass = 0;
-  double last_speed = 0;  ///< along the guide in the step before, m/s: so far contact looks at first
+  /// Of one that moves as it is pushed: at the end of the step it stands at position1, rotation1 if nothing presses on it,
+  /// and else where contact lets it (ContactStep::tool_push). Method implicit only.
+  static constexpr int kFreedoms = 2;
+  ToolFreedom freedom[kFreedoms];  ///< along its guide, about its axle
+  bool goes_freely() const { return freedom[0].inverse_mass > 0; }
+  bool is_told() const { return freedom[0].inverse_mass == 0 && freedom[1].inverse_mass == 0; }
 };
 
 inline Vec3 pose0(const ToolMotion& m, const Vec3& p) { return m.rotation0 * p + m.position0; }
@@ -95,7 +109,7 @@ struct ContactStep {
   double stable_dt = 0;           ///< explicit only: the step up to which the layer as it stands is stable, s; 0: nothing is in it
   std::vector<Vec3> tool_impulse;          ///< on each tool by the bodies, N s
   std::vector<Vec3> tool_angular_impulse;  ///< about the world's origin, N m s
-  std::vector<double> tool_push;           ///< velocity along its guide that contact gave each tool that a force drives, m/s; 0 of others
+  std::vector<std::array<double, ToolMotion::kFreedoms>> tool_push;  ///< velocity that contact gave each tool in its freedoms, m/s, rad/s; 0 of others
   std::string told;                        ///< what is to be warned of; mostly nothing
 
   /// As a new one of so many tools, in the memory of the last.
@@ -106,7 +120,7 @@ struct ContactStep {
     next.tool_push.swap(tool_push);
     next.tool_impulse.assign(tools, Vec3::Zero());
     next.tool_angular_impulse.assign(tools, Vec3::Zero());
-    next.tool_push.assign(tools, 0.0);
+    next.tool_push.assign(tools, {});
     *this = std::move(next);
   }
 };

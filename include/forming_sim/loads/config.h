@@ -82,29 +82,37 @@ struct MotionConfig {
   std::vector<Vec3> positions;      ///< trajectory: displacement from the initial pose
   std::vector<Vec3> rotations_deg;  ///< trajectory: rotation vectors, degrees
   std::vector<Vec3> velocities;     ///< velocity
-  std::vector<Vec3> spins_deg_s;    ///< velocity: angular velocity
+  std::vector<Vec3> spins_deg_s;    ///< velocity, force: angular velocity
   std::vector<Vec3> forces;         ///< force
   Vec3 initial_velocity = Vec3::Zero();  ///< force
   double mass = 0;                  ///< force; 0: that of the bodies
-  double damping = 0;               ///< force
+  Vec3 axle = Vec3::Zero();         ///< about which it turns freely; zero: it does not
+  std::vector<double> torques;      ///< about the axle
+  double initial_spin_deg_s = 0;    ///< about the axle
+  double inertia = 0;               ///< about the axle; 0: of the bodies' mass, as far off as the tool reaches
+  double damping = 0;               ///< force, axle
   double stop_force = 0;            ///< trajectory, velocity; 0: none
   Vec3 centre = Vec3::Zero();
   std::string profile = "smooth";
   std::string since;                ///< stage at whose beginning it begins; empty: at the start
 
   template <class Visitor> static void declare(Visitor&& visit) {
-    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"trajectory", "velocity", "force"}).doc("trajectory: displacements and rotations at given times; velocity: velocities and spins at given times; force: forces at given times, and the tool goes where they and the bodies push it, along their line and without a turn: a blank holder, a hammer"));
+    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"trajectory", "velocity", "force"}).doc("trajectory: displacements and rotations at given times; velocity: velocities and spins at given times; force: forces at given times, and the tool goes where they and the bodies push it, along their line, without a turn but for its spins_deg_s and what its axle lets it: a blank holder, a hammer, a roll that is pressed on"));
     visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().doc("times of the knots, increasing; a trajectory rests before the first and after the last, a velocity or a force stays as at the nearest knot"));
     visit(FORMING_SIM_FIELD(positions), Field().unit("m").when("kind", {"trajectory"}).doc("displacement from the initial place at each knot"));
     visit(FORMING_SIM_FIELD(rotations_deg), Field().unit("deg").when("kind", {"trajectory"}).doc("rotation vector (axis times angle) about the centre at each knot; in dimension 2 [0, 0, angle]"));
     visit(FORMING_SIM_FIELD(velocities), Field().unit("m/s").when("kind", {"velocity"}).doc("velocity at each knot"));
-    visit(FORMING_SIM_FIELD(spins_deg_s), Field().unit("deg/s").when("kind", {"velocity"}).doc("angular velocity about the centre at each knot"));
+    visit(FORMING_SIM_FIELD(spins_deg_s), Field().unit("deg/s").when("kind", {"velocity", "force"}).doc("angular velocity about the centre at each knot"));
     visit(FORMING_SIM_FIELD(forces), Field().unit("N").required().when("kind", {"force"}).doc("force on the tool at each knot, all along one line; plane strain: N/m; axisymmetric: of the whole circle; the weight of the tool is one of them, gravity acts on bodies only"));
     visit(FORMING_SIM_FIELD(initial_velocity), Field().unit("m/s").when("kind", {"force"}).doc("velocity that the tool starts with, along the line of its forces: a hammer. Where all forces are 0 it is guided along this"));
     visit(FORMING_SIM_FIELD(mass), Field().unit("kg").at_least(0).computed("that of all bodies").when("kind", {"force"}).doc("mass of the tool, kg/m in plane strain; at least a thousandth of that of all bodies, mass scaling included"));
-    visit(FORMING_SIM_FIELD(damping), Field().unit("1/s").at_least(0).when("kind", {"force"}).doc("rate at which the tool loses speed to its guide: a force of damping times mass times velocity"));
+    visit(FORMING_SIM_FIELD(axle), Field().computed("none").doc("direction at the start of an axle through the centre, about which the tool turns freely, as what touches it makes it: an idle roll. It goes and turns with what the motion says (a velocity without velocities and spins_deg_s stays where it is). In dimension 2 [0, 0, 1]"));
+    visit(FORMING_SIM_FIELD(torques), Field().unit("N m").doc("torque about the axle at each knot, in its right-hand sense; plane strain: N m per m"));
+    visit(FORMING_SIM_FIELD(initial_spin_deg_s), Field().unit("deg/s").doc("how fast it turns about the axle at the start"));
+    visit(FORMING_SIM_FIELD(inertia), Field().unit("kg m2").at_least(0).computed("the mass of all bodies times the square of the farthest that the tool reaches from the axle").doc("moment of inertia about the axle, plane strain: kg m; at least a thousandth of the default, with what mass scaling adds"));
+    visit(FORMING_SIM_FIELD(damping), Field().unit("1/s").at_least(0).doc("of a tool that a force drives, or that turns about an axle: rate at which it loses speed to its guide, a force of damping times mass times velocity, and spin to its bearing, a torque of damping times inertia times spin"));
     visit(FORMING_SIM_FIELD(stop_force), Field().unit("N").at_least(0).when("kind", {"trajectory", "velocity"}).computed("it goes its whole way").doc("the tool stops for good where it is when the force against its way (of a tool that only turns: the whole force), the mean over some 50 steps, has reached this; plane strain: N/m; axisymmetric: along the axis, of the whole circle. stages[].until_stopped ends a stage with it"));
-    visit(FORMING_SIM_FIELD(centre), Field().unit("m").when("kind", {"trajectory", "velocity"}).doc("centre of rotation at the start; it moves with the tool"));
+    visit(FORMING_SIM_FIELD(centre), Field().unit("m").doc("centre of rotation at the start; it moves with the tool"));
     visit(FORMING_SIM_FIELD(profile), Field().choices({"smooth", "linear", "spline"}).doc("smooth: from rest to rest between knots (quintic trajectory, cubic velocity and force); linear: straight lines; spline: a trajectory that passes the inner knots without stopping"));
     visit(FORMING_SIM_FIELD(since), Field().computed("the start of the run").doc("name of a stage: the tool stands still until that begins, at its first position, and its times count from there"));
   }

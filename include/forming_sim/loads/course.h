@@ -15,6 +15,7 @@ template <class Visit> void each_course(const MotionConfig& m, Visit&& visit) {
   visit(m.times, m.velocities, true);
   visit(m.times, m.spins_deg_s, true);
   visit(m.times, m.forces, false);
+  visit(m.times, m.torques, false);
 }
 template <class Visit> void each_course(const BoundaryConfig& b, Visit&& visit) {
   visit(b.times, b.velocities, true);

@@ -5,11 +5,10 @@
 
 #include "forming_sim/loads/config.h"
 #include "forming_sim/loads/curve.h"
+#include "forming_sim/loads/tool.h"
 #include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
-
-struct ToolModel;
 
 /// Where a motion has got to.
 struct Pose {
@@ -40,14 +39,13 @@ class RigidMotion {
  public:
   /// Rests.
   RigidMotion() = default;
-  /// dimension 2 admits x, y and rotation about z only.
+  /// Of kind force: the spins alone. dimension 2 admits x, y and rotation about z only.
   /// Throws Error(invalid_scene) with field, value and remedy.
   RigidMotion(const MotionConfig& config, int dimension);
 
   /// The same from the time t of the run on.
   RigidMotion beginning(double t) const;
   Pose at(double time) const;
-  bool rests() const;  ///< has no knots: the same pose at all times
 
  private:
   friend RigidMotion withdraw(const Pose&, const Vec3&, double, double);
@@ -84,10 +82,13 @@ struct ToolPose {
   Vec3 spin = Vec3::Zero();      ///< rad/s
 };
 
+/// Turned by `angle`, at `rate`, about an axle that the pose takes along; axle: of length 1, in the initial orientation.
+Pose turned_about(const Vec3& axle, double angle, double rate, Pose pose);
+
 /// Initial pose (rotation_deg about the origin of the tool's mesh, then
 /// position), then the motion about tool.motion->centre, a point of the world at
 /// the start; without a motion in the tool the centre is the world's origin.
 /// A plane's point and normal are transformed by the same frame.
-ToolPose tool_pose(const ToolModel& tool, const RigidMotion& motion, double t);
+ToolPose tool_pose(const ToolModel& tool, const Pose& motion);
 
 }  // namespace forming_sim

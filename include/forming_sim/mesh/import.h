@@ -14,11 +14,11 @@ namespace forming_sim {
 /// cells in the file (or in `group`); in 2D all nodes lie in z = 0 and cells are
 /// turned counter-clockwise. Every physical group becomes a set of its nodes,
 /// including those that splitting adds on it; a group without a name is called
-/// group_<tag>, two groups of one name share a set. Surface found, volumes checked.
-/// Throws Error(mesh_error) for a file that is missing, not readable, of second
-/// order, or without cells, in 2D for nodes off z = 0, for inverted cells, named by their nodes, and for cells
+/// group_<tag>; where groups of several dimensions have one name, each is called NAME_point, NAME_curve, NAME_surface, NAME_volume. Of cells of
+/// higher order the corners are taken, which `notes` says. Surface found, volumes checked.
+/// Throws Error(mesh_error) for a file that is missing, not readable or without cells, in 2D for nodes off z = 0, for inverted cells, named by their nodes, and for cells
 /// that touch without being joined (see seams.h), as tetrahedra on the face of a hexahedron do.
-Mesh load_body_mesh(const MeshConfig& config, const std::string& base_directory);
+Mesh load_body_mesh(const MeshConfig& config, const std::string& base_directory, std::vector<std::string>& notes);
 
 /// A tool: triangles in `surface`, coinciding nodes merged, triangles without
 /// area and repeated ones removed; what was removed is said in `notes`.

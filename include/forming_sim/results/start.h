@@ -17,11 +17,13 @@ struct StartCheck {
 
 /// Looks for what validate() finds; where it finds nothing also for what shows only where the run is built: bodies
 /// inside tools, ties that find nothing, more steps than any machine makes.
-/// known: faults of reading the scene.
+/// known: faults of reading the scene. Throws Error(cancelled) where this thread is told to stop (parallel/interrupt.h).
 StartCheck check_start(const Scene& scene, std::vector<Fault> known, int threads);
 
 /// The run of a valid scene at its start; reactions are kept of the nodes of its probes. Throws SceneError, also where the
 /// run would take more than 1e12 steps.
 std::unique_ptr<Simulation> build_run(const Scene& scene, int threads);
+/// model: as build_model() makes it of the scene.
+std::unique_ptr<Simulation> build_run(const Scene& scene, Model model, int threads);
 
 }  // namespace forming_sim

@@ -25,6 +25,8 @@ class RunMarkers {
   RunMarkers() = default;
   RunMarkers(const RunShape& shape, const MarkerOptions& options);
 
+  /// Takes over what those of an earlier run may have left in rviz: it is deleted with every message, since a viewer that is busy sees the last one alone.
+  void follow(const RunMarkers& earlier);
   /// The markers of one instant. The first call puts DELETEALL before them.
   /// frame.is_finite() must hold: rviz does not check for NaN.
   visualization_msgs::MarkerArray at(const RunFrame& frame, const ros::Time& stamp);
@@ -51,6 +53,7 @@ class RunMarkers {
   DisplayMesh sheet_;
   std::vector<ToolDrawing> tools_;
   double range_ = 0;
+  std::size_t most_tools_ = 0;  ///< of this run and the ones before
   bool started_ = false;
 };
 

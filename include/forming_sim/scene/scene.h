@@ -23,6 +23,7 @@ struct BodyConfig {
   std::optional<MeshConfig> mesh;
   std::optional<FormedConfig> formed;
   std::vector<TrimConfig> trim;
+  std::vector<std::string> imperfection;
   std::string pressure_average = "cell";
   MaterialConfig material;
   bool self_contact = false;
@@ -38,9 +39,10 @@ struct BodyConfig {
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(name), Field().required().doc("name of the body"));
     visit(FORMING_SIM_FIELD(blank), Field().doc("a body that is meshed here. Give blank, mesh or formed"));
-    visit(FORMING_SIM_FIELD(mesh), Field().doc("a body from a volume mesh; its physical groups become sets"));
+    visit(FORMING_SIM_FIELD(mesh), Field().doc("a body from a volume mesh; its physical groups become sets: by their names, group_TAG without one, and NAME_curve, NAME_surface and so on where groups of several dimensions have one name"));
     visit(FORMING_SIM_FIELD(formed), Field().doc("a part as an earlier run has left it: its shape, its stresses and what has flowed, at rest; its material and pressure_average are those of then, its sets are kept"));
     visit(FORMING_SIM_FIELD(trim), Field().doc("what is cut away before the run: the cells whose middle lies in one of these regions; the edge follows the mesh"));
+    visit(FORMING_SIM_FIELD(imperfection), Field().unit("m").doc("how far the nodes stand from where the mesh puts them, free of stress: what a sheet or column buckles by, which never does so while it is perfect. A formula for each coordinate (two in a scene of dimension 2), of the place x, y, z in m that the mesh gives and pi, in the language of muParser. Sets and trims are chosen before, thickness counts from the shape with it; not of a formed part"));
     visit(FORMING_SIM_FIELD(pressure_average), Field().choices({"cell", "node", "element"}).doc("over what the pressure is averaged: cell: one per quadrilateral or hexahedron, and in free triangles and tetrahedra as node; node: one per node, everything else once an edge; element: no average (locks in plastic flow)"));
     visit(FORMING_SIM_FIELD(material), Field().required().doc("what the body is made of"));
     visit(FORMING_SIM_FIELD(self_contact), Field().doc("true: the body meets itself where it folds; contact of bodies with each other is always on"));

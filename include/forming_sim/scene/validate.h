@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "forming_sim/scene/scene.h"
+#include "forming_sim/simulation/model.h"
 
 namespace forming_sim {
 
@@ -19,6 +20,13 @@ std::vector<Fault> check_scene(const Scene& scene);
 /// (scene/yaml.h); they come first and are not told twice.
 /// Contact at the start is not looked at here but where the simulation is built.
 std::vector<Fault> validate(const Scene& scene, std::vector<Fault> known = {});
+
+/// The same, and of a scene without faults its model (as build_model), meshed once.
+struct CheckedModel {
+  std::vector<Fault> faults;
+  Model model;  ///< complete only without faults
+};
+CheckedModel validated_model(const Scene& scene, std::vector<Fault> known = {});
 
 /// Reads a scene file and validates it.
 /// Throws SceneError with all faults, Error(output_error) when it cannot be read.

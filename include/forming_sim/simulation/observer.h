@@ -90,12 +90,14 @@ struct ToolStatus {
   Vec3 position = Vec3::Zero();            ///< of the tool's frame, m
   Mat3 rotation = Mat3::Identity();        ///< tool frame to world
   Vec3 velocity = Vec3::Zero();
+  double turned = 0;                       ///< about its axle, rad
   Vec3 way = Vec3::Zero();                 ///< direction in which its centre of rotation moves, or last moved; 0: it has not moved
   Vec3 force = Vec3::Zero();               ///< on the tool by the bodies, running mean over about 50 steps; N (N/m in plane strain); axisymmetric: along the axis
   Vec3 moment = Vec3::Zero();              ///< about `position`
   double radial_force = 0;                 ///< axisymmetric: likewise outward, summed around the circle, N: what bursts a ring or clamps a punch
   Reaction felt;                           ///< of all contact so far: differences give the mean force of an interval
   Vec3 peak_force = Vec3::Zero();          ///< `force` of greatest magnitude so far
+  Vec3 peak_moment = Vec3::Zero();         ///< `moment` of greatest magnitude so far
   double most_against = 0;                 ///< greatest against() so far, N
   double peak_radial_force = 0;
   bool touched = false;                    ///< a body at the start, or contact has acted on it, in whatever direction

@@ -13,7 +13,7 @@ namespace forming_sim {
 /// Boundaries, pressures, dead loads and initial motion of one body (same order as Model::bodies).
 struct BodyLoads {
   Vec3 initial_velocity = Vec3::Zero(), initial_spin_deg_s = Vec3::Zero(), spin_centre = Vec3::Zero();
-  std::vector<std::string> initial_velocity_field;  ///< formulas, loads/velocity_field.h
+  std::vector<std::string> initial_velocity_field;  ///< formulas, config/formula_field.h
   std::vector<BoundaryConfig> boundaries;
   std::vector<PressureConfig> pressures;
   std::vector<LoadConfig> loads;

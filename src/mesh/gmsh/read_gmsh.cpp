@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 #include <unordered_map>
 
 #include "forming_sim/config/fault.h"
@@ -36,6 +37,14 @@ std::string name_of(const std::pair<int, int>& group) {
   return name.empty() ? "group_" + std::to_string(group.second) : name;
 }
 
+/// Names and tags are one for each dimension alone: a curve and a surface may have the same, and are told apart.
+std::string set_name_of(const std::pair<int, int>& group, const Groups& groups) {
+  constexpr const char* kDimensions[] = {"point", "curve", "surface", "volume"};
+  const std::string name = name_of(group);
+  const bool alone = std::none_of(groups.begin(), groups.end(), [&](const auto& other) { return other.first != group.first && name_of(other) == name; });
+  return alone ? name : name + "_" + kDimensions[group.first];
+}
+
 struct MeshReader {
   std::string source;
   std::unordered_map<std::size_t, int> index;  // of a node's tag
@@ -43,8 +52,9 @@ struct MeshReader {
 
   [[noreturn]] void refuse(const std::string& what) const { throw Error(Code::mesh_error, source + ": " + what); }
 
-  RawKind kind_of(int type) const {
-    switch (type) {
+  /// linear: the type of an element that has the corners of this one, and those alone.
+  RawKind kind_of(int linear, const std::string& name) const {
+    switch (linear) {
       case 15: return RawKind::point;
       case 1: return RawKind::line;
       case 2: return RawKind::triangle;
@@ -55,15 +65,21 @@ struct MeshReader {
       case 7: return RawKind::pyramid;
       default: break;
     }
-    std::string name;
-    int dimension, order, nodes, primary;
-    std::vector<double> local;
-    gmsh::model::mesh::getElementProperties(type, name, dimension, order, nodes, local, primary);
-    if (order > 1)
-      refuse("holds cells of order " + std::to_string(order) + " (" + name +
-             "); linear cells are needed: mesh with Mesh.ElementOrder = 1, or convert by gmsh -order 1 -save FILE -o NEW.msh");
     refuse("holds cells of the kind " + name +
            "; triangles, quadrilaterals, tetrahedra, hexahedra, wedges (prisms) and pyramids can be used, so mesh the body with these");
+  }
+
+  /// Of the element that has the `primary` nodes of one of `type`, and those alone.
+  static int linear_type(int type, const std::string& name, int primary) {
+    // Named by its family and the number of its nodes: "Tetrahedron 10".
+    const std::size_t end = name.find(' ');
+    const int linear = gmsh::model::mesh::getElementType(name.substr(0, end), 1);
+    std::string unused_name;
+    int dimension, order, nodes, corners;
+    std::vector<double> local;
+    if (linear == 0) return type;
+    gmsh::model::mesh::getElementProperties(linear, unused_name, dimension, order, nodes, local, corners);
+    return nodes == primary ? linear : type;
   }
 
   void read_nodes(double scale) {
@@ -80,20 +96,36 @@ struct MeshReader {
     }
   }
 
-  void append_cells(int dimension, int entity, std::vector<RawCell>& cells) const {
-    std::vector<int> types;
+  void append_cells(int dimension, int entity, std::vector<RawCell>& cells) {
+    if (entity < 0) {
+      gmsh::vectorpair entities;
+      gmsh::model::getEntities(entities, dimension);
+      for (const auto& each : entities) append_cells(dimension, each.second, cells);
+      return;
+    }
+    std::vector<int> types, groups;
     std::vector<std::vector<std::size_t>> tags, nodes;
     gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
+    gmsh::model::getPhysicalGroupsForEntity(dimension, entity, groups);
     for (std::size_t t = 0; t < types.size(); ++t) {
       if (tags[t].empty()) continue;
-      const RawKind kind = kind_of(types[t]);
+      std::string name;
+      int of_dimension, order, of_an_element, primary;
+      std::vector<double> local;
+      gmsh::model::mesh::getElementProperties(types[t], name, of_dimension, order, of_an_element, local, primary);
+      const RawKind kind = kind_of(linear_type(types[t], name, primary), name);
       const int corners = shape_of(kind).corners;
+      if (order > 1 && raw.note.empty())
+        raw.note = source + " holds cells of order " + std::to_string(order) + " (" + name + "): their corners alone are taken, and edges are straight between these";
+      // Format 2.2 writes a cell once for each physical group that it is in.
+      std::set<std::vector<std::size_t>> known;
       for (std::size_t c = 0; c < tags[t].size(); ++c) {
+        if (groups.size() > 1 && !known.emplace(nodes[t].begin() + c * of_an_element, nodes[t].begin() + (c + 1) * of_an_element).second) continue;
         RawCell cell{kind, static_cast<long long>(tags[t][c]), {}};
         for (int k = 0; k < corners; ++k) {
-          const auto found = index.find(nodes[t][c * corners + k]);
+          const auto found = index.find(nodes[t][c * of_an_element + k]);
           if (found == index.end())
-            refuse("cell " + std::to_string(cell.tag) + " names node " + std::to_string(nodes[t][c * corners + k]) +
+            refuse("cell " + std::to_string(cell.tag) + " names node " + std::to_string(nodes[t][c * of_an_element + k]) +
                    ", which the file does not hold");
           cell.nodes[k] = found->second;
         }
@@ -102,7 +134,7 @@ struct MeshReader {
     }
   }
 
-  void append_group(const std::pair<int, int>& group, std::vector<RawCell>& cells) const {
+  void append_group(const std::pair<int, int>& group, std::vector<RawCell>& cells) {
     std::vector<int> entities;
     gmsh::model::getEntitiesForPhysicalGroup(group.first, group.second, entities);
     for (int entity : entities) append_cells(group.first, entity, cells);
@@ -172,6 +204,8 @@ void check_beginning(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string line;
   std::getline(file, line);
+  if (line.compare(0, 3, "\xEF\xBB\xBF") == 0)
+    throw Error(Code::mesh_error, "mesh file \"" + path + "\": it begins with a byte order mark, which gmsh does not read; save it without one");
   if (line.compare(0, 11, "$MeshFormat") != 0 && line.compare(0, 9, "$Comments") != 0)
     throw Error(Code::mesh_error, "mesh file \"" + path + "\": " +
                                       (line.empty() ? "the file or its first line is empty" : "its first line is not that of a mesh") +
@@ -188,7 +222,7 @@ RawMesh read(const std::string& path, const std::string& group, double unit_scal
   Groups groups;
   gmsh::model::getPhysicalGroups(groups);
   reader.choose_body(groups, group);
-  for (const auto& g : groups) reader.append_group(g, reader.raw.groups[name_of(g)]);
+  for (const auto& g : groups) reader.append_group(g, reader.raw.groups[set_name_of(g, groups)]);
   reader.order_cells();
   reader.renumber_nodes();
   return std::move(reader.raw);
@@ -215,6 +249,7 @@ RawMesh read_with_reasons(const std::string& path, const std::string& group, dou
 void forming_sim_read_gmsh(const std::string& path, const std::string& group, double unit_scale, RawMesh& body) {
   body = read_apart<RawMesh>("mesh file \"" + path + "\"", path, [&] { return read_with_reasons(path, group, unit_scale); }, [](auto& archive, auto& mesh) {
     archive.text(mesh.source);
+    archive.text(mesh.note);
     archive.number(mesh.dimension);
     archive.list(mesh.points);
     archive.list(mesh.point_tags);

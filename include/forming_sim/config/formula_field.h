@@ -1,5 +1,5 @@
 #pragma once
-// A velocity over the initial position that formulas give: the shape of a swing, a ring that shrinks.
+// A vector at every initial position that formulas give: velocities as those of a swing or of a ring that shrinks, the imperfection of a blank.
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace forming_sim {
 
-/// One formula a coordinate, m/s, of x, y, z (m) and pi, in the language of muParser: + - * / ^, sin cos exp sqrt abs ...,
+/// One formula a coordinate, of x, y, z (m) and pi, in the language of muParser: + - * / ^, sin cos exp sqrt abs ...,
 /// comparisons, and condition ? then : else. Coordinates without a formula are 0.
-class VelocityField {
+class FormulaField {
  public:
   /// Throws Error(invalid_scene) with what is wrong with a formula, and where in it.
-  explicit VelocityField(const std::vector<std::string>& formulas);
-  ~VelocityField();
+  explicit FormulaField(const std::vector<std::string>& formulas);
+  ~FormulaField();
   /// Throws Error(invalid_scene) naming a formula that is no finite number at X.
   Vec3 at(const Vec3& X) const;
 

@@ -1,4 +1,4 @@
-#include "forming_sim/loads/velocity_field.h"
+#include "forming_sim/config/formula_field.h"
 
 #include <muParser.h>
 
@@ -9,15 +9,15 @@
 
 namespace forming_sim {
 
-struct VelocityField::Formulas {
+struct FormulaField::Formulas {
   std::vector<std::string> texts;
   std::vector<mu::Parser> parsers;
   Vec3 X = Vec3::Zero();  ///< what x, y, z stand for
 };
 
-VelocityField::~VelocityField() = default;
+FormulaField::~FormulaField() = default;
 
-VelocityField::VelocityField(const std::vector<std::string>& formulas) : formulas_(std::make_unique<Formulas>()) {
+FormulaField::FormulaField(const std::vector<std::string>& formulas) : formulas_(std::make_unique<Formulas>()) {
   formulas_->texts = formulas;
   Vec3& X = formulas_->X;
   for (const std::string& formula : formulas) {
@@ -37,18 +37,18 @@ VelocityField::VelocityField(const std::vector<std::string>& formulas) : formula
   }
 }
 
-Vec3 VelocityField::at(const Vec3& X) const {
+Vec3 FormulaField::at(const Vec3& X) const {
   formulas_->X = X;
-  Vec3 v = Vec3::Zero();
+  Vec3 value = Vec3::Zero();
   for (std::size_t i = 0; i < formulas_->parsers.size(); ++i) {
-    v[i] = formulas_->parsers[i].Eval();
-    if (std::isfinite(v[i])) continue;
+    value[i] = formulas_->parsers[i].Eval();
+    if (std::isfinite(value[i])) continue;
     std::ostringstream text;
-    text << "give a formula that is a number everywhere on the body: '" << formulas_->texts[i] << "' is " << v[i] << " at (" << X.x() << ", "
+    text << "give a formula that is a number everywhere on the body: '" << formulas_->texts[i] << "' is " << value[i] << " at (" << X.x() << ", "
          << X.y() << ", " << X.z() << ") m";
     throw Error(Code::invalid_scene, text.str());
   }
-  return v;
+  return value;
 }
 
 }  // namespace forming_sim

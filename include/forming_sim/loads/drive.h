@@ -1,0 +1,98 @@
+#pragma once
+// Tools that move as they are pushed: along the line of a force (a blank holder, a hammer), or about an axle (an idle roll, one with a torque on it).
+// One equation for both, in the words of the first; about an axle M is the moment of inertia, F and R torques, V the spin:
+//
+//   M dV/dt = F(t) + R - alpha M V,   R: what the bodies press on it; alpha: its damping, and in settle stages theirs,
+//
+// V at the half step, as the velocities of nodes; k = (dt_previous + dt)/2 the kick, a = alpha k/2:
+//
+//   V* = ((1 - a) V + k F/M)/(1 + a),   V = V* + J/(M (1 + a)),   J = k R.
+//
+// V and J depend on each other: contact finds both (contact/driven.h). Taken one after the other, the tool would feed the swings of
+// what it touches, whatever its mass and however short the step.
+#include <limits>
+
+#include "forming_sim/loads/config.h"
+#include "forming_sim/loads/profile.h"
+
+namespace forming_sim {
+
+/// Unit vector along the largest of the forces, where all are zero along the initial velocity; zero where that is, too.
+Vec3 guide_of(const MotionConfig& config);
+/// Whether a force or velocity lies along it, to round-off.
+bool goes_along(const Vec3& given, const Vec3& guide);
+
+class Drive {
+ public:
+  /// force: over the time of its own; mass above 0; speed: at the start.
+  Drive(const ScalarProfile& force, double mass, double damping, double speed) : force_(force), mass_(mass), damping_(damping), speed_(speed), momentum_(speed) {}
+
+  /// Its times count from the time t of the run on.
+  void begin(double t) { began_ = t; }
+
+  /// V* of a step from t on.
+  double free_speed(double t, double kick) const;
+  /// 1/(M (1 + a)).
+  double inverse_mass(double kick) const { return 1 / (mass_ * (1 + braking(kick))); }
+  /// The step has been done, dt long, with V = V* + push; J: `answer`.
+  void take(double t, double kick, double dt, double push, double answer);
+
+  double force(double t) const { return force_.at(t - began_); }  ///< F, N; N m
+  double mass() const { return mass_; }    ///< M, kg; kg m2
+  double gone() const { return gone_; }    ///< from the start, m; rad
+  double speed() const { return speed_; }  ///< V of the last step, m/s; rad/s
+  /// Adds `rate` to alpha, 1/s, until it is told another: in settle stages.
+  void slow_down(double rate) { settling_ = rate; }
+
+  template <class Archive> void exchange(Archive& a) {
+    for (double* value : {&gone_, &speed_, &momentum_}) a.number(*value);
+  }
+
+ private:
+  double braking(double kick) const { return 0.5 * (damping_ + settling_) * kick; }  ///< a
+
+  ScalarProfile force_;
+  double mass_, damping_, settling_ = 0;
+  double began_ = 0;  ///< s
+  double gone_ = 0, speed_ = 0;
+  double momentum_ = 0;  ///< over M: V as J says; speed_ is as near to it as contact searches, and no impulse is lost
+};
+
+/// Along the line of its forces.
+class ForceDrive : public Drive {
+ public:
+  /// Of a motion of kind force, its mass above 0, kg (kg/m in plane strain). Throws Error(invalid_scene) where forces and initial velocity are not
+  /// along one line or all zero, and as ScalarProfile does.
+  explicit ForceDrive(const MotionConfig& config);
+
+  const Vec3& guide() const { return guide_; }
+  Vec3 way() const { return gone() * guide_; }         ///< from the start, m
+  Vec3 velocity() const { return speed() * guide_; }   ///< V of the last step, m/s
+  /// As Drive's; answer: along the guide, N s.
+  void take(double t, double kick, double dt, double push, double answer);
+  /// How far it has gone on along its force since it last pressed on anything, m; 0: it has not pressed yet.
+  double fallen(double t) const;
+
+  template <class Archive> void exchange(Archive& a) {
+    Drive::exchange(a);
+    a.number(pressed_at_);
+  }
+
+ private:
+  Vec3 guide_;
+  double pressed_at_ = std::numeric_limits<double>::quiet_NaN();  ///< gone() when it last pressed
+};
+
+/// About its axle, which the tool's told motion takes along.
+class AxleDrive : public Drive {
+ public:
+  /// Of a motion with an axle, its inertia above 0, kg m2 (kg m in plane strain). Throws Error(invalid_scene) as ScalarProfile does.
+  explicit AxleDrive(const MotionConfig& config);
+
+  const Vec3& axle() const { return axle_; }  ///< at the start, of length 1
+
+ private:
+  Vec3 axle_;
+};
+
+}  // namespace forming_sim

@@ -1,0 +1,76 @@
+#include "forming_sim/loads/drive.h"
+
+#include <string>
+
+#include "forming_sim/config/fault.h"
+#include "forming_sim/config/words.h"
+#include "forming_sim/loads/rotation.h"
+
+namespace forming_sim {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& field, const std::string& given, const std::string& remedy) {
+  throw Error(Code::invalid_scene, "motion." + field + ": given " + given + "; " + remedy);
+}
+
+ScalarProfile profile_of(const MotionConfig& config, const std::vector<double>& values) try {
+  return values.empty() ? ScalarProfile() : ScalarProfile(config.times, values, config.profile);
+} catch (const Error& error) {
+  throw Error(error.code(), std::string("motion.") + error.what());
+}
+
+/// The forces along their line; checks that they and the initial velocity have one.
+ScalarProfile forces_along_guide(const MotionConfig& config) {
+  const Vec3 guide = guide_of(config);
+  if (guide.isZero(0)) refuse("forces", "no force other than 0, and no initial_velocity", "give one entry for each time; a tool without either needs no motion");
+  if (!goes_along(config.initial_velocity, guide)) refuse("initial_velocity", given_text(config.initial_velocity), "a tool is guided along the line of its forces, and starts along it");
+  std::vector<double> along;
+  for (std::size_t k = 0; k < config.forces.size(); ++k) {
+    along.push_back(config.forces[k].dot(guide));
+    if (!goes_along(config.forces[k], guide))
+      refuse("forces[" + std::to_string(k) + "]", given_text(config.forces[k]), "a tool is guided along one line, and its forces go along that");
+  }
+  return profile_of(config, along);
+}
+
+}  // namespace
+
+Vec3 guide_of(const MotionConfig& config) {
+  Vec3 largest = Vec3::Zero();
+  for (const Vec3& force : config.forces)
+    if (force.norm() > largest.norm()) largest = force;
+  if (largest.isZero(0)) largest = config.initial_velocity;
+  return largest.isZero(0) ? largest : Vec3(largest.stableNormalized());
+}
+bool goes_along(const Vec3& given, const Vec3& guide) { return (given - given.dot(guide) * guide).norm() <= 1e-12 * given.norm(); }
+
+double Drive::free_speed(double t, double kick) const {
+  const double a = braking(kick);
+  return ((1 - a) * momentum_ + kick * force(t) / mass_) / (1 + a);
+}
+
+void Drive::take(double t, double kick, double dt, double push, double answer) {
+  const double free = free_speed(t, kick);
+  speed_ = free + push;
+  gone_ += dt * speed_;
+  momentum_ = free + inverse_mass(kick) * answer;
+}
+
+ForceDrive::ForceDrive(const MotionConfig& config)
+    : Drive(forces_along_guide(config), config.mass, config.damping, config.initial_velocity.dot(guide_of(config))), guide_(guide_of(config)) {}
+
+void ForceDrive::take(double t, double kick, double dt, double push, double answer) {
+  Drive::take(t, kick, dt, push, answer);
+  if (answer != 0) pressed_at_ = gone();
+}
+
+double ForceDrive::fallen(double t) const {
+  const double F = force(t), along = F < 0 ? pressed_at_ - gone() : gone() - pressed_at_;
+  return F != 0 && along > 0 ? along : 0;
+}
+
+AxleDrive::AxleDrive(const MotionConfig& config)
+    : Drive(profile_of(config, config.torques), config.inertia, config.damping, kRadiansPerDegree * config.initial_spin_deg_s), axle_(config.axle.stableNormalized()) {}
+
+}  // namespace forming_sim
