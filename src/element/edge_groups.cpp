@@ -6,6 +6,7 @@
 #include "element/group.h"
 #include "forming_sim/config/fault.h"
 #include "forming_sim/element/edge_points.h"
+#include "forming_sim/parallel/interrupt.h"
 
 namespace forming_sim {
 namespace {
@@ -29,7 +30,9 @@ void Elements::put_points_at_edges(const BodyModel& body, const NodeField& X) {
       like = &g;
     }
   if (!like) return;
+  check_interrupt();
   const EdgePoints points = find_edge_points(simplices, X, dimension_, axisymmetric_);
+  check_interrupt();
   const int weights = edge_weights(dimension_, axisymmetric_);
   Group g;
   g.at_edges = true;

@@ -17,6 +17,7 @@
 #include "forming_sim/mesh/cell_order.h"
 #include "forming_sim/mesh/cell_tables.h"
 #include "forming_sim/material/law.h"
+#include "forming_sim/parallel/interrupt.h"
 #include "forming_sim/parallel/stage_clock.h"
 
 namespace forming_sim {
@@ -105,6 +106,8 @@ const Kernels& kernels_of(Isa isa) {
 
 Elements::~Elements() = default;
 
+constexpr int kBlocksBetweenChecks = 1024;  ///< of whether anybody still waits for them
+
 Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const NodeField& x,
                    const ElementOptions& options, int threads, const char* kernels)
     : isa_(choose_isa(kernels)), kernels_(kernels_of(isa_)), dimension_(dimension), axisymmetric_(options.axisymmetric), team_(std::make_unique<Team>(threads)) {
@@ -159,6 +162,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       const bool crossed = cells.kind == CellKind::crossed && !at_edges;
       std::vector<Lane> constants(is_one_point(cells.kind) ? one_point_items(D, g.ring) : crossed ? kCrossedItems : 0);
       for (int b = 0; b < g.blocks; ++b) {
+        if (b % kBlocksBetweenChecks == 0) check_interrupt();
         for (int l = 0; l < kLanes; ++l) {
           const int cell = std::min(b * kLanes + l, g.cells - 1);
           const int* of_cell = cells.nodes.data() + static_cast<std::size_t>(g.order[cell]) * shape.nodes;
@@ -217,7 +221,9 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
     if (simplex_mass[n] > 0) inertia_[n] = even_mass[n] / simplex_mass[n];
   for (const BodyModel& body : bodies) put_points_at_edges(body, x);
   record_size_ = D == 2 ? kRecord<2> : kRecord<3>;
+  check_interrupt();
   lay_tiles(nodes);
+  check_interrupt();
   pressure_.assign(any_nodal_ ? nodes : 0, 0.0);
 
   for (Group& g : groups_) {

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <atomic>
 #include <cmath>
 #include <csignal>
 
+#include "forming_sim/parallel/interrupt.h"
 #include "forming_sim/results/estimate.h"
 #include "forming_sim/results/directory_lock.h"
 #include "forming_sim/results/start.h"
@@ -282,6 +284,20 @@ TEST(RunScene, StepsBeyondNumberAreRefused) {
   const TemporaryDirectory directory;
   EXPECT_THROW(run_scene(scene, directory.path(), 1, "", kNever), SceneError);
   EXPECT_EQ(check_start(scene, {}, 1).simulation, nullptr);
+}
+
+TEST(RunScene, APreparationStopsWhenItIsTold) {
+  std::atomic<bool> cancelled{true};
+  {
+    const Interruptible while_wanted(cancelled);
+    try {
+      check_start(small_scene(), {}, 1);
+      FAIL() << "it went on";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), Code::cancelled);
+    }
+  }
+  EXPECT_TRUE(check_start(small_scene(), {}, 1).simulation);
 }
 
 TEST(RunScene, WhatCannotStartIsAFault) {

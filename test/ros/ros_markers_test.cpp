@@ -118,6 +118,47 @@ TEST(RosMarkers, BudgetCountsTools) {
   EXPECT_LE(markers.triangle_count(), 500u);
 }
 
+// A line of very many pieces is drawn by fewer, of its own points to its very ends, and leaves the sheet its share.
+TEST(RosMarkers, ALongLineIsThinned) {
+  RunShape shape = section(20, 4);
+  ToolModel line;
+  line.name = "line";
+  line.mesh.dimension = 2;
+  for (int k = 0; k <= 20000; ++k) {
+    line.mesh.nodes.push_back(Vec3(1e-6 * k, 0, 0));
+    Facet f;
+    f.nodes = {k, k + 1, -1};
+    if (k < 20000) line.mesh.surface.push_back(f);
+  }
+  shape.tools = {line};
+  MarkerOptions options;
+  options.triangle_budget = 500;
+  RunMarkers markers(shape, options);
+  EXPECT_LE(markers.triangle_count(), 500u);
+  const auto array = markers.at(at_rest(shape), ros::Time(1));
+  EXPECT_GT(find(array, "sheet", 0).points.size(), 3 * 100u);
+  const auto& edges = find(array, "tool_edges", 0);
+  EXPECT_EQ(edges.points.front().x, 0);
+  EXPECT_EQ(edges.points.back().x, line.mesh.nodes.back().x());
+  EXPECT_GT(edges.points.size(), 2 * 50u);
+}
+
+// A viewer that was busy when a run began sees its last message alone.
+TEST(RosMarkers, EveryMessageTakesAwayWhatEarlierRunsLeft) {
+  RunShape many = section(2, 2), one = section(2, 2);
+  many.tools.resize(3, many.tools.front());
+  RunMarkers before(many, {}), next(one, {}), last(one, {});
+  next.follow(before);
+  last.follow(next);
+  for (int k = 0; k < 3; ++k) {
+    const auto array = last.at(at_rest(one), ros::Time(1 + k));
+    for (const char* ns : {"tools", "tool_edges"}) {
+      EXPECT_EQ(find(array, ns, 0).action, visualization_msgs::Marker::ADD);
+      for (int id : {1, 2}) EXPECT_EQ(find(array, ns, id).action, visualization_msgs::Marker::DELETE);
+    }
+  }
+}
+
 TEST(RosMarkers, LegendNamesTheRange) {
   const RunShape shape = section(2, 2);
   RunMarkers running(shape, {});
