@@ -61,7 +61,7 @@ TEST(Counter, SeesWhatIsAskedFor) {
   EXPECT_GE(asked, before + 2) << some.size() + wide.size();
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, OfScenes, ::testing::Values(Case{"flange", 1}, Case{"flange", 2}, Case{"cup", 1}, Case{"draw_bend", 1}, Case{"hem_flat", 1}, Case{"strip_draw", 1}, Case{"flange_3d_one_point", 1},
+INSTANTIATE_TEST_SUITE_P(Shipped, OfScenes, ::testing::Values(Case{"flange", 1}, Case{"flange", 2}, Case{"cup", 1}, Case{"draw_bend", 1}, Case{"hem_flat", 1}, Case{"strip_draw", 1}, Case{"rolling", 1}, Case{"flange_3d_one_point", 1},
                                                               Case{"two_blocks", 1}, Case{"drop_hammer", 1}));
 
 }  // namespace
