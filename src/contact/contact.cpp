@@ -128,6 +128,8 @@ void Contact::Impl::follow_steady_motion(double dt, const NodeField& x, const No
       const ToolMotion& now = motion[tool];
       const Vec3 x = vec3(foot), n = vec3(pair.normal);
       speed = n.dot(pose1(now, now.rotation0.transpose() * (x - now.position0)) - x) / dt;
+      for (int k = 0; k < ToolMotion::kFreedoms; ++k)  // an axle: what it turns by was found since
+        if (step.tool_push[tool][k] != 0) speed += step.tool_push[tool][k] * n.dot(now.freedom[k].along(x));
       speed_before = speed;
       if (previous_dt > 0) {
         const ToolMotion& last = previous_motion[tool];

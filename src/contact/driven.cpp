@@ -56,15 +56,31 @@ void Contact::Impl::gather_driven(DrivenTool& tool) const {
     if (tie.tool != tool.tool) continue;
     if (tie.to_tool) add(tie.node[1]);
     const Node on = on_tool(tie, work, freedom);
-    tool.ties.push_back({static_cast<long>(i), on, 0, vec3(on).dot(tie.mass * vec3(on)), false});
+    const Node answer = node(tie.mass * vec3(on));
+    tool.ties.push_back({static_cast<long>(i), on, answer, 0, dot3(on, answer), false});
   }
   for (size_t i = 0; i < near.pairs.size(); ++i) {
     const ContactPair& pair = near.pairs[i];
     if (pair.tool(features.bodies) != tool.tool || pair.w == 0) continue;
     const Node on = on_tool(pair, work, freedom);
     const double along = dot3(pair.normal, on);
-    tool.pairs.push_back({static_cast<long>(i), on, along, (pair.rub < 0 ? along * along : dot3(on, on)) / pair.w, pair.rub >= 0});
+    const Node answer = (pair.rub < 0 ? along * pair.normal : on) / pair.w;
+    tool.pairs.push_back({static_cast<long>(i), on, answer, along, dot3(on, answer), pair.rub >= 0});
   }
+}
+
+void DrivenTool::see_each_other(DrivenTool& a, DrivenTool& b) {
+  const auto see = [](std::vector<DrivenLink>& first, std::vector<DrivenLink>& second) {
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      double &m1 = first[i].mass, &m2 = second[i].mass;
+      if (!(m1 > 0 && m2 > 0)) continue;
+      const double m12 = std::abs(dot3(first[i].on, second[i].answer)), ratio = std::sqrt(m1 / m2);
+      m1 += m12 * ratio;
+      m2 += m12 / ratio;
+    }
+  };
+  see(a.pairs, b.pairs);
+  see(a.ties, b.ties);
 }
 
 double Sweeps::push_driven(double dt, bool begins, Workspace& work, const std::vector<TiePair>& ties, DrivenTool& tool) const {

@@ -91,14 +91,15 @@ struct Contact::Impl {
   Sweeps sweeps;
   PairRecords tried;  ///< pairs of the last attempt at this step that failed
   std::vector<double> moved;
+  std::vector<double> told_ways;  ///< per tool
   std::vector<double> sum, weighted, total;  ///< per entry of the workspace
   std::vector<RubbedNode> pressed;
   std::vector<int> place_pressed;  ///< of an entry in `pressed`, -1: nothing rubs there
 
   // search.cpp
   double fastest(const NodeField& v) const;
-  /// Largest way in the step of any point of the present tools that go as they are told, m.
-  double step_way(const NodeField& x, double dt) const;
+  /// Into told_ways how far any point of each present tool goes in the step as it is told, m; returns the largest.
+  double step_way(const NodeField& x, double dt);
   /// Throws Error(contact_error) where a body vertex, or this reach, is farther than numbers go.
   void check_reach(const NodeField& x, double radius) const;
   /// A list that holds every pair of features nearer than `reach`.
@@ -153,12 +154,12 @@ struct Contact::Impl {
   /// The freedoms of the present tools, and what is of each in the step that has been gathered.
   void find_driven_tools();
   void gather_driven(DrivenTool& tool) const;
-  /// The largest of the tools' ways, each the sum over its freedoms.
-  template <class Way> double farthest_driven(Way&& way) const {
-    double most = 0, sum = 0;
+  /// The largest of the tools' ways: `most` of what they are told, or one's own with those of its freedoms.
+  template <class Way> double farthest_tool(double most, Way&& way) const {
+    double sum = 0;
     int of = -1;
     for (const DrivenTool& tool : driven) {
-      sum = (tool.tool == of ? sum : 0) + way(tool);
+      sum = (tool.tool == of ? sum : told_ways[tool.tool]) + way(tool);
       of = tool.tool;
       most = std::max(most, sum);
     }
@@ -179,7 +180,7 @@ struct Contact::Impl {
   [[noreturn]] void give_up(double time, double dt, int touch) const;
 
  private:
-  template <class From, class To> double farthest(const NodeField& x, From&& from, To&& to) const;
+  template <class From, class To> double farthest(const NodeField& x, From&& from, To&& to, std::vector<double>* ways = nullptr) const;
 };
 
 }  // namespace forming_sim

@@ -198,7 +198,7 @@ void Contact::Impl::advance_implicit(double time, double dt, double full_dt, Nod
     // How far a driven tool goes is known afterwards: what its force alone would do to a light one is far more than what it does while that lies on something.
     const double predicted = both * fastest(v_star) * dt, told_way = step_way(x, dt);
     double first_way = told_way;
-    first_way += farthest_driven([&](const DrivenTool& tool) { return tool.way(tool.last_speed, dt); });
+    first_way = farthest_tool(told_way, [&](const DrivenTool& tool) { return tool.way(tool.last_speed, dt); });
     double bound = 2 * (predicted + first_way);
     tools.place_planes(motion, planes);
     SweepResult swept;
@@ -222,6 +222,8 @@ void Contact::Impl::advance_implicit(double time, double dt, double full_dt, Nod
         clock.ends(&ContactTimes::narrow);
         swept = SweepResult();
         for (DrivenTool& tool : driven) gather_driven(tool);
+        for (size_t i = 1; i < driven.size(); ++i)
+          if (driven[i].tool == driven[i - 1].tool) DrivenTool::see_each_other(driven[i - 1], driven[i]);
         if (!near.pairs.empty() || !tie_pairs.empty())
           swept = sweeps.solve(dt, kTolerance * layer, config.max_sweeps, work, tie_pairs, near.pairs, near.rubs, driven, times);
         clock.begins();  // the sweeps have told theirs
@@ -232,7 +234,7 @@ void Contact::Impl::advance_implicit(double time, double dt, double full_dt, Nod
         }
         for (int i = 0; i < work.body_entries; ++i) most = std::max(most, dot3(work.v[i], work.v[i]));
       }
-      tool_way += farthest_driven([&](const DrivenTool& tool) { return tool.way(tool.speed + tool.push, dt); });
+      tool_way = farthest_tool(told_way, [&](const DrivenTool& tool) { return tool.way(tool.speed + tool.push, dt); });
       way = std::max(bound / 2, std::max(predicted, both * std::sqrt(most) * dt) + tool_way);
       if (way <= bound) break;
       bound = 1.5 * way;

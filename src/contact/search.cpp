@@ -25,8 +25,9 @@ double Contact::Impl::fastest(const NodeField& v) const {
 // Largest way of any point of the present tools between two poses, m. The
 // motion is affine, so that a corner of the box moves farthest.
 template <class From, class To>
-double Contact::Impl::farthest(const NodeField& x, From&& from, To&& to) const {
+double Contact::Impl::farthest(const NodeField& x, From&& from, To&& to, std::vector<double>* ways) const {
   double most = 0;
+  if (ways) ways->assign(motion.size(), 0.0);
   Box bodies;
   bool have = false;
   for (size_t t = 0; t < motion.size(); ++t) {
@@ -39,16 +40,19 @@ double Contact::Impl::farthest(const NodeField& x, From&& from, To&& to) const {
       box = bodies;  // in the world: brought into the tool's frame below
     }
     if (box.empty()) continue;
+    double way = 0;
     for (int i = 0; i < 8; ++i) {
       Vec3 p = box.corner(i);
       if (tools.is_plane[t]) p = motion[t].rotation0.transpose() * (p - motion[t].position0);
-      most = std::max(most, (to(t, p) - from(t, p)).norm());
+      way = std::max(way, (to(t, p) - from(t, p)).norm());
     }
+    if (ways) (*ways)[t] = way;
+    most = std::max(most, way);
   }
   return most;
 }
 
-double Contact::Impl::step_way(const NodeField& x, double dt) const {
+double Contact::Impl::step_way(const NodeField& x, double dt) {
   // Velocity of a point of a tool that nothing presses on, in what it is free to do.
   const auto freely = [](const ToolMotion& m, const Vec3& at) {
     Vec3 sum = Vec3::Zero();
@@ -58,9 +62,10 @@ double Contact::Impl::step_way(const NodeField& x, double dt) const {
   };
   bool rests = true;
   for (const ToolMotion& m : motion) rests = rests && m.position0 == m.position1 && m.rotation0 == m.rotation1;
+  told_ways.assign(motion.size(), 0.0);
   if (rests) return 0;
   return farthest(x, [&](size_t t, const Vec3& p) { return pose0(motion[t], p); },
-             [&](size_t t, const Vec3& p) -> Vec3 { return pose1(motion[t], p) - dt * freely(motion[t], pose0(motion[t], p)); });
+             [&](size_t t, const Vec3& p) -> Vec3 { return pose1(motion[t], p) - dt * freely(motion[t], pose0(motion[t], p)); }, &told_ways);
 }
 
 // Squares and cubes of lengths must stay numbers.

@@ -15,7 +15,7 @@ namespace {
 }
 
 ScalarProfile profile_of(const MotionConfig& config, const std::vector<double>& values) try {
-  return values.empty() ? ScalarProfile() : ScalarProfile(config.times, values, config.profile);
+  return ScalarProfile(config.times, values, config.profile);
 } catch (const Error& error) {
   throw Error(error.code(), std::string("motion.") + error.what());
 }
@@ -46,11 +46,16 @@ Vec3 guide_of(const MotionConfig& config) {
 bool goes_along(const Vec3& given, const Vec3& guide) { return (given - given.dot(guide) * guide).norm() <= 1e-12 * given.norm(); }
 
 double Drive::free_speed(double t, double kick) const {
-  const double a = braking(kick);
-  return ((1 - a) * momentum_ + kick * force(t) / mass_) / (1 + a);
+  const double a = braking(kick), kept = a > 1 ? 1 : 1 - a;
+  return inverse_mass(kick) * (kept * mass_ * momentum_ + kick * force(t));
 }
 
-void Drive::take(double t, double kick, double dt, double push, double answer) {
+double Drive::inverse_mass(double kick) const {
+  const double a = braking(kick);
+  return 1 / (mass_ * (a > 1 ? 1 + 2 * a : 1 + a));
+}
+
+void Drive::take_step(double t, double kick, double dt, double push, double answer) {
   const double free = free_speed(t, kick);
   speed_ = free + push;
   gone_ += dt * speed_;
@@ -61,7 +66,7 @@ ForceDrive::ForceDrive(const MotionConfig& config)
     : Drive(forces_along_guide(config), config.mass, config.damping, config.initial_velocity.dot(guide_of(config))), guide_(guide_of(config)) {}
 
 void ForceDrive::take(double t, double kick, double dt, double push, double answer) {
-  Drive::take(t, kick, dt, push, answer);
+  take_step(t, kick, dt, push, answer);
   if (answer != 0) pressed_at_ = gone();
 }
 
@@ -71,6 +76,6 @@ double ForceDrive::fallen(double t) const {
 }
 
 AxleDrive::AxleDrive(const MotionConfig& config)
-    : Drive(profile_of(config, config.torques), config.inertia, config.damping, kRadiansPerDegree * config.initial_spin_deg_s), axle_(config.axle.stableNormalized()) {}
+    : Drive(config.torques.empty() ? ScalarProfile() : profile_of(config, config.torques), config.inertia, config.damping, kRadiansPerDegree * config.initial_spin_deg_s), axle_(config.axle.stableNormalized()) {}
 
 }  // namespace forming_sim

@@ -185,4 +185,12 @@ ToolPose tool_pose(const ToolModel& tool, const Pose& pose) {
   return frame;
 }
 
+double reach_from_axle(const ToolModel& tool) {
+  const ToolPose start = tool_pose(tool, Pose());
+  const Vec3 axle = tool.motion->axle.stableNormalized();
+  double farthest = 0;
+  for (const Vec3& node : tool.mesh.nodes) farthest = std::max(farthest, axle.cross(start.position + start.rotation * node - tool.motion->centre).norm());
+  return farthest;
+}
+
 }  // namespace forming_sim

@@ -17,6 +17,11 @@ void FormedParts::on_end(const Simulation& simulation, Code code, const std::str
     part.pressure_average = body.pressure_average;
     part.axisymmetric = model.axisymmetric;
     for (int tool : simulation.tools_on(static_cast<int>(b))) part.pressed_by.push_back("tool " + model.tools[tool].name);
+    for (const PressureConfig& pressure : scene_.bodies[b].pressures)
+      if (!pressure.values.empty() && pressure.values.back() != 0) part.pressed_by.push_back(name_of(pressure));
+    for (const LoadConfig& load : scene_.bodies[b].loads)
+      for (const std::vector<Vec3>* values : {&load.tractions, &load.forces})
+        if (!values->empty() && !values->back().isZero(0)) part.pressed_by.push_back(name_of(load));
     for (const BoundaryConfig& boundary : scene_.bodies[b].boundaries)
       if (boundary.until.empty()) part.held_sets.push_back(boundary.set);
     part.mesh = body.mesh;

@@ -28,8 +28,9 @@ void require_room_for_parts(const Scene& scene, const std::string& directory) {
       throw Error(Code::output_error, "body " + scene.bodies[i].name + " is read from " + path + ", over which this run would write its own parts: give another output directory");
 }
 
+/// built: the run at its start, or null: it is built of the model.
 Outcome run_valid(const Scene& scene, const std::string& directory, int threads, const std::string& resume_file,
-                  const std::atomic<bool>& cancel, const std::vector<Observer*>& extra, std::unique_ptr<Simulation> built) {
+                  const std::atomic<bool>& cancel, const std::vector<Observer*>& extra, std::unique_ptr<Simulation> built, Model model) {
   make_output_directory(directory);
   const DirectoryLock lock(directory);
   require_room_for_parts(scene, directory);
@@ -38,7 +39,7 @@ Outcome run_valid(const Scene& scene, const std::string& directory, int threads,
     checkpoint = load_checkpoint(resume_file);
     require_same_run(*checkpoint, scene, resume_file);
   }
-  if (!built) built = build_run(scene, threads);
+  if (!built) built = build_run(scene, std::move(model), threads);
   Simulation& simulation = *built;
   if (checkpoint) {
     simulation.restore(checkpoint->state);
@@ -71,11 +72,12 @@ void note_refusal(const Scene& scene, const std::string& directory, const std::v
 Outcome run_scene(const Scene& scene, const std::string& directory, int threads, const std::string& resume_file,
                   const std::atomic<bool>& cancel, const std::vector<Observer*>& extra, std::unique_ptr<Simulation> built) {
   try {
+    CheckedModel checked;
     if (!built) {
-      std::vector<Fault> faults = validate(scene);
-      if (!faults.empty()) throw SceneError(std::move(faults));
+      checked = validated_model(scene);
+      if (!checked.faults.empty()) throw SceneError(std::move(checked.faults));
     }
-    return run_valid(scene, directory, threads, resume_file, cancel, extra, std::move(built));
+    return run_valid(scene, directory, threads, resume_file, cancel, extra, std::move(built), std::move(checked.model));
   } catch (const SceneError& error) {
     note_refusal(scene, directory, error.faults(), error.code(), error.what());
     throw;

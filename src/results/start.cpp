@@ -23,8 +23,6 @@ void check_length(const Simulation& simulation) {
 
 }  // namespace
 
-std::unique_ptr<Simulation> build_run(const Scene& scene, int threads) { return build_run(scene, build_model(scene), threads); }
-
 std::unique_ptr<Simulation> build_run(const Scene& scene, Model model, int threads) {
   auto simulation = std::make_unique<Simulation>(build_plan(scene), std::move(model), threads);
   check_length(*simulation);

@@ -64,6 +64,7 @@ void print_summary(const SimulateFormingResult& result) {
   for (const ToolState& tool : s.tools) {
     row(("peak force on " + tool.name).c_str(), std::hypot(tool.peak_force.x, tool.peak_force.y, tool.peak_force.z), 1,
         s.dimension == 2 && !s.axisymmetric ? "N per m of width" : "N");
+    row((tool.name + " turned").c_str(), tool.turned_deg, 1, "deg about its axle");
     row((tool.name + " stopped at").c_str(), tool.stopped_s, 1e3, "ms");
     if (s.axisymmetric) row(("peak radial force on " + tool.name).c_str(), tool.peak_radial_force, 1, "N");
   }
@@ -85,7 +86,7 @@ enum class Followed { to_its_end, until_lost, until_told };  ///< lost: the serv
 Followed follow(Client& client, Client::GoalHandle& goal, ClientProgress& line) {
   bool cancelled = false;
   int missed = 0, asked = 0;
-  double since = 0;  // s
+  double since = 0;  // it was told to stop, s
   for (; goal.getCommState() != actionlib::CommState::DONE; ros::WallDuration(kLook).sleep()) {
     if (!ros::ok()) return Followed::until_lost;
     // Not before a status lists it: actionlib gives a goal up as lost when it is cancelled earlier.
@@ -95,8 +96,8 @@ Followed follow(Client& client, Client::GoalHandle& goal, ClientProgress& line) 
       cancelled = true;
     }
     // One key stroke may come more than once.
-    if (cancelled && (since += kLook) < 0.5) asked = stops_requested();
-    if (cancelled && stops_requested() > asked && since >= 0.5) return Followed::until_told;
+    if (stop_requested() && (since += kLook) < 0.5) asked = stops_requested();
+    if (since >= 0.5 && stops_requested() > asked) return Followed::until_told;
     missed = client.isServerConnected() ? 0 : missed + 1;
     if (missed > 30) return Followed::until_lost;
   }

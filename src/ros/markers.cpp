@@ -58,7 +58,7 @@ RunMarkers::ToolDrawing RunMarkers::draw(const ToolModel& tool, int budget) cons
       }
     }
   } else if (dimension_ == 2) {
-    // Lines with more pieces than may be shown are drawn through every so manyth point: chains of segments, as profiles are.
+    // Lines with more pieces than may be shown are drawn through every n-th point, in chains whose segments follow each other, as those of profiles do.
     const std::size_t pieces = tool.mesh.surface.size(), step = (2 * pieces + budget - 1) / budget;
     for (std::size_t first = 0; first < pieces;) {
       std::size_t last = first;

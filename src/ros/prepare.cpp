@@ -37,6 +37,8 @@ Prepared prepare(const SceneSpec& message, const std::string& scene_text, int th
     prepared.faults = std::move(start.faults);
     prepared.notes = std::move(start.notes);
     prepared.simulation = std::move(start.simulation);
+  } catch (const SceneError& error) {
+    prepared.faults = error.faults();
   } catch (const Error& error) {
     if (error.code() == Code::cancelled) throw;
     prepared.faults.push_back({error.code(), "scene", error.what(), "change the scene so that it can start"});

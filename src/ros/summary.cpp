@@ -73,7 +73,8 @@ RunSummary read_summary(const std::string& directory) {
     ToolState state;
     state.name = tool.value("name", "");
     state.peak_force = vector_message(Vec3(number(tool, "/peak_force/0"), number(tool, "/peak_force/1"), number(tool, "/peak_force/2")));
-    state.peak_moment = vector_message(Vec3(number(tool, "/peak_moment/0"), number(tool, "/peak_moment/1"), number(tool, "/peak_moment/2")));
+    if (const auto moment = tool.find("peak_moment"); moment != tool.end() && moment->is_array())
+      state.peak_moment = vector_message(Vec3(number(tool, "/peak_moment/0"), number(tool, "/peak_moment/1"), number(tool, "/peak_moment/2")));
     state.turned_deg = number(tool, "/turned_deg");
     if (const auto radial = tool.find("peak_radial_force"); radial != tool.end() && radial->is_number()) state.peak_radial_force = *radial;
     state.pose.position = point_message(Vec3(number(tool, "/position/0"), number(tool, "/position/1"), number(tool, "/position/2")));

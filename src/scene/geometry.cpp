@@ -5,9 +5,10 @@
 #include <filesystem>
 #include <set>
 
-#include "forming_sim/config/words.h"
-#include "forming_sim/loads/rotation.h"
 #include "forming_sim/config/formula_field.h"
+#include "forming_sim/config/words.h"
+#include "forming_sim/loads/motion.h"
+#include "forming_sim/loads/rotation.h"
 #include "forming_sim/mesh/axis.h"
 #include "forming_sim/mesh/generate.h"
 #include "forming_sim/mesh/import.h"
@@ -24,6 +25,9 @@
 namespace forming_sim {
 
 namespace {
+
+constexpr double kSamePlane = 1e-9;  ///< of a body's size
+constexpr double kRound = 3e-3;  ///< longest segment of an arc of what turns freely, of its radius: half of it is the lever at which what lies on a corner turns it
 
 bool has_faults(const std::vector<Fault>& known, const std::string& path) {
   return std::any_of(known.begin(), known.end(), [&](const Fault& fault) { return fault.field.compare(0, path.size(), path) == 0; });
@@ -106,7 +110,7 @@ void check_used_sets(const BodyConfig& body, const std::string& path, const Mesh
 }
 
 void check_velocity_field(const BodyConfig& body, const std::string& path, const Mesh& mesh, std::vector<Fault>& faults) {
-  attempt(path, "formulas", faults, [&] {
+  attempt(path, one_of(body.initial_velocity_field, ", "), faults, [&] {
     const FormulaField field(body.initial_velocity_field);
     for (const Vec3& X : mesh.nodes) field.at(X);
   });
@@ -117,15 +121,29 @@ void make_imperfect(const Scene& scene, std::size_t i, Mesh& mesh, std::vector<F
   const std::vector<std::string>& formulas = scene.bodies[i].imperfection;
   const std::string path = body_path(i) + ".imperfection";
   if (formulas.empty() || mesh.nodes.empty()) return;
-  attempt(path, "formulas", faults, [&] {
+  attempt(path, one_of(formulas, ", "), faults, [&] {
     const FormulaField field(formulas);
-    for (Vec3& X : mesh.nodes) {
+    Mesh moved = mesh;
+    for (Vec3& X : moved.nodes) {
       const Vec3 x = X + field.at(X);
       if (scene.axisymmetric && (X.x() == 0 ? x.x() != 0 : !(x.x() > 0)))
         throw Error(Code::invalid_scene, "give formulas that leave what is on the axis y there, and the rest beside it: the node at " + place(X) + " goes to x = " + number_text(x.x()) + " m");
       X = x;
     }
-    check_volumes(mesh);
+    for (const BoundaryConfig& boundary : scene.bodies[i].boundaries) {
+      const auto set = mesh.sets.find(boundary.set);
+      if (boundary.kind != "symmetric" || set == mesh.sets.end() || boundary.normal.isZero(0)) continue;
+      const Vec3 normal = boundary.normal.stableNormalized();
+      for (int n : set->second)
+        if (const double across = normal.dot(moved.nodes[n] - mesh.nodes[n]); std::abs(across) > kSamePlane * size_of(mesh))
+          throw Error(Code::invalid_scene, "give formulas that leave the nodes of the set " + boundary.set + " in their plane of symmetry: the one at " + place(mesh.nodes[n]) + " goes " + three_digits(across) + " m across it");
+    }
+    try {
+      check_volumes(moved);
+    } catch (const Error& error) {
+      throw Error(Code::invalid_scene, "give smaller ones: they turn cells over or make them flat. " + std::string(error.what()));
+    }
+    mesh = std::move(moved);
   });
 }
 
@@ -202,6 +220,20 @@ double finest_edge(const std::vector<Mesh>& bodies) {
   return finest;
 }
 
+ToolModel tool_model(const ToolConfig& config, Mesh mesh) {
+  ToolModel tool;
+  tool.name = config.name;
+  tool.mesh = std::move(mesh);
+  tool.point = config.point;
+  if (!config.normal.isZero(0)) tool.normal = config.normal.stableNormalized();
+  tool.position = config.position;
+  tool.rotation_deg = config.rotation_deg;
+  tool.motion = config.motion;
+  tool.friction = config.friction;
+  tool.friction_limit = config.friction_limit;
+  return tool;
+}
+
 /// longest: of the segments that stand for an arc of a profile, m.
 bool make_tool(const Scene& scene, std::size_t i, const std::vector<Fault>& known, double longest, Mesh& mesh, Geometry& geometry) {
   std::vector<Fault>& faults = geometry.faults;
@@ -211,7 +243,9 @@ bool make_tool(const Scene& scene, std::size_t i, const std::vector<Fault>& know
   if (sources != 1 || has_faults(known, path + ".mesh") || has_faults(known, path + ".profile")) return false;
   if (tool.profile)
     return attempt(path + ".profile", "this profile", faults, [&] {
-      mesh = scene.dimension == 3 ? sweep_profile(*tool.profile, longest) : mesh_profile(*tool.profile, longest);
+      const auto make = [&](double most) { return scene.dimension == 3 ? sweep_profile(*tool.profile, most) : mesh_profile(*tool.profile, most); };
+      mesh = make(longest);
+      if (const ToolModel model = tool_model(tool, mesh); model.turns_freely() && tool.profile->sweep != "turned") mesh = make(std::min(longest, kRound * reach_from_axle(model)));
       if (scene.axisymmetric) check_beside_axis(tool, mesh);
     });
   if (!tool.mesh) return true;  // a plane
@@ -264,20 +298,6 @@ void add_body(const BodyConfig& config, Mesh mesh, std::optional<FormedMemory> f
   model.bodies.push_back(std::move(body));
 }
 
-void add_tool(const ToolConfig& config, Mesh mesh, Model& model) {
-  ToolModel tool;
-  tool.name = config.name;
-  tool.mesh = std::move(mesh);
-  tool.point = config.point;
-  if (!config.normal.isZero(0)) tool.normal = config.normal.stableNormalized();
-  tool.position = config.position;
-  tool.rotation_deg = config.rotation_deg;
-  tool.motion = config.motion;
-  tool.friction = config.friction;
-  tool.friction_limit = config.friction_limit;
-  model.tools.push_back(std::move(tool));
-}
-
 }  // namespace
 
 Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known) {
@@ -319,7 +339,7 @@ Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known) {
   check_sizes(scene, bodies, tools, geometry.faults, geometry.model.notes);
   if (known.empty()) tell_odd_values(scene, geometry.model.notes);
   for (std::size_t i = 0; i < bodies.size(); ++i) add_body(scene.bodies[i], std::move(bodies[i]), std::move(formed[i]), geometry.model);
-  for (std::size_t i = 0; i < tools.size(); ++i) add_tool(scene.tools[i], std::move(tools[i]), geometry.model);
+  for (std::size_t i = 0; i < tools.size(); ++i) geometry.model.tools.push_back(tool_model(scene.tools[i], std::move(tools[i])));
   return geometry;
 }
 

@@ -91,13 +91,9 @@ void check_one_point(const BodyConfig& body, const std::string& path, FaultList&
     faults.add(path + ".pressure_average", given_text(body.pressure_average), "give cell: a one-point cell has a pressure of its own, none in nodes");
 }
 
-bool yields(const MaterialConfig& material) {
-  return material.hardening || std::any_of(material.layers.begin(), material.layers.end(), [](const LayerConfig& layer) { return layer.hardening.has_value(); });
-}
-
 void check_anisotropy(const MaterialConfig& material, const std::string& path, int dimension, FaultList& faults) {
   const std::string here = path + ".anisotropy";
-  if (!yields(material)) faults.add(here, "anisotropy without hardening", "give hardening, or layers that have one: it is the yield stress that depends on the direction");
+  if (!material.yields()) faults.add(here, "anisotropy without hardening", "give hardening, or layers that have one: it is the yield stress that depends on the direction");
   const AnisotropyConfig& config = *material.anisotropy;
   if (!config.rolling_direction.allFinite() || !config.sheet_normal.allFinite()) return;
   for (const DirectionFault& fault : find_direction_faults(config, dimension)) faults.add(here + "." + fault.field, fault.given, fault.right);
@@ -105,7 +101,7 @@ void check_anisotropy(const MaterialConfig& material, const std::string& path, i
 
 void check_rate(const MaterialConfig& material, const std::string& path, FaultList& faults) {
   const std::string here = path + ".rate_dependence";
-  if (!yields(material)) faults.add(here, "rate_dependence without hardening", "give hardening, or layers that have one: it is the yield stress that depends on the rate");
+  if (!material.yields()) faults.add(here, "rate_dependence without hardening", "give hardening, or layers that have one: it is the yield stress that depends on the rate");
   const RateDependenceConfig& rate = *material.rate_dependence;
   if (rate.law == "cowper_symonds" && rate.exponent > 0 && rate.exponent < 1) faults.add(here + ".exponent", given_text(rate.exponent), "give P of 1 + (r/D)^(1/P), at least 1");
   if (rate.law == "power" && rate.exponent > 1) faults.add(here + ".exponent", given_text(rate.exponent), "give m of (r/r0)^m, at most 1");

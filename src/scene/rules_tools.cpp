@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cmath>
+
+#include "forming_sim/loads/course.h"
 #include "forming_sim/loads/drive.h"
 #include "forming_sim/simulation/release.h"
 #include "rules.h"
@@ -50,15 +54,20 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
   check_as_many(motion.forces, motion.times, path + ".forces", faults);
   check_as_many(motion.torques, motion.times, path + ".torques", faults);
   if (turns_freely) {
+    // The axle goes along with what is told: where that turns about one line, no part of it may be about the axle.
     const auto about_it = [&](const std::vector<Vec3>& turns, const char* field) {
+      const Vec3 axle = motion.axle.stableNormalized();
       faults.each(turns, [&](std::size_t i) {
-        if (turns[i].allFinite() && motion.axle.allFinite() && turns[i].dot(motion.axle.stableNormalized()) != 0 && goes_along(turns[i], motion.axle.stableNormalized()))
-          faults.add(join_path(path + "." + field, i), given_text(turns[i]) + ", about the axle, about which the tool turns freely", "leave out the axle of a tool that is turned, and what turns about the axle of an idle one");
+        const bool one_line = std::all_of(turns.begin(), turns.end(), [&](const Vec3& other) { return goes_along(other, turns[i].stableNormalized()); });
+        if (turns[i].allFinite() && axle.allFinite() && one_line && std::abs(turns[i].dot(axle)) > 1e-12 * turns[i].norm())
+          faults.add(join_path(path + "." + field, i), given_text(turns[i]) + ", in part about the axle, about which the tool turns freely", "leave out the axle of a tool that is turned, and what turns about the axle of an idle one");
       });
     };
+    if (motion.stop_force > 0 && !goes(motion) && motion.rotations_deg.empty() && motion.spins_deg_s.empty())
+      faults.add(path + ".stop_force", given_text(motion.stop_force) + " of a tool that goes nowhere", "leave it out: what turns freely is stopped by nothing but what touches it");
     about_it(motion.rotations_deg, "rotations_deg");
     about_it(motion.spins_deg_s, "spins_deg_s");
-    if (!motion.torques.empty() && motion.profile == "spline") faults.add(path + ".profile", given_text(motion.profile), "give smooth or linear: with torques there is no spline");
+    if (!motion.torques.empty() && trajectory && motion.profile == "spline") faults.add(path + ".profile", given_text(motion.profile), "give smooth or linear: with torques there is no spline");
   } else {
     const auto without = [&](bool given, const char* field, const std::string& value) {
       if (given) faults.add(path + "." + field, value + " without an axle", "give the axle about which the tool turns freely, or leave this out");

@@ -64,7 +64,7 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
   settle.exchange(a);
   a.text(unsettled);
   ways.exchange(a, x.size());
-  tool_ways.exchange(a, tools.size());
+  tool_ways.exchange(a, 2 * tools.size());
   a.number(rests);
   a.number(takes_hold);
   a.number(pressed);
@@ -93,7 +93,6 @@ template <class Archive> void Simulation::Impl::exchange(Archive& a) {
     a.number(tool.touched);
     a.number(tool.landings);
     a.number(tool.first_landing);
-    a.number(tool.turned);
     a.number(tool.pressed);
   }
 }

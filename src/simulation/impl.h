@@ -109,10 +109,9 @@ struct Simulation::Impl {
   void tell_contact_what_is_held();
   /// Which of the held nodes book_reactions() looks at.
   void choose_booked();
-  /// Gives those that a force drives a mass where the scene says none. Throws SceneError for one too light.
-  void give_tools_inertia(double mass_of_bodies);
-  void give_tools_mass();
-  /// Where the tools stand, and where they will after a step of this dt; what forces drive, where it would without contact.
+  /// Gives those that a force drives a mass, those that turn freely an inertia, where the scene says none. Throws SceneError for one too light.
+  void give_tools_inertia();
+  /// Where the tools stand, and where they will after a step of this dt; what moves as it is pushed, where it would without contact.
   void tool_motions(double step_dt, std::vector<ToolMotion>& motions) const;
   std::vector<ToolMotion> tools_now() const;
   void place_tools();
@@ -157,8 +156,9 @@ struct Simulation::Impl {
   // settling.cpp
   /// How fast each body swings, and the damping for it.
   void watch_settling();
-  /// Of the tools that forces drive those that press on the bodies settle with them.
-  bool settles(int tool) const;
+  /// Tools that press on the bodies settle with them, in what they are free to do. mover: the number of a tool along its guide, with that of all tools added
+  /// about its axle. Null: it does not settle.
+  const Drive* settling_drive(int mover) const;
   /// In a settle stage tools that settle have its damping too.
   void slow_tools();
   /// A motion, a pressure or a load is on its way from one knot to another; in the last stage also where that is still to come in it.

@@ -118,8 +118,7 @@ double Simulation::Impl::slowness(const BodyModel& body) const {
 bool Simulation::Impl::lets_go_slowly() const {
   const StageConfig& stage = stages.stage();
   if (stage.release == "sudden") return false;
-  const auto flows = [](const BodyModel& body) { return body.material.hardening || !body.material.layers.empty(); };
-  return stage.release_time > 0 || std::any_of(model.bodies.begin(), model.bodies.end(), flows);  // what is elastic ends where it would anyhow
+  return stage.release_time > 0 || std::any_of(model.bodies.begin(), model.bodies.end(), [](const BodyModel& body) { return body.material.yields(); });  // what is elastic ends where it would anyhow
 }
 
 std::vector<char> Simulation::Impl::borne_by_leaving_tools() const {

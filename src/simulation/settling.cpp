@@ -8,7 +8,11 @@
 
 namespace forming_sim {
 
-bool Simulation::Impl::settles(int tool) const { return stages.drive(tool) && tools[tool].present && tools[tool].pressed; }
+const Drive* Simulation::Impl::settling_drive(int mover) const {
+  const int count = static_cast<int>(tools.size()), tool = mover % count;
+  if (!tools[tool].present || !tools[tool].pressed) return nullptr;
+  return mover < count ? static_cast<const Drive*>(stages.drive(tool)) : stages.axle(tool);
+}
 
 void Simulation::Impl::watch_settling() {
   const long phase = steps % Settle::kInterval;
@@ -34,20 +38,21 @@ void Simulation::Impl::watch_settling() {
   std::vector<Ways::Nodes> nodes;
   for (const BodyModel& body : model.bodies) nodes.push_back({body.first_node, body.node_count});
   watch(ways, 0, nodes, x, v, elements.nodal_mass(), damping_rate());
-  // A tool goes along its guide as one node would.
+  // A tool goes along its guide as one node would, and about its axle.
   NodeField places, velocities;
   std::vector<double> mass;
   nodes.clear();
-  for (int k = 0; k < static_cast<int>(tools.size()); ++k) {
-    const ForceDrive* drive = stages.drive(k);
-    places.push_back(node(drive ? drive->way() : Vec3(Vec3::Zero())));
-    velocities.push_back(node(drive ? drive->velocity() : Vec3(Vec3::Zero())));
+  const int movers = 2 * static_cast<int>(tools.size());
+  for (int k = 0; k < movers; ++k) {
+    const Drive* drive = settling_drive(k);
+    places.push_back(node(drive ? drive->gone() : 0, 0, 0));
+    velocities.push_back(node(drive ? drive->speed() : 0, 0, 0));
     mass.push_back(drive ? drive->mass() : 1);
     nodes.push_back({k, 1});
   }
   watch(tool_ways, model.bodies.size(), nodes, places, velocities, mass, settle.damping());
-  for (int k = 0; k < static_cast<int>(tools.size()); ++k)
-    if (!settles(k)) settle.forget(model.bodies.size() + k);
+  for (int k = 0; k < movers; ++k)
+    if (!settling_drive(k)) settle.forget(model.bodies.size() + k);
   settle.take_together(previous_dt);
 }
 
@@ -89,16 +94,22 @@ void Simulation::Impl::see_rest() {
     energies.elastic = elements.stored_energy_of(body, x);
     bodies.push_back(energies);
   }
-  std::vector<double> of_tools;  // what has left the bodies may fly on
-  for (int k = 0; k < static_cast<int>(tools.size()); ++k) of_tools.push_back(settles(k) ? 0.5 * stages.drive(k)->mass() * stages.drive(k)->velocity().squaredNorm() : 0);
+  std::vector<double> of_tools;  // what has left the bodies may fly and turn on
+  for (int k = 0; k < 2 * static_cast<int>(tools.size()); ++k) {
+    const Drive* drive = settling_drive(k);
+    of_tools.push_back(drive ? 0.5 * drive->mass() * drive->speed() * drive->speed() : 0);
+  }
   if (let_go_until() > 0 || still_driven()) settle.not_yet(time);
   rests = settle.at_rest(time, bodies, of_tools);
 }
 
 std::string Simulation::Impl::what_moves() const {
   const auto goes_on = [&](const auto& velocities) { return !velocities.empty() && velocities.back().norm() > 0; };
-  for (std::size_t k = 0; k < tools.size(); ++k)
-    if (tools[k].present && !stages.drive(static_cast<int>(k)) && tools[k].velocity.norm() > 0) return "tool " + model.tools[k].name + " still moves";
+  for (int k = 0; k < static_cast<int>(tools.size()); ++k) {
+    const ToolPose pose = stages.pose(k, time);
+    const bool told = (pose.travel.norm() > 0 && !stages.drive(k)) || (pose.spin.norm() > 0 && !stages.axle(k));
+    if (tools[k].present && told) return "tool " + model.tools[k].name + " still moves";
+  }
   for (std::size_t b = 0; b < plan.bodies.size(); ++b)
     for (const BoundaryConfig& boundary : plan.bodies[b].boundaries)
       if (holds_in(stages.index(), boundary, plan.stages) && (goes_on(boundary.velocities) || goes_on(boundary.spins_deg_s))) return "set " + boundary.set + " of body " + model.bodies[b].name + " is still driven";

@@ -6,8 +6,8 @@
 #include <limits>
 #include <sstream>
 
-#include "forming_sim/config/words.h"
 #include "forming_sim/config/formula_field.h"
+#include "forming_sim/config/words.h"
 #include "forming_sim/mesh/axis.h"
 #include "forming_sim/mesh/measure.h"
 #include "forming_sim/parallel/interrupt.h"
@@ -18,7 +18,7 @@ namespace forming_sim {
 
 namespace {
 
-constexpr double kLightest = 1e-3;  ///< mass of a tool that a force drives, over that of all bodies
+constexpr double kLightest = 1e-3;  ///< mass of a tool that moves as it is pushed, over that of all bodies; inertia likewise
 constexpr double kRoundings = 1e4;  ///< of the farthest place, that a contact layer is to be thick at least
 constexpr double kQuick = 40;       ///< T of contact/shear_waves.h: a press that takes less feels by percents what keeps swings down
 
@@ -92,7 +92,7 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
   }
   check_interrupt();
   raise_step();
-  give_tools_mass();
+  give_tools_inertia();
   check_interrupt();
   set_up_contact();
   double kinetic = 0;
@@ -322,47 +322,30 @@ void Simulation::Impl::tell_contact_what_is_held() {
   contact->set_masses(inverse_mass, held);
 }
 
-void Simulation::Impl::give_tools_inertia(double mass_of_bodies) {
-  const char* unit = model.per_width() ? " kg m" : " kg m2";
-  for (std::size_t k = 0; k < model.tools.size(); ++k) {
-    ToolModel& tool = model.tools[k];
-    if (!tool.turns_freely()) continue;
-    const ToolPose start = tool_pose(tool, Pose());
-    const Vec3 axle = tool.motion->axle.stableNormalized();
-    double farthest = 0;
-    for (const Vec3& node : tool.mesh.nodes) farthest = std::max(farthest, axle.cross(start.position + start.rotation * node - tool.motion->centre).norm());
-    const double usual = mass_of_bodies * farthest * farthest;
-    std::ostringstream text;
-    if (tool.motion->inertia > 0) {
-      if (tool.motion->inertia >= kLightest * usual) continue;
-      text << "give at least " << kLightest * usual << unit << ", " << kLightest << " of the mass of the bodies times the square of the tool's radius, or leave it out: what contact leaves open would throw a lighter one about";
-      throw SceneError({{Code::invalid_scene, "tools[" + std::to_string(k) + "].motion.inertia", number_text(tool.motion->inertia) + unit, text.str()}});
-    }
-    tool.motion->inertia = usual;
-    stages = StageRunner(plan.stages, model);  // so that it knows
-    text << "tool " << tool.name << ", which turns freely about its axle, has the inertia of the mass of the bodies at its radius of " << farthest << " m, " << usual << unit << ": set its motion.inertia where it matters how soon it turns";
-    warnings.push_back(text.str());
-  }
-}
-
-void Simulation::Impl::give_tools_mass() {
+void Simulation::Impl::give_tools_inertia() {
   const double all = mass_of_bodies();
-  const char* unit = model.per_width() ? " kg/m" : " kg";
-  give_tools_inertia(all);
+  bool given = false;
   for (std::size_t k = 0; k < model.tools.size(); ++k) {
     ToolModel& tool = model.tools[k];
-    if (!tool.motion || tool.motion->kind != "force") continue;
-    std::ostringstream text;
-    if (tool.motion->mass > 0) {
-      if (tool.motion->mass >= kLightest * all) continue;
-      text << "give at least " << kLightest * all << unit << ", " << kLightest << " of the mass of the bodies, or leave it out: what contact leaves open would throw a lighter one about";
-      throw SceneError({{Code::invalid_scene, "tools[" + std::to_string(k) + "].motion.mass", number_text(tool.motion->mass) + unit, text.str()}});
-    }
-    tool.motion->mass = all;
-    stages = StageRunner(plan.stages, model);  // so that it knows
-    text << "tool " << tool.name << ", which a force drives, has the mass of the bodies, " << all << unit << ": set its motion.mass where its inertia matters";
-    warnings.push_back(text.str());
+    // value: 0 where the scene says none; usual: what it has then, in words `of_what`.
+    const auto give = [&](const char* field, double& value, double usual, const char* unit, const std::string& of_what, const std::string& told) {
+      std::ostringstream text;
+      if (value > 0) {
+        if (value >= kLightest * usual) return;
+        text << "give at least " << kLightest * usual << unit << ", " << kLightest << " of " << of_what << ", or leave it out: what contact leaves open would throw a lighter one about";
+        throw SceneError({{Code::invalid_scene, "tools[" + std::to_string(k) + "].motion." + field, number_text(value) + unit, text.str()}});
+      }
+      value = usual;
+      given = true;
+      text << "tool " << tool.name << ", " << told << ", has " << of_what << ", " << usual << unit << ": set its motion." << field << " where it matters how soon it goes and stops";
+      warnings.push_back(text.str());
+    };
+    if (tool.motion && tool.motion->kind == "force") give("mass", tool.motion->mass, all, model.per_width() ? " kg/m" : " kg", "the mass of the bodies", "which a force drives");
+    if (!tool.turns_freely()) continue;
+    const double farthest = reach_from_axle(tool);
+    give("inertia", tool.motion->inertia, all * farthest * farthest, model.per_width() ? " kg m" : " kg m2", "the inertia of the mass of the bodies at its radius of " + three_digits(farthest) + " m", "which turns freely about its axle");
   }
+  if (given) stages = StageRunner(plan.stages, model);  // so that it knows
 }
 
 std::vector<ToolMotion> Simulation::Impl::tools_now() const {
@@ -407,7 +390,7 @@ void Simulation::Impl::place_tools() {
     tools[k].position = pose.position;
     tools[k].rotation = pose.rotation;
     tools[k].velocity = pose.velocity;
-    if (const AxleDrive* axle = stages.axle(static_cast<int>(k))) tools[k].turned = axle->gone();
+    if (model.tools[k].turns_freely()) tools[k].turned = stages.turned(static_cast<int>(k));
     if (!pose.travel.isZero(0)) tools[k].way = pose.travel.stableNormalized();
     tools[k].present = stages.present(static_cast<int>(k));
     if (const double stop = stages.stops()[k]; !std::isnan(stop)) tools[k].stopped = stop;

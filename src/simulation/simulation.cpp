@@ -39,7 +39,7 @@ void Simulation::Impl::begin_stage() {
     const auto first = physical_mass.begin() + body.first_node;
     least.push_back(least_energy(std::accumulate(first, first + body.node_count, 0.0)));
   }
-  settle = Settle(time, std::move(slowest), std::move(least), tools.size(), stages.stage().kinetic_fraction);
+  settle = Settle(time, std::move(slowest), std::move(least), 2 * tools.size(), stages.stage().kinetic_fraction);
 }
 
 void Simulation::Impl::check_ledger(double residual, double error) {

@@ -17,7 +17,7 @@ StageRunner::StageRunner(const std::vector<StageConfig>& stages, const Model& mo
     drives_.push_back(by_force ? std::optional<ForceDrive>(*tool.motion) : std::nullopt);
     axles_.push_back(tool.turns_freely() ? std::optional<AxleDrive>(*tool.motion) : std::nullopt);
   }
-  free_.assign(model.tools.size(), 0);
+  state_.assign(model.tools.size(), waiting);
   present_.assign(model.tools.size(), 1);
   stops_.assign(model.tools.size(), std::numeric_limits<double>::quiet_NaN());
   known_.resize(motions_.size());
@@ -34,7 +34,7 @@ double StageRunner::began(const std::string& since) const {
 
 void StageRunner::begin_motion(int tool, double t) {
   motions_[tool] = courses_[tool].beginning(t);
-  free_[tool] = 1;
+  state_[tool] = begun;
   if (drives_[tool]) drives_[tool]->begin(t);
   if (axles_[tool]) axles_[tool]->begin(t);
   stop_force_[tool] = model_->tools[tool].motion->stop_force;
@@ -46,8 +46,9 @@ void StageRunner::begin(double t) {
     if (present_[k] && model_->tools[k].motion && first_stage(model_->tools[k].motion->since, stages_) == index_) begin_motion(static_cast<int>(k), t);
     if (!present_[k] || !leaves(stages_[index_], static_cast<int>(k))) continue;
     const Vec3& displacement = stages_[index_].displacement;
-    const Pose from = course(static_cast<int>(k), t);
-    free_[k] = 0;
+    Pose from = motions_[k].at(t);
+    if (const ForceDrive* by = drive(static_cast<int>(k))) from.translation += by->way();
+    if (state_[k] == begun) state_[k] = withdrawn;
     stop_force_[k] = 0;
     present_[k] = !displacement.isZero();
     motions_[k] = present_[k] ? withdraw(from, displacement, t, stages_[index_].duration) : stay(from);
@@ -79,29 +80,27 @@ double StageRunner::progress(double t) const {
   return total > 0 ? done / total : 1;
 }
 
-Pose StageRunner::course(int tool, double t) const {
+Pose StageRunner::pushed(int tool, double t, double way, double speed, double angle, double spin) const {
   Pose pose = motions_[tool].at(t);
   if (const ForceDrive* by = drive(tool)) {
-    pose.translation += by->way();
-    pose.velocity += by->velocity();
+    pose.translation += way * by->guide();
+    pose.velocity += speed * by->guide();
   }
-  if (const AxleDrive* by = axle(tool)) pose = turned_about(by->axle(), by->gone(), by->speed(), pose);
-  return pose;
+  return axle(tool) ? turned_about(axle(tool)->axle(), angle, spin, pose) : pose;
+}
+
+Pose StageRunner::course(int tool, double t) const {
+  const ForceDrive* along = drive(tool);
+  const AxleDrive* about = axle(tool);
+  return pushed(tool, t, along ? along->gone() : 0, along ? along->speed() : 0, about ? about->gone() : 0, about ? about->speed() : 0);
 }
 
 ToolPose StageRunner::pushed_by_none(int tool, double t, double kick, double dt) const {
-  if (!drive(tool) && !axle(tool)) return pose(tool, t + dt);
-  Pose pose = motions_[tool].at(t + dt);
-  if (const ForceDrive* by = drive(tool)) {
-    const Vec3 velocity = by->free_speed(t, kick) * by->guide();
-    pose.translation += by->way() + dt * velocity;
-    pose.velocity += velocity;
-  }
-  if (const AxleDrive* by = axle(tool)) {
-    const double spin = by->free_speed(t, kick);
-    pose = turned_about(by->axle(), by->gone() + dt * spin, spin, pose);
-  }
-  return tool_pose(model_->tools[tool], pose);
+  const ForceDrive* along = drive(tool);
+  const AxleDrive* about = axle(tool);
+  if (!along && !about) return pose(tool, t + dt);
+  const double speed = along ? along->free_speed(t, kick) : 0, spin = about ? about->free_speed(t, kick) : 0;
+  return tool_pose(model_->tools[tool], pushed(tool, t + dt, along ? along->gone() + dt * speed : 0, speed, about ? about->gone() + dt * spin : 0, spin));
 }
 
 StageRunner::Line StageRunner::axle_now(int tool, double t) const {

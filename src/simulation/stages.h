@@ -34,11 +34,13 @@ class StageRunner {
   /// Where it stands after a step of dt from t on if nothing presses on it.
   ToolPose pushed_by_none(int tool, double t, double kick, double dt) const;
   /// What drives a tool now; null: no force does.
-  const ForceDrive* drive(int tool) const { return is_free(tool) && drives_[tool] ? &*drives_[tool] : nullptr; }
-  ForceDrive* drive(int tool) { return is_free(tool) && drives_[tool] ? &*drives_[tool] : nullptr; }
+  const ForceDrive* drive(int tool) const { return state_[tool] == begun && drives_[tool] ? &*drives_[tool] : nullptr; }
+  ForceDrive* drive(int tool) { return state_[tool] == begun && drives_[tool] ? &*drives_[tool] : nullptr; }
   /// About what it turns freely now; null: it does not.
-  const AxleDrive* axle(int tool) const { return is_free(tool) && axles_[tool] ? &*axles_[tool] : nullptr; }
-  AxleDrive* axle(int tool) { return is_free(tool) && axles_[tool] ? &*axles_[tool] : nullptr; }
+  const AxleDrive* axle(int tool) const { return state_[tool] != waiting && axles_[tool] ? &*axles_[tool] : nullptr; }
+  AxleDrive* axle(int tool) { return state_[tool] != waiting && axles_[tool] ? &*axles_[tool] : nullptr; }
+  /// How far a tool that has an axle has turned about it, rad.
+  double turned(int tool) const { return axles_[tool]->gone(); }
   /// A line in space: where the axle of a tool that has one is at time t.
   struct Line {
     Vec3 point, along;
@@ -75,9 +77,10 @@ class StageRunner {
  private:
   void begin(double t);
   void begin_motion(int tool, double t);
-  bool is_free(int tool) const { return free_[tool] != 0; }
   /// Where its motion has come to, pushes included.
   Pose course(int tool, double t) const;
+  /// What it is told at time t, and pushed along by `way` at `speed`, about by `angle` at `spin`.
+  Pose pushed(int tool, double t, double way, double speed, double angle, double spin) const;
 
   std::vector<StageConfig> stages_;
   const Model* model_;
@@ -85,7 +88,8 @@ class StageRunner {
   std::vector<RigidMotion> motions_;  ///< now: waiting, on its course, stopped, withdrawn
   std::vector<std::optional<ForceDrive>> drives_;  ///< of the tools that a force drives
   std::vector<std::optional<AxleDrive>> axles_;    ///< of those that turn freely
-  std::vector<char> free_;                         ///< 1: moved by pushes, if it has either: from when its motion begins until it is withdrawn
+  enum State : char { waiting, begun, withdrawn };  ///< what a force drives it does while begun; what turns freely does so from then on
+  std::vector<State> state_;
   std::vector<char> present_, left_;
   std::vector<double> starts_, stops_, stop_force_;
   int index_ = 0;

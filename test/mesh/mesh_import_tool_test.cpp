@@ -138,7 +138,8 @@ TEST(MeshImportTool, StlFilesOfAllSorts) {
                                                                      {"normals", replaced(text, "normal 0 0 0", "normal -nan(ind) nan 0")},
                                                                      {"names", replaced(text, "solid box", "solid x endsolid facet y endfacet")},
                                                                      {"two", ascii_stl(kCorners, first) + second},
-                                                                     {"longer", binary_stl() + "more"}}) {
+                                                                     {"longer", binary_stl() + "more"},
+                                                                     {"solid", "solid" + binary_stl().substr(5) + "more"}}) {
     SCOPED_TRACE(name);
     expect_box(load(name + ".stl", file));
   }

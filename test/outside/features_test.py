@@ -59,7 +59,9 @@ class Features(SceneRun):
             else:
                 self.assertLess(abs(last - thickness / 2), 1e-9)
         self.assertIn('on the axis', self.refused(scene(body('strip', imperfection=['1e-5', '0'])) | {'axisymmetric': True}))
-        self.assertIn('imperfection', self.refused(scene(body('strip', imperfection=['-2*x', '0']))))
+        self.assertIn('turn cells over', self.refused(scene(body('strip', imperfection=['-2*x', '0']))))
+        self.assertIn('in their plane of symmetry', self.refused(scene(body('strip', imperfection=['1e-5*y', '0'], boundaries=[
+            {'set': 'left', 'kind': 'symmetric', 'normal': [1, 0]}]))))
 
     def half_swing(self, cells, third, period, name):
         """The time after which a corner of the swinging cube is back in its place, and how far it was, over that of the shape."""

@@ -239,7 +239,7 @@ class Formed(SceneRun):
         self.run_scene(data, 'bent')
         self.run_scene(self.next_scene(held=HELD[:1]), 'next')
         with open(self.path('next/summary.json')) as file:
-            self.assertTrue(any('was still pressed by tool table when its run ended' in w for w in json.load(file)['warnings']))
+            self.assertTrue(any('was still pressed by tool table and the load on set top when its run ended' in w for w in json.load(file)['warnings']))
         self.run_scene(self.next_scene(), 'next')
         with open(self.path('next/summary.json')) as file:
             self.assertTrue(any('was held at left when its run ended, and is not here' in w for w in json.load(file)['warnings']))

@@ -10,6 +10,7 @@
 #include "forming_sim/results/estimate.h"
 #include "forming_sim/results/directory_lock.h"
 #include "forming_sim/results/start.h"
+#include "forming_sim/scene/build.h"
 #include "results/run_files_tools.h"
 
 namespace forming_sim {
@@ -298,6 +299,11 @@ TEST(RunScene, APreparationStopsWhenItIsTold) {
     }
   }
   EXPECT_TRUE(check_start(small_scene(), {}, 1).simulation);
+  // Also where the model is there already.
+  const Scene scene = small_scene();
+  const Model model = build_model(scene);
+  const Interruptible while_wanted(cancelled);
+  EXPECT_THROW(Simulation(build_plan(scene), model, 1), Error);  // its elements ask too
 }
 
 TEST(RunScene, WhatCannotStartIsAFault) {

@@ -65,6 +65,24 @@ TEST(SceneRules, ToolsHaveOneSource) {
   expect_flange_fault("  - name: die\n", "  - name: die\n    point: [0, 1]\n", "tools[0].point", "rigid plane");
 }
 
+TEST(SceneRules, WhatTurnsFreely) {
+  const auto with = [](const std::string& motion) {
+    return minimal_example() + "tools:\n  - {name: roll, profile: {start: [0, 0.003], pieces: [{to: [0, 0.005], radius: 0.001}, {to: [0, 0.003], radius: 0.001}]}, motion: {" + motion + "}}\n";
+  };
+  const std::string here = "tools[0].motion", stands = "kind: velocity, times: [0], ", idle = stands + "axle: [0, 0, 2], ";
+  EXPECT_TRUE(faults_of(with(idle + "torques: [3], inertia: 1, initial_spin_deg_s: 5, damping: 3")).empty()) << sentences(faults_of(with(idle + "torques: [3], inertia: 1, initial_spin_deg_s: 5, damping: 3")));
+  expect_fault(with(stands + "profile: linear"), here, "or an axle");
+  for (const char* field : {"torques", "inertia", "initial_spin_deg_s", "damping"})
+    expect_fault(with(stands + "velocities: [[1, 0]], " + field + ": " + (field == std::string("torques") ? "[1]" : "1")), here + "." + field, "give the axle");
+  expect_fault(with(stands + "axle: [0, 1, 1]"), here + ".axle", "give [0, 0, 1]");
+  expect_fault(with(idle + "spins_deg_s: [[0, 0, 3]]"), here + ".spins_deg_s[0]", "leave out the axle");
+  expect_fault(with(idle + "torques: [1, 2]"), here + ".torques", "one for each of the 1 times");
+  expect_fault(with(idle + "stop_force: 3"), here + ".stop_force", "leave it out");
+  expect_fault(with("kind: trajectory, times: [0, 1], positions: [[0, 0], [1, 0]], profile: spline, axle: [0, 0, 1], torques: [0, 1]"), here + ".profile", "smooth or linear");
+  expect_fault(replaced(with(idle + "inertia: 1"), "tools:", "contact: {method: explicit}\ntools:"), here + ".axle", "set contact.method to implicit");
+  expect_fault(replaced(with(idle + "inertia: 1"), "dimension: 2", "dimension: 2\naxisymmetric: true"), here + ".axle", "no ring");
+}
+
 TEST(SceneRules, DimensionDecidesTheKinds) {
   expect_flange_fault("tools:\n", "tools:\n  - {name: t, mesh: {url: t.stl, unit_scale: 0.001}}\n", "tools[0].mesh", "dimension");
   const auto faults = faults_of(replaced(flange_example(), "dimension: 2", "dimension: 3"));
@@ -149,6 +167,7 @@ TEST(SceneRules, VelocitiesFromFormulas) {
   EXPECT_TRUE(faults_of(with("\"sin(pi*x/0.02)\", \"0\"")).empty());
   expect_fault(with("\"x\""), "bodies[0].initial_velocity_field", "give 2, one for each coordinate");
   expect_fault(with("\"x\", \"2*sin(y\""), "bodies[0].initial_velocity_field[1]", "'2*sin(y' is none");
+  expect_fault(with("\"x = 5\", \"0\""), "bodies[0].initial_velocity_field[0]", "it changes x, y or z");
 }
 
 TEST(SceneRules, OnePointCells) {

@@ -9,7 +9,8 @@
 //
 //   u <- (J + m u)/(M + m),
 //
-// which comes near without overshoot whatever M is.
+// which comes near without overshoot whatever M is. Where a tool gives way along a guide and about an axle, a pair may see both as one: with m12 the
+// product of its d's, each counts it by |m12| sqrt(m1/m2) more, so that the two together stay on this side too.
 #include <cmath>
 #include <vector>
 
@@ -21,6 +22,7 @@ namespace forming_sim {
 struct DrivenLink {
   long link;     ///< its number
   Node on;       ///< its impulses times this add up to J: sum of its weights of the tool's points, d(x) each
+  Node answer;   ///< its impulse changes by this times a change of u at most, kg; kg m
   double along;  ///< of a pair: so much of its normal impulse
   double mass;   ///< by which its part of J changes with u at most, kg; kg m2
   bool rubs;
@@ -40,6 +42,8 @@ struct DrivenTool {
   std::vector<Entry> entries;
   std::vector<DrivenLink> pairs, ties;
 
+  /// Of two freedoms of one tool that have been gathered.
+  static void see_each_other(DrivenTool& a, DrivenTool& b);
   /// How far u alone takes any of its points in dt, m.
   double way(double u, double dt) const { return std::abs(u) * reach * dt; }
 };

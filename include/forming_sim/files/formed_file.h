@@ -13,7 +13,7 @@ struct FormedPart {
   std::string material;              ///< as write_material() gives it
   std::string pressure_average;
   bool axisymmetric = false;
-  std::vector<std::string> pressed_by, held_sets;  ///< tools ("tool punch") that pressed on it, and its sets that boundaries held or drove, until the end
+  std::vector<std::string> pressed_by, held_sets;  ///< tools ("tool punch"), pressures and loads (name_of) that pressed on it, and its sets that boundaries held or drove, until the end
   Mesh mesh;                         ///< where it stands
   FormedMemory memory;
 };

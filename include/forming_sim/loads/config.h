@@ -54,6 +54,9 @@ struct PressureConfig {
   }
 };
 
+/// As sentences call it.
+inline std::string name_of(const PressureConfig& pressure) { return "the pressure on set " + pressure.set; }
+
 /// A load over time that keeps its direction and does not follow the surface.
 struct LoadConfig {
   std::string set;
@@ -74,6 +77,9 @@ struct LoadConfig {
     visit(FORMING_SIM_FIELD(since), Field().computed("the start of the run").doc("name of a stage: it acts from when that begins, and its times count from there"));
   }
 };
+
+/// As sentences call it.
+inline std::string name_of(const LoadConfig& load) { return "the load on set " + load.set; }
 
 /// A pose, a velocity or a force over time.
 struct MotionConfig {
@@ -106,12 +112,12 @@ struct MotionConfig {
     visit(FORMING_SIM_FIELD(forces), Field().unit("N").required().when("kind", {"force"}).doc("force on the tool at each knot, all along one line; plane strain: N/m; axisymmetric: of the whole circle; the weight of the tool is one of them, gravity acts on bodies only"));
     visit(FORMING_SIM_FIELD(initial_velocity), Field().unit("m/s").when("kind", {"force"}).doc("velocity that the tool starts with, along the line of its forces: a hammer. Where all forces are 0 it is guided along this"));
     visit(FORMING_SIM_FIELD(mass), Field().unit("kg").at_least(0).computed("that of all bodies").when("kind", {"force"}).doc("mass of the tool, kg/m in plane strain; at least a thousandth of that of all bodies, mass scaling included"));
-    visit(FORMING_SIM_FIELD(axle), Field().computed("none").doc("direction at the start of an axle through the centre, about which the tool turns freely, as what touches it makes it: an idle roll. It goes and turns with what the motion says (a velocity without velocities and spins_deg_s stays where it is). In dimension 2 [0, 0, 1]"));
+    visit(FORMING_SIM_FIELD(axle), Field().computed("none").doc("direction at the start of an axle through the centre, about which the tool turns freely, as what touches it makes it: an idle roll, whose centre of mass is on the axle. It goes and turns with what the motion says, to which no turn about the axle belongs, and turns on while it is withdrawn (a velocity without velocities and spins_deg_s stays where it is). In dimension 2 [0, 0, 1]"));
     visit(FORMING_SIM_FIELD(torques), Field().unit("N m").doc("torque about the axle at each knot, in its right-hand sense; plane strain: N m per m"));
     visit(FORMING_SIM_FIELD(initial_spin_deg_s), Field().unit("deg/s").doc("how fast it turns about the axle at the start"));
     visit(FORMING_SIM_FIELD(inertia), Field().unit("kg m2").at_least(0).computed("the mass of all bodies times the square of the farthest that the tool reaches from the axle").doc("moment of inertia about the axle, plane strain: kg m; at least a thousandth of the default, with what mass scaling adds"));
     visit(FORMING_SIM_FIELD(damping), Field().unit("1/s").at_least(0).doc("of a tool that a force drives, or that turns about an axle: rate at which it loses speed to its guide, a force of damping times mass times velocity, and spin to its bearing, a torque of damping times inertia times spin"));
-    visit(FORMING_SIM_FIELD(stop_force), Field().unit("N").at_least(0).when("kind", {"trajectory", "velocity"}).computed("it goes its whole way").doc("the tool stops for good where it is when the force against its way (of a tool that only turns: the whole force), the mean over some 50 steps, has reached this; plane strain: N/m; axisymmetric: along the axis, of the whole circle. stages[].until_stopped ends a stage with it"));
+    visit(FORMING_SIM_FIELD(stop_force), Field().unit("N").at_least(0).when("kind", {"trajectory", "velocity"}).computed("it goes its whole way").doc("the tool stops for good where it is when the force against its way (of a tool that only turns: the whole force), the mean over some 50 steps, has reached this; plane strain: N/m; axisymmetric: along the axis, of the whole circle. stages[].until_stopped ends a stage with it. About an axle it turns on"));
     visit(FORMING_SIM_FIELD(centre), Field().unit("m").doc("centre of rotation at the start; it moves with the tool"));
     visit(FORMING_SIM_FIELD(profile), Field().choices({"smooth", "linear", "spline"}).doc("smooth: from rest to rest between knots (quintic trajectory, cubic velocity and force); linear: straight lines; spline: a trajectory that passes the inner knots without stopping"));
     visit(FORMING_SIM_FIELD(since), Field().computed("the start of the run").doc("name of a stage: the tool stands still until that begins, at its first position, and its times count from there"));

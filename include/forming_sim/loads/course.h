@@ -60,8 +60,8 @@ inline bool goes(const MotionConfig& m) {
 template <class Body, class Visit> void each_named_course(const Body& body, const std::string& name, Visit&& visit) {
   const std::string of = " of body " + name;
   for (const BoundaryConfig& b : body.boundaries) visit("the motion of set " + b.set + of, b);
-  for (const PressureConfig& p : body.pressures) visit("the pressure on set " + p.set + of, p);
-  for (const LoadConfig& l : body.loads) visit("the load on set " + l.set + of, l);
+  for (const PressureConfig& p : body.pressures) visit(name_of(p) + of, p);
+  for (const LoadConfig& l : body.loads) visit(name_of(l) + of, l);
 }
 
 }  // namespace forming_sim

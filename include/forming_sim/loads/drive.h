@@ -6,7 +6,9 @@
 //
 // V at the half step, as the velocities of nodes; k = (dt_previous + dt)/2 the kick, a = alpha k/2:
 //
-//   V* = ((1 - a) V + k F/M)/(1 + a),   V = V* + J/(M (1 + a)),   J = k R.
+//   V* = ((1 - a) V + k F/M)/(1 + a),   V = V* + J/(M (1 + a)),   J = k R,
+//
+// and where it brakes so hard that this would swing, a > 1, V* = (V + k F/M)/(1 + 2 a),   V = V* + J/(M (1 + 2 a)).
 //
 // V and J depend on each other: contact finds both (contact/driven.h). Taken one after the other, the tool would feed the swings of
 // what it touches, whatever its mass and however short the step.
@@ -32,11 +34,8 @@ class Drive {
 
   /// V* of a step from t on.
   double free_speed(double t, double kick) const;
-  /// 1/(M (1 + a)).
-  double inverse_mass(double kick) const { return 1 / (mass_ * (1 + braking(kick))); }
-  /// The step has been done, dt long, with V = V* + push; J: `answer`.
-  void take(double t, double kick, double dt, double push, double answer);
-
+  /// By so much an impulse changes V: 1/(M (1 + a)).
+  double inverse_mass(double kick) const;
   double force(double t) const { return force_.at(t - began_); }  ///< F, N; N m
   double mass() const { return mass_; }    ///< M, kg; kg m2
   double gone() const { return gone_; }    ///< from the start, m; rad
@@ -44,7 +43,10 @@ class Drive {
   /// Adds `rate` to alpha, 1/s, until it is told another: in settle stages.
   void slow_down(double rate) { settling_ = rate; }
 
-  template <class Archive> void exchange(Archive& a) {
+ protected:
+  ~Drive() = default;  ///< what drives is one of the two below
+  void take_step(double t, double kick, double dt, double push, double answer);
+  template <class Archive> void exchange_motion(Archive& a) {
     for (double* value : {&gone_, &speed_, &momentum_}) a.number(*value);
   }
 
@@ -68,13 +70,13 @@ class ForceDrive : public Drive {
   const Vec3& guide() const { return guide_; }
   Vec3 way() const { return gone() * guide_; }         ///< from the start, m
   Vec3 velocity() const { return speed() * guide_; }   ///< V of the last step, m/s
-  /// As Drive's; answer: along the guide, N s.
+  /// The step has been done, dt long, with V = V* + push; answer: J, along the guide, N s.
   void take(double t, double kick, double dt, double push, double answer);
   /// How far it has gone on along its force since it last pressed on anything, m; 0: it has not pressed yet.
   double fallen(double t) const;
 
   template <class Archive> void exchange(Archive& a) {
-    Drive::exchange(a);
+    exchange_motion(a);
     a.number(pressed_at_);
   }
 
@@ -83,13 +85,16 @@ class ForceDrive : public Drive {
   double pressed_at_ = std::numeric_limits<double>::quiet_NaN();  ///< gone() when it last pressed
 };
 
-/// About its axle, which the tool's told motion takes along.
+/// About its axle, which the tool's told motion takes along; its centre of mass lies on that. It turns against what is told: a told turn has no part about the axle.
 class AxleDrive : public Drive {
  public:
   /// Of a motion with an axle, its inertia above 0, kg m2 (kg m in plane strain). Throws Error(invalid_scene) as ScalarProfile does.
   explicit AxleDrive(const MotionConfig& config);
 
   const Vec3& axle() const { return axle_; }  ///< at the start, of length 1
+  /// The step has been done, dt long, with V = V* + push; answer: J, about the axle, N m s.
+  void take(double t, double kick, double dt, double push, double answer) { take_step(t, kick, dt, push, answer); }
+  template <class Archive> void exchange(Archive& a) { exchange_motion(a); }
 
  private:
   Vec3 axle_;

@@ -91,4 +91,7 @@ Pose turned_about(const Vec3& axle, double angle, double rate, Pose pose);
 /// A plane's point and normal are transformed by the same frame.
 ToolPose tool_pose(const ToolModel& tool, const Pose& motion);
 
+/// How far the points of a tool that turns freely go from its axle, m.
+double reach_from_axle(const ToolModel& tool);
+
 }  // namespace forming_sim

@@ -1,5 +1,6 @@
 #pragma once
 // What a user says of a material.
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -94,6 +95,10 @@ struct MaterialConfig {
 
   double mu() const { return law == "hyperelastic" ? h1 + 2 * h2 : youngs_modulus / (2 * (1 + poissons_ratio)); }
   double K() const { return law == "hyperelastic" ? bulk_modulus : youngs_modulus / (3 * (1 - 2 * poissons_ratio)); }
+  /// It, or a layer of it, has a yield stress.
+  bool yields() const {
+    return hardening || std::any_of(layers.begin(), layers.end(), [](const LayerConfig& layer) { return layer.hardening.has_value(); });
+  }
   double E() const { return law == "hyperelastic" ? 9 * K() * mu() / (3 * K() + mu()) : youngs_modulus; }
 
   template <class Visitor> static void declare(Visitor&& visit) {

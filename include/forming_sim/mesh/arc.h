@@ -20,7 +20,7 @@ inline int segments_of_arc(double angle, double r, double chord_error, double lo
   if (!(count <= kMost)) {
     std::ostringstream text;
     if (chord_error > 0) text << "profile.chord_error: given " << chord_error << " m, for which an arc of radius " << r << " m takes more than " << kMost << " segments; give at least " << 1e-9 * r << " m";
-    else text << "profile: an arc of radius " << r << " m, " << angle * r << " m long, takes more than " << kMost << " segments of at most " << longest << " m (two edges of the bodies' cells); give a smaller radius, or a chord_error";
+    else text << "profile: an arc of radius " << r << " m, " << angle * r << " m long, takes more than " << kMost << " segments of at most " << longest << " m (two edges of the bodies' cells, of what turns freely 3e-3 of its radius); give a smaller radius, or a chord_error";
     throw Error(Code::mesh_error, text.str());
   }
   return std::max(1, static_cast<int>(count));

@@ -88,7 +88,7 @@ struct SetConfig : PlaceConfig {
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(name), Field().required().doc("name by which boundaries, loads and probes refer to the set"));
-    declare_place(visit, "plane: nodes on a plane; box: nodes inside an axis-parallel box; cylinder, sphere: nodes on one, in dimension 2 on a circle, and centres of hexahedra's faces whose corners are (initial positions)",
+    declare_place(visit, "plane: nodes on a plane; box: nodes inside an axis-parallel box; cylinder, sphere: nodes on one, in dimension 2 on a circle, and centres of faces of hexahedra, wedges and pyramids whose corners are (initial positions)",
                   "normal of the plane, any length but zero");
     visit(FORMING_SIM_FIELD(tolerance), Field().unit("m").at_least(0).computed("1e-6 of the body's size").doc("distance up to which a node counts as on the surface or in the box"));
     visit(FORMING_SIM_FIELD(surface_only), Field().doc("take only nodes on the body's surface"));
@@ -147,7 +147,7 @@ struct ProfileConfig {
     visit(FORMING_SIM_FIELD(closed), Field().doc("join the last point to the first by a line"));
     visit(FORMING_SIM_FIELD(sweep), Field().choices({"", "turned", "straight"}).doc("dimension 3: how the section, given in y = 0 as points [x, 0, z], becomes a surface: turned: about the axis z, a punch or a ring; straight: along y, a bar or a roll, with open ends"));
     visit(FORMING_SIM_FIELD(width), Field().unit("m").above(0).required().when("sweep", {"straight"}).doc("extent along y, from -width/2 to width/2; wider than what meets it: its ends are open"));
-    visit(FORMING_SIM_FIELD(chord_error), Field().unit("m").at_least(0).computed("1e-3 of the arc's radius, and no segment longer than two edges of the bodies' surfaces, in the mean of the finest body").doc("largest distance of an arc, and of the largest circle of a turned section, from the segments that stand for it"));
+    visit(FORMING_SIM_FIELD(chord_error), Field().unit("m").at_least(0).computed("1e-3 of the arc's radius, and no segment longer than two edges of the bodies' surfaces, in the mean of the finest body, nor, of a tool with an axle that is not turned, than 3e-3 of its radius").doc("largest distance of an arc, and of the largest circle of a turned section, from the segments that stand for it"));
   }
 };
 

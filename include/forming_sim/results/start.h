@@ -20,10 +20,8 @@ struct StartCheck {
 /// known: faults of reading the scene. Throws Error(cancelled) where this thread is told to stop (parallel/interrupt.h).
 StartCheck check_start(const Scene& scene, std::vector<Fault> known, int threads);
 
-/// The run of a valid scene at its start; reactions are kept of the nodes of its probes. Throws SceneError, also where the
-/// run would take more than 1e12 steps.
-std::unique_ptr<Simulation> build_run(const Scene& scene, int threads);
-/// model: as build_model() makes it of the scene.
+/// The run of a valid scene at its start; reactions are kept of the nodes of its probes. model: as build_model() makes it of the scene.
+/// Throws SceneError, also where the run would take more than 1e12 steps.
 std::unique_ptr<Simulation> build_run(const Scene& scene, Model model, int threads);
 
 }  // namespace forming_sim

@@ -90,7 +90,7 @@ struct ToolStatus {
   Vec3 position = Vec3::Zero();            ///< of the tool's frame, m
   Mat3 rotation = Mat3::Identity();        ///< tool frame to world
   Vec3 velocity = Vec3::Zero();
-  double turned = 0;                       ///< about its axle, rad
+  double turned = std::numeric_limits<double>::quiet_NaN();  ///< about its axle, rad; NaN: it has none
   Vec3 way = Vec3::Zero();                 ///< direction in which its centre of rotation moves, or last moved; 0: it has not moved
   Vec3 force = Vec3::Zero();               ///< on the tool by the bodies, running mean over about 50 steps; N (N/m in plane strain); axisymmetric: along the axis
   Vec3 moment = Vec3::Zero();              ///< about `position`

@@ -42,7 +42,7 @@ class Settle {
 
   Settle() = default;
   /// shortest_of: s, time for which each body must be quiet (size^2 / (thickness wave
-  /// speed), about the slowest swing of a strip). tools: how many may settle with the bodies, as movers behind these.
+  /// speed), about the slowest swing of a strip). tools: in how many ways tools may settle with the bodies, as movers behind these.
   /// least_of: J, of which positions of each body tell nothing: one that has less rests.
   Settle(double start, std::vector<double> shortest_of, std::vector<double> least_of, std::size_t tools, double fraction)
       : fraction_(fraction), quiet_since_(start), looked_(start), shortest_of_(std::move(shortest_of)),

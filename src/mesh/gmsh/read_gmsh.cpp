@@ -52,34 +52,12 @@ struct MeshReader {
 
   [[noreturn]] void refuse(const std::string& what) const { throw Error(Code::mesh_error, source + ": " + what); }
 
-  /// linear: the type of an element that has the corners of this one, and those alone.
-  RawKind kind_of(int linear, const std::string& name) const {
-    switch (linear) {
-      case 15: return RawKind::point;
-      case 1: return RawKind::line;
-      case 2: return RawKind::triangle;
-      case 3: return RawKind::quadrilateral;
-      case 4: return RawKind::tetrahedron;
-      case 5: return RawKind::hexahedron;
-      case 6: return RawKind::wedge;
-      case 7: return RawKind::pyramid;
-      default: break;
-    }
+  /// By the dimension of an element and the number of its corners.
+  RawKind kind_of(int dimension, int corners, const std::string& name) const {
+    for (RawKind kind : {RawKind::point, RawKind::line, RawKind::triangle, RawKind::quadrilateral, RawKind::tetrahedron, RawKind::pyramid, RawKind::wedge, RawKind::hexahedron})
+      if (shape_of(kind).dimension == dimension && shape_of(kind).corners == corners) return kind;
     refuse("holds cells of the kind " + name +
            "; triangles, quadrilaterals, tetrahedra, hexahedra, wedges (prisms) and pyramids can be used, so mesh the body with these");
-  }
-
-  /// Of the element that has the `primary` nodes of one of `type`, and those alone.
-  static int linear_type(int type, const std::string& name, int primary) {
-    // Named by its family and the number of its nodes: "Tetrahedron 10".
-    const std::size_t end = name.find(' ');
-    const int linear = gmsh::model::mesh::getElementType(name.substr(0, end), 1);
-    std::string unused_name;
-    int dimension, order, nodes, corners;
-    std::vector<double> local;
-    if (linear == 0) return type;
-    gmsh::model::mesh::getElementProperties(linear, unused_name, dimension, order, nodes, local, corners);
-    return nodes == primary ? linear : type;
   }
 
   void read_nodes(double scale) {
@@ -113,7 +91,7 @@ struct MeshReader {
       int of_dimension, order, of_an_element, primary;
       std::vector<double> local;
       gmsh::model::mesh::getElementProperties(types[t], name, of_dimension, order, of_an_element, local, primary);
-      const RawKind kind = kind_of(linear_type(types[t], name, primary), name);
+      const RawKind kind = kind_of(of_dimension, primary, name);
       const int corners = shape_of(kind).corners;
       if (order > 1 && raw.note.empty())
         raw.note = source + " holds cells of order " + std::to_string(order) + " (" + name + "): their corners alone are taken, and edges are straight between these";
@@ -151,14 +129,15 @@ struct MeshReader {
     }
     std::string names;
     raw.dimension = -1;
+    const auto is_wanted = [&](const auto& group) { return name_of(group) == wanted || set_name_of(group, groups) == wanted; };
     for (const auto& group : groups) {
-      names += (names.empty() ? "" : ", ") + name_of(group);
-      if (name_of(group) == wanted) raw.dimension = std::max(raw.dimension, group.first);
+      names += (names.empty() ? "" : ", ") + set_name_of(group, groups);
+      if (is_wanted(group)) raw.dimension = std::max(raw.dimension, group.first);
     }
     if (raw.dimension < 0)
       refuse("has no physical group \"" + wanted + "\"; it has " + (names.empty() ? std::string("none") : names));
     for (const auto& group : groups)
-      if (group.first == raw.dimension && name_of(group) == wanted) append_group(group, raw.cells);
+      if (group.first == raw.dimension && is_wanted(group)) append_group(group, raw.cells);
     if (raw.dimension < 2 || raw.cells.empty())
       refuse("the physical group \"" + wanted + "\" holds no triangles, quadrilaterals, tetrahedra, hexahedra, wedges or pyramids, so it is no body");
   }
@@ -222,6 +201,10 @@ RawMesh read(const std::string& path, const std::string& group, double unit_scal
   Groups groups;
   gmsh::model::getPhysicalGroups(groups);
   reader.choose_body(groups, group);
+  for (const auto& a : groups)
+    for (const auto& b : groups)
+      if (a.first != b.first && set_name_of(a, groups) == set_name_of(b, groups))
+        reader.refuse("a group is called " + set_name_of(a, groups) + ", as another is told apart from those of its name; give one of them another name");
   for (const auto& g : groups) reader.append_group(g, reader.raw.groups[set_name_of(g, groups)]);
   reader.order_cells();
   reader.renumber_nodes();
