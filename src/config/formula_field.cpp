@@ -19,9 +19,9 @@ FormulaField::~FormulaField() = default;
 
 FormulaField::FormulaField(const std::vector<std::string>& formulas) : formulas_(std::make_unique<Formulas>()) {
   formulas_->texts = formulas;
-  const Vec3 kSomewhere(0.7310585, 0.8807970, 0.9525741);
+  const Vec3 somewhere(0.7310585, 0.8807970, 0.9525741);
   Vec3& X = formulas_->X;
-  X = kSomewhere;
+  X = somewhere;
   for (const std::string& formula : formulas) {
     try {
       mu::Parser parser;
@@ -31,7 +31,7 @@ FormulaField::FormulaField(const std::vector<std::string>& formulas) : formulas_
       parser.DefineConst("pi", M_PI);
       parser.SetExpr(formula);
       parser.Eval();  // it is read only now
-      if (X != kSomewhere) throw mu::Parser::exception_type("it changes x, y or z");
+      if (X != somewhere) throw mu::Parser::exception_type("it changes x, y or z");
       if (parser.GetNumResults() != 1) throw mu::Parser::exception_type("it has several parts");
       formulas_->parsers.push_back(parser);
     } catch (const mu::Parser::exception_type& error) {

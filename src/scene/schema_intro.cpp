@@ -114,8 +114,8 @@ With an `initial_velocity` and its own `mass` it is a hammer: what it has lost w
 Its place is in `history.csv`. A `withdraw` stage takes it away like any other tool, from rest where it has come to.
 
 A tool with an `axle` is an idle roll: it turns about that as friction and its `torques` make it, and goes where the rest of its motion
-takes it, axle and all. A roll of a mill turns at `spins_deg_s` instead, pressed on by a force if its `kind` is `force`. How far an idle roll has
-turned is in `history.csv`, the torque on a driven one there as its moment:
+takes it, axle and all, also while it is withdrawn; in a `settle` stage it comes to rest with what it presses on, as a holder does. A roll of a mill turns at `spins_deg_s` instead, pressed on by a force if its `kind` is `force`. How far an idle roll has
+turned is in `history.csv`, the torque on a driven one there as its moment. A heavy one takes long to settle: friction releases it slowly (`kinetic_fraction`):
 
 ```yaml
 tools:
