@@ -45,6 +45,7 @@ Vec3 FormulaField::at(const Vec3& X) const {
   Vec3 value = Vec3::Zero();
   for (std::size_t i = 0; i < formulas_->parsers.size(); ++i) {
     value[i] = formulas_->parsers[i].Eval();
+    if (formulas_->X != X) throw Error(Code::invalid_scene, "give a formula that changes none of x, y, z: '" + formulas_->texts[i] + "' does");
     if (std::isfinite(value[i])) continue;
     std::ostringstream text;
     text << "give a formula that is a number everywhere on the body: '" << formulas_->texts[i] << "' is " << value[i] << " at (" << X.x() << ", "

@@ -46,14 +46,10 @@ Vec3 guide_of(const MotionConfig& config) {
 bool goes_along(const Vec3& given, const Vec3& guide) { return (given - given.dot(guide) * guide).norm() <= 1e-12 * given.norm(); }
 
 double Drive::free_speed(double t, double kick) const {
-  const double a = braking(kick), kept = a > 1 ? 1 : 1 - a;
-  return inverse_mass(kick) * (kept * mass_ * momentum_ + kick * force(t));
+  return inverse_mass(kick) * (kept(kick) * mass_ * momentum_ + kick * force(t));
 }
 
-double Drive::inverse_mass(double kick) const {
-  const double a = braking(kick);
-  return 1 / (mass_ * (a > 1 ? 1 + 2 * a : 1 + a));
-}
+double Drive::inverse_mass(double kick) const { return 1 / (mass_ * (kept(kick) + 2 * braking(kick))); }
 
 void Drive::take_step(double t, double kick, double dt, double push, double answer) {
   const double free = free_speed(t, kick);

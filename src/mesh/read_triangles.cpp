@@ -95,14 +95,20 @@ Stl read_stl(const std::string& path, const std::string& source) {
   std::uint32_t triangles = 0;
   if (size >= kHead) std::memcpy(&triangles, &bytes[kHead - sizeof triangles], sizeof triangles);
   const std::size_t binary_size = kHead + kTriangle * triangles;
-  if (size == binary_size) return {std::move(bytes), triangles};
-  if (triangles > 0 && size > binary_size && std::find(bytes.begin() + kHead, bytes.begin() + binary_size, '\0') != bytes.begin() + binary_size) {
-    bytes.resize(binary_size);  // what follows is no triangle
-    return {std::move(bytes), triangles};
+  Stl binary;
+  binary.triangles = triangles;
+  if (size == binary_size) {
+    binary.bytes = std::move(bytes);
+    return binary;
   }
-  if (bytes.compare(0, 3, "\xEF\xBB\xBF") == 0) bytes.erase(0, 3);
-  const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
-  if (begin != std::string::npos && lower(bytes.substr(begin, 5)) == "solid") return plain_text(std::move(bytes), source);
+  const std::size_t mark = bytes.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : 0, begin = bytes.find_first_not_of(" \t\r\n", mark);
+  const bool solid = begin != std::string::npos && lower(bytes.substr(begin, 5)) == "solid";  // many a binary one says so too
+  const auto zeros_in = [&](std::size_t first, std::size_t last) { return bytes.substr(first, last - first).find('\0') != std::string::npos; };
+  if (triangles > 0 && size > binary_size && (!solid || zeros_in(kHead, binary_size))) {
+    binary.bytes = bytes.substr(0, binary_size);  // what follows is no triangle
+    return binary;
+  }
+  if (solid) return plain_text(bytes.substr(mark), source);
   throw Error(Code::mesh_error, source + ": it does not begin with solid, as an STL file of text does, and as a binary one it would have " + std::to_string(binary_size) + " bytes for the " +
                                     std::to_string(triangles) + " triangles that it announces, not " + std::to_string(size) + "; it is damaged or cut short: write it again");
 }

@@ -1,6 +1,9 @@
 #include "forming_sim/results/formed_parts.h"
 
+#include <algorithm>
+
 #include "forming_sim/files/formed_file.h"
+#include "forming_sim/loads/course.h"
 #include "forming_sim/scene/yaml.h"
 
 namespace forming_sim {
@@ -17,11 +20,12 @@ void FormedParts::on_end(const Simulation& simulation, Code code, const std::str
     part.pressure_average = body.pressure_average;
     part.axisymmetric = model.axisymmetric;
     for (int tool : simulation.tools_on(static_cast<int>(b))) part.pressed_by.push_back("tool " + model.tools[tool].name);
-    for (const PressureConfig& pressure : scene_.bodies[b].pressures)
-      if (!pressure.values.empty() && pressure.values.back() != 0) part.pressed_by.push_back(name_of(pressure));
-    for (const LoadConfig& load : scene_.bodies[b].loads)
-      for (const std::vector<Vec3>* values : {&load.tractions, &load.forces})
-        if (!values->empty() && !values->back().isZero(0)) part.pressed_by.push_back(name_of(load));
+    const auto note = [&](const auto& load) {
+      const std::string name = name_of(load);
+      if (acts(load, simulation.time() - simulation.began(load.since)) && std::find(part.pressed_by.begin(), part.pressed_by.end(), name) == part.pressed_by.end()) part.pressed_by.push_back(name);
+    };
+    for (const PressureConfig& pressure : scene_.bodies[b].pressures) note(pressure);
+    for (const LoadConfig& load : scene_.bodies[b].loads) note(load);
     for (const BoundaryConfig& boundary : scene_.bodies[b].boundaries)
       if (boundary.until.empty()) part.held_sets.push_back(boundary.set);
     part.mesh = body.mesh;

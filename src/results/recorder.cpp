@@ -90,8 +90,7 @@ void Recorder::tell_great_strain(const Simulation& simulation, int stage) {
 void Recorder::tell_short_steps(const Simulation& simulation, int stage) {
   constexpr double kShort = 0.1;  // of the first
   const StepLimit smallest = simulation.smallest_step();
-  const bool by_a_cell = smallest.element >= 0 || smallest.node >= 0;
-  if (!ends_forming(simulation, stage) || !by_a_cell || !(smallest.dt < kShort * simulation.first_dt())) return;
+  if (!ends_forming(simulation, stage) || smallest.reason == "time_step.maximum" || !(smallest.dt < kShort * simulation.first_dt())) return;
   record_.notes.push_back("the time step fell from " + three_digits(simulation.first_dt()) + " s at the start to " + three_digits(smallest.dt) + " s, limited by " + smallest.reason +
                           ": cells have become so thin or narrow, and the run took as many more steps. Where they are few, time_step.raise_to gives them mass instead; larger cells where the metal flows most, or other ones, stay longer in shape");
 }

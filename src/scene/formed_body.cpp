@@ -4,6 +4,7 @@
 
 #include "forming_sim/config/words.h"
 #include "forming_sim/files/formed_file.h"
+#include "forming_sim/loads/course.h"
 #include "forming_sim/loads/rotation.h"
 #include "forming_sim/mesh/url.h"
 #include "forming_sim/scene/yaml.h"
@@ -48,14 +49,14 @@ FormedBody load_formed_body(const Scene& scene, const BodyConfig& body, const st
   const Mat3 rotation = rotation_matrix(kRadiansPerDegree * formed.turn_deg);
   for (Vec3& x : part.mesh.nodes) x = rotation * (x - formed.turn_centre) + formed.turn_centre + formed.shift;
   turn(part.memory, body.material.law, part.mesh.dimension, rotation);
+  const std::vector<StageConfig> stages = named(scene.stages);
   const auto goes_on = [&](const std::string& by) {
-    const auto is_it = [&](const auto& load) { return by == name_of(load) && load.since.empty(); };
+    const auto is_it = [&](const auto& load) { return by == name_of(load) && first_stage(load.since, stages) == 0 && acts(load, 0); };
     return std::any_of(body.pressures.begin(), body.pressures.end(), is_it) || std::any_of(body.loads.begin(), body.loads.end(), is_it);
   };
   part.pressed_by.erase(std::remove_if(part.pressed_by.begin(), part.pressed_by.end(), goes_on), part.pressed_by.end());
   if (!part.pressed_by.empty())
     notes.push_back("body " + body.name + " was still pressed by " + one_of(part.pressed_by, " and ") + " when its run ended: what they bore is let go at once here. Let it go and settle there, with a withdraw and a settle stage, and with pressures and loads that end with 0");
-  const std::vector<StageConfig> stages = named(scene.stages);
   std::vector<std::string> let_go;
   for (const std::string& set : part.held_sets)
     if (std::none_of(body.boundaries.begin(), body.boundaries.end(), [&](const BoundaryConfig& b) { return b.set == set && holds_in(0, b, stages); })) let_go.push_back(set);

@@ -130,12 +130,13 @@ void make_imperfect(const Scene& scene, std::size_t i, Mesh& mesh, std::vector<F
         throw Error(Code::invalid_scene, "give formulas that leave what is on the axis y there, and the rest beside it: the node at " + place(X) + " goes to x = " + number_text(x.x()) + " m");
       X = x;
     }
+    const double in_plane = kSamePlane * size_of(mesh);
     for (const BoundaryConfig& boundary : scene.bodies[i].boundaries) {
       const auto set = mesh.sets.find(boundary.set);
       if (boundary.kind != "symmetric" || set == mesh.sets.end() || boundary.normal.isZero(0)) continue;
       const Vec3 normal = boundary.normal.stableNormalized();
       for (int n : set->second)
-        if (const double across = normal.dot(moved.nodes[n] - mesh.nodes[n]); std::abs(across) > kSamePlane * size_of(mesh))
+        if (const double across = normal.dot(moved.nodes[n] - mesh.nodes[n]); std::abs(across) > in_plane)
           throw Error(Code::invalid_scene, "give formulas that leave the nodes of the set " + boundary.set + " in their plane of symmetry: the one at " + place(mesh.nodes[n]) + " goes " + three_digits(across) + " m across it");
     }
     try {

@@ -59,7 +59,10 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
       const Vec3 axle = motion.axle.stableNormalized();
       faults.each(turns, [&](std::size_t i) {
         const bool one_line = std::all_of(turns.begin(), turns.end(), [&](const Vec3& other) { return goes_along(other, turns[i].stableNormalized()); });
-        if (turns[i].allFinite() && axle.allFinite() && one_line && std::abs(turns[i].dot(axle)) > 1e-12 * turns[i].norm())
+        if (!turns[i].allFinite() || !axle.allFinite() || turns[i].isZero(0)) return;
+        if (!one_line)
+          faults.add(join_path(path + "." + field, i), given_text(turns[i]) + ", one of turns about several lines", "turn a tool with an axle about one line, across the axle: that goes along, and of turns about several lines a part would be about it");
+        else if (std::abs(turns[i].dot(axle)) > 1e-12 * turns[i].norm())
           faults.add(join_path(path + "." + field, i), given_text(turns[i]) + ", in part about the axle, about which the tool turns freely", "leave out the axle of a tool that is turned, and what turns about the axle of an idle one");
       });
     };

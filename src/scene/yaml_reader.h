@@ -136,6 +136,7 @@ class YamlReader {
         faults_.add(path, told(node), wanted<T>(field));
         return;
       }
+      if (is_zero(node) && !field.contains(0)) faults_.add(path, told(node), wanted<T>(field));  // as of numbers, below
       for (std::size_t i = 0; i < node.size(); ++i) {
         if (!convert(node[i], value[static_cast<int>(i)])) {
           faults_.add(join_path(path, i), told(node[i]), "give a finite number" + (unit_text(field).empty() ? "" : ", in" + unit_text(field)));

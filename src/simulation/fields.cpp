@@ -20,6 +20,7 @@ double Simulation::time() const { return impl_->time; }
 long Simulation::steps() const { return impl_->steps; }
 double Simulation::dt() const { return impl_->dt; }
 int Simulation::stage() const { return impl_->stages.index(); }
+double Simulation::began(const std::string& since) const { return impl_->stages.began(since); }
 double Simulation::progress() const { return impl_->stages.progress(impl_->time); }
 bool Simulation::quiet() const { return impl_->stages.settling() && impl_->settle.is_quiet(); }
 double Simulation::wall_time() const { return impl_->wall; }

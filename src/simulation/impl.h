@@ -156,8 +156,9 @@ struct Simulation::Impl {
   // settling.cpp
   /// How fast each body swings, and the damping for it.
   void watch_settling();
-  /// Tools that press on the bodies settle with them, in what they are free to do. mover: the number of a tool along its guide, with that of all tools added
-  /// about its axle. Null: it does not settle.
+  /// What moves a tool as it is pushed. mover: the number of the tool, along its guide; with that of all tools added, about its axle. Null: nothing.
+  const Drive* drive_of(int mover) const;
+  /// Tools that press on the bodies settle with them. Null: this one does not.
   const Drive* settling_drive(int mover) const;
   /// In a settle stage tools that settle have its damping too.
   void slow_tools();

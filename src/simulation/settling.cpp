@@ -8,10 +8,13 @@
 
 namespace forming_sim {
 
-const Drive* Simulation::Impl::settling_drive(int mover) const {
+const Drive* Simulation::Impl::drive_of(int mover) const {
   const int count = static_cast<int>(tools.size()), tool = mover % count;
-  if (!tools[tool].present || !tools[tool].pressed) return nullptr;
   return mover < count ? static_cast<const Drive*>(stages.drive(tool)) : stages.axle(tool);
+}
+const Drive* Simulation::Impl::settling_drive(int mover) const {
+  const ToolStatus& tool = tools[mover % tools.size()];
+  return tool.present && tool.pressed ? drive_of(mover) : nullptr;
 }
 
 void Simulation::Impl::watch_settling() {
@@ -44,7 +47,7 @@ void Simulation::Impl::watch_settling() {
   nodes.clear();
   const int movers = 2 * static_cast<int>(tools.size());
   for (int k = 0; k < movers; ++k) {
-    const Drive* drive = settling_drive(k);
+    const Drive* drive = drive_of(k);
     places.push_back(node(drive ? drive->gone() : 0, 0, 0));
     velocities.push_back(node(drive ? drive->speed() : 0, 0, 0));
     mass.push_back(drive ? drive->mass() : 1);

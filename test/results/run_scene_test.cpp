@@ -6,6 +6,7 @@
 #include <cmath>
 #include <csignal>
 
+#include "forming_sim/element/elements.h"
 #include "forming_sim/parallel/interrupt.h"
 #include "forming_sim/results/estimate.h"
 #include "forming_sim/results/directory_lock.h"
@@ -303,7 +304,17 @@ TEST(RunScene, APreparationStopsWhenItIsTold) {
   const Scene scene = small_scene();
   const Model model = build_model(scene);
   const Interruptible while_wanted(cancelled);
-  EXPECT_THROW(Simulation(build_plan(scene), model, 1), Error);  // its elements ask too
+  NodeField x;
+  for (const Vec3& X : model.bodies[0].mesh.nodes) x.push_back(node(X));
+  for (const bool whole : {true, false}) {
+    try {
+      if (whole) Simulation(build_plan(scene), model, 1);
+      else Elements({model.bodies[0]}, model.dimension, x, ElementOptions(), 1);
+      FAIL() << "it went on";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), Code::cancelled);
+    }
+  }
 }
 
 TEST(RunScene, WhatCannotStartIsAFault) {

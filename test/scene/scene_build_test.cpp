@@ -160,7 +160,7 @@ TEST(SceneBuild, PressureNeedsAFace) {
   edge.min = Vec3(-1, -1, -1);
   edge.max = Vec3(1e-4, 1e-4, 1e-4);
   scene.bodies[0].sets = {edge};
-  scene.bodies[0].pressures = {{"corner", {0}, {1e6}}};
+  scene.bodies[0].pressures = {{"corner", {0}, {1e6}, "linear", ""}};
   expect_geometry_fault(scene, "bodies[0].pressures[0].set", "surface face");
   scene.bodies[0].pressures[0].set = "top";
   EXPECT_TRUE(validate(scene).empty());

@@ -74,8 +74,10 @@ TEST(SceneRules, WhatTurnsFreely) {
   expect_fault(with(stands + "profile: linear"), here, "or an axle");
   for (const char* field : {"torques", "inertia", "initial_spin_deg_s", "damping"})
     expect_fault(with(stands + "velocities: [[1, 0]], " + field + ": " + (field == std::string("torques") ? "[1]" : "1")), here + "." + field, "give the axle");
+  expect_fault(with("kind: force, times: [0], forces: [[0, -1]], axle: [0, 0]"), here + ".axle", "of a length above 0");
   expect_fault(with(stands + "axle: [0, 1, 1]"), here + ".axle", "give [0, 0, 1]");
   expect_fault(with(idle + "spins_deg_s: [[0, 0, 3]]"), here + ".spins_deg_s[0]", "leave out the axle");
+  expect_fault(with("kind: velocity, times: [0, 1], axle: [0, 0, 2], spins_deg_s: [[0, 0, 0], [0, 0, 5]]"), here + ".spins_deg_s[1]", "leave out the axle");
   expect_fault(with(idle + "torques: [1, 2]"), here + ".torques", "one for each of the 1 times");
   expect_fault(with(idle + "stop_force: 3"), here + ".stop_force", "leave it out");
   expect_fault(with("kind: trajectory, times: [0, 1], positions: [[0, 0], [1, 0]], profile: spline, axle: [0, 0, 1], torques: [0, 1]"), here + ".profile", "smooth or linear");

@@ -25,7 +25,7 @@ template <class T> std::string wanted(const Field& field) {
     text = "give a list";
     if (!range_text(field).empty()) text += " of numbers " + range_text(field);
   } else if constexpr (std::is_same_v<T, Vec3>) {
-    text = "give [x, y, z], or [x, y] for z = 0";
+    text = "give [x, y, z], or [x, y] for z = 0" + (range_text(field).empty() ? "" : ", of a length " + range_text(field));
   } else if constexpr (std::is_same_v<T, double>) {
     text = "give a finite number" + (range_text(field).empty() ? "" : " " + range_text(field));
   } else if constexpr (std::is_same_v<T, int>) {

@@ -5,8 +5,14 @@
 #include <vector>
 
 #include "forming_sim/loads/config.h"
+#include "forming_sim/loads/profile.h"
 
 namespace forming_sim {
+
+inline int components(double) { return 1; }
+inline int components(const Vec3&) { return 3; }
+inline double component(double value, int) { return value; }
+inline double component(const Vec3& value, int k) { return value[k]; }
 
 /// Calls visit(times, values, moves) for each list of values over times; moves: what is level and not 0 goes on moving.
 template <class Visit> void each_course(const MotionConfig& m, Visit&& visit) {
@@ -45,6 +51,20 @@ template <class Config> bool changes(const Config& config, double from, double t
     for (std::size_t k = 1; k < values.size(); ++k) {
       const bool on_its_way = values[k] != values[k - 1] || (moves && values[k] != 0 * values[k]);
       found = found || (on_its_way && times[k] <= last && from < times[k] && times[k - 1] < to);
+    }
+  });
+  return found;
+}
+
+/// Is it other than 0 at the time t of its own, s? Before 0 it has not begun. Throws Error(invalid_scene) as ScalarProfile does.
+template <class Config> bool acts(const Config& config, double t) {
+  bool found = false;
+  each_course(config, [&](const std::vector<double>& times, const auto& values, bool) {
+    if (!(t >= 0) || values.empty()) return;
+    for (int k = 0; k < components(values.front()); ++k) {
+      std::vector<double> of_component;
+      for (const auto& value : values) of_component.push_back(component(value, k));
+      found = found || ScalarProfile(times, of_component, config.profile).at(t) != 0;
     }
   });
   return found;

@@ -8,10 +8,11 @@
 //
 //   V* = ((1 - a) V + k F/M)/(1 + a),   V = V* + J/(M (1 + a)),   J = k R,
 //
-// and where it brakes so hard that this would swing, a > 1, V* = (V + k F/M)/(1 + 2 a),   V = V* + J/(M (1 + 2 a)).
+// and where it brakes so hard that this would swing, a > 1, V* = (k F/M)/(2 a),   V = V* + J/(2 a M).
 //
 // V and J depend on each other: contact finds both (contact/driven.h). Taken one after the other, the tool would feed the swings of
 // what it touches, whatever its mass and however short the step.
+#include <algorithm>
 #include <limits>
 
 #include "forming_sim/loads/config.h"
@@ -34,7 +35,7 @@ class Drive {
 
   /// V* of a step from t on.
   double free_speed(double t, double kick) const;
-  /// By so much an impulse changes V: 1/(M (1 + a)).
+  /// By so much an impulse changes V: 1/(M (1 + a)), braked hard 1/(2 a M).
   double inverse_mass(double kick) const;
   double force(double t) const { return force_.at(t - began_); }  ///< F, N; N m
   double mass() const { return mass_; }    ///< M, kg; kg m2
@@ -51,6 +52,7 @@ class Drive {
   }
 
  private:
+  double kept(double kick) const { return std::max(0.0, 1 - braking(kick)); }  ///< of V
   double braking(double kick) const { return 0.5 * (damping_ + settling_) * kick; }  ///< a
 
   ScalarProfile force_;

@@ -54,6 +54,7 @@ class Simulation {
   double time() const;
   long steps() const;
   double dt() const;                 ///< of the last step; before the first, of that to come
+  double began(const std::string& since) const;  ///< s, when what has this `since` began; infinity: it has not
   int stage() const;                 ///< index of the running stage; number of stages at the end
   double progress() const;           ///< 0..1, by simulated time; a settle stage counts by its limit
   bool quiet() const;                ///< a settle stage runs and has nearly done: its bodies rest if they stay as they are
