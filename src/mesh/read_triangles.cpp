@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <vector>
 
 #include "forming_sim/config/fault.h"
 #include "files/read_apart.h"
@@ -54,19 +55,13 @@ void append(const aiScene& scene, const aiNode& node, const Transform& to_root, 
     append(scene, *node.mChildren[c], times(to_root, node.mChildren[c]->mTransformation), all);
 }
 
-/// An STL file in the form that assimp reads, and what tells whether it has read all of it.
-struct Stl {
-  std::string bytes;
-  std::size_t triangles = 0;
-};
-
 /// Of an STL file of text: small letters, and neither the names of solids nor the normals of facets, which nothing here uses and in
 /// which assimp takes a word for another or breaks over a normal that is no number.
-Stl plain_text(std::string text, const std::string& source) {
+std::vector<char> plain_text(std::string text, const std::string& source, std::size_t& triangles) {
   std::replace(text.begin(), text.end(), '\r', '\n');
   text = lower(std::move(text));
-  Stl plain;
-  plain.bytes.reserve(text.size());
+  std::string plain;
+  plain.reserve(text.size());
   const auto next = [&](const char* characters, std::size_t from, std::size_t end) { return std::min(end, text.find_first_of(characters, from)); };
   for (std::size_t begin = 0, end; begin < text.size(); begin = end + 1) {
     end = next("\n", begin, text.size());
@@ -74,43 +69,42 @@ Stl plain_text(std::string text, const std::string& source) {
     if (word >= end) continue;
     const std::string_view line(&text[begin], end - begin), first(&text[word], next(" \t", word, end) - word);
     const bool alone = line.find("vertex") == line.npos;  // a name or a normal, and no more
-    if (alone && (first == "solid" || first == "endsolid")) plain.bytes += first;
-    else if (alone && first == "facet") plain.bytes += "facet normal 0 0 0";
-    else plain.bytes += line;
-    plain.bytes += '\n';
+    if (alone && (first == "solid" || first == "endsolid")) plain += first;
+    else if (alone && first == "facet") plain += "facet normal 0 0 0";
+    else plain += line;
+    plain += '\n';
   }
   constexpr std::string_view kEnd = "endfacet";
   std::size_t last = 0;
-  for (std::size_t at = 0; (at = plain.bytes.find(kEnd, at)) != std::string::npos; at += kEnd.size()) ++plain.triangles, last = at;
-  if (const std::size_t closed = plain.bytes.rfind("endsolid"); closed == std::string::npos || closed < last)
+  for (std::size_t at = 0; (at = plain.find(kEnd, at)) != std::string::npos; at += kEnd.size()) ++triangles, last = at;
+  if (const std::size_t closed = plain.rfind("endsolid"); closed == std::string::npos || closed < last)
     throw Error(Code::mesh_error, source + ": it begins with solid, and does not end with endsolid; it is cut short: write it again");
-  return plain;
+  return {plain.begin(), plain.end()};
 }
 
-Stl read_stl(const std::string& path, const std::string& source) {
+/// An STL file in the form that assimp reads. triangles: how many it has, which tells whether all of it was read.
+std::vector<char> read_stl(const std::string& path, const std::string& source, std::size_t& triangles) {
   constexpr std::size_t kHead = 84, kTriangle = 50;  // bytes, of a binary one
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  std::vector<char> bytes(std::filesystem::file_size(path));
+  std::ifstream(path, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   const std::size_t size = bytes.size();
-  std::uint32_t triangles = 0;
-  if (size >= kHead) std::memcpy(&triangles, &bytes[kHead - sizeof triangles], sizeof triangles);
-  const std::size_t binary_size = kHead + kTriangle * triangles;
-  Stl binary;
-  binary.triangles = triangles;
-  if (size == binary_size) {
-    binary.bytes = std::move(bytes);
-    return binary;
+  std::uint32_t announced = 0;
+  if (size >= kHead) std::memcpy(&announced, &bytes[kHead - sizeof announced], sizeof announced);
+  const std::size_t binary_size = kHead + kTriangle * announced;
+  triangles = announced;
+  if (size == binary_size) return bytes;
+  std::string_view text(bytes.data(), size);
+  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  const bool solid = begin != text.npos && lower(std::string(text.substr(begin, 5))) == "solid";  // many a binary one says so too
+  if (announced > 0 && size > binary_size && (!solid || std::find(bytes.begin() + kHead, bytes.begin() + binary_size, '\0') != bytes.begin() + binary_size)) {
+    bytes.resize(binary_size);  // what follows is no triangle
+    return bytes;
   }
-  const std::size_t mark = bytes.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : 0, begin = bytes.find_first_not_of(" \t\r\n", mark);
-  const bool solid = begin != std::string::npos && lower(bytes.substr(begin, 5)) == "solid";  // many a binary one says so too
-  const auto zeros_in = [&](std::size_t first, std::size_t last) { return bytes.substr(first, last - first).find('\0') != std::string::npos; };
-  if (triangles > 0 && size > binary_size && (!solid || zeros_in(kHead, binary_size))) {
-    binary.bytes = bytes.substr(0, binary_size);  // what follows is no triangle
-    return binary;
-  }
-  if (solid) return plain_text(bytes.substr(mark), source);
+  triangles = 0;
+  if (solid) return plain_text(std::string(text), source, triangles);
   throw Error(Code::mesh_error, source + ": it does not begin with solid, as an STL file of text does, and as a binary one it would have " + std::to_string(binary_size) + " bytes for the " +
-                                    std::to_string(triangles) + " triangles that it announces, not " + std::to_string(size) + "; it is damaged or cut short: write it again");
+                                    std::to_string(announced) + " triangles that it announces, not " + std::to_string(size) + "; it is damaged or cut short: write it again");
 }
 
 Triangles read(const std::string& path, double unit_scale) {
@@ -120,10 +114,11 @@ Triangles read(const std::string& path, double unit_scale) {
     throw Error(Code::mesh_error, all.source + ": the file is empty; a tool needs a surface of triangles");
   const std::string extension = lower(std::filesystem::path(path).extension().string());
   const bool is_stl = extension == ".stl";
-  const Stl stl = is_stl ? read_stl(path, all.source) : Stl();
+  std::size_t triangles = 0;
+  const std::vector<char> stl = is_stl ? read_stl(path, all.source, triangles) : std::vector<char>();
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  const aiScene* scene = is_stl ? importer.ReadFileFromMemory(stl.bytes.data(), stl.bytes.size(), aiProcess_Triangulate, "stl") : importer.ReadFile(path, aiProcess_Triangulate);
+  const aiScene* scene = is_stl ? importer.ReadFileFromMemory(stl.data(), stl.size(), aiProcess_Triangulate, "stl") : importer.ReadFile(path, aiProcess_Triangulate);
   if (!scene || !scene->mRootNode)
     throw Error(Code::mesh_error, all.source + ": assimp cannot read it: " + importer.GetErrorString() + "; write it again");
   // With the up direction left alone, the root of a COLLADA scene holds its unit
@@ -133,8 +128,8 @@ Triangles read(const std::string& path, double unit_scale) {
   root.leftCols<3>().setIdentity();
   if (!collada) root = times(root, scene->mRootNode->mTransformation);
   append(*scene, *scene->mRootNode, unit_scale * root, all);
-  if (is_stl && all.corners.size() != stl.triangles)
-    throw Error(Code::mesh_error, all.source + ": assimp reads " + std::to_string(all.corners.size()) + " of its " + std::to_string(stl.triangles) + " triangles; it is damaged: write it again, as a binary STL if it is one of text");
+  if (is_stl && all.corners.size() != triangles)
+    throw Error(Code::mesh_error, all.source + ": assimp reads " + std::to_string(all.corners.size()) + " of its " + std::to_string(triangles) + " triangles; it is damaged: write it again, as a binary STL if it is one of text");
   return all;
 }
 
