@@ -197,8 +197,7 @@ void Contact::Impl::advance_implicit(double time, double dt, double full_dt, Nod
     find_driven_tools();
     // How far a driven tool goes is known afterwards: what its force alone would do to a light one is far more than what it does while that lies on something.
     const double predicted = both * fastest(v_star) * dt, told_way = step_way(x, dt);
-    double first_way = told_way;
-    first_way = farthest_tool(told_way, [&](const DrivenTool& tool) { return tool.way(tool.last_speed, dt); });
+    const double first_way = farthest_tool(told_way, [&](const DrivenTool& tool) { return tool.way(tool.last_speed, dt); });
     double bound = 2 * (predicted + first_way);
     tools.place_planes(motion, planes);
     SweepResult swept;
@@ -210,7 +209,7 @@ void Contact::Impl::advance_implicit(double time, double dt, double full_dt, Nod
       ensure_list(x, reach, bound);
       near.clear();
       clock.ends(&ContactTimes::list);
-      double most = 0, tool_way = told_way;
+      double most = 0;
       if (list.size() > 0) {
         gather(x, v, v_star, dt);
         const Layers layers(records, tried, work, dt, previous_dt, layer, ceiling);
@@ -234,7 +233,7 @@ void Contact::Impl::advance_implicit(double time, double dt, double full_dt, Nod
         }
         for (int i = 0; i < work.body_entries; ++i) most = std::max(most, dot3(work.v[i], work.v[i]));
       }
-      tool_way = farthest_tool(told_way, [&](const DrivenTool& tool) { return tool.way(tool.speed + tool.push, dt); });
+      const double tool_way = farthest_tool(told_way, [&](const DrivenTool& tool) { return tool.way(tool.speed + tool.push, dt); });
       way = std::max(bound / 2, std::max(predicted, both * std::sqrt(most) * dt) + tool_way);
       if (way <= bound) break;
       bound = 1.5 * way;

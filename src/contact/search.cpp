@@ -27,7 +27,6 @@ double Contact::Impl::fastest(const NodeField& v) const {
 template <class From, class To>
 double Contact::Impl::farthest(const NodeField& x, From&& from, To&& to, std::vector<double>* ways) const {
   double most = 0;
-  if (ways) ways->assign(motion.size(), 0.0);
   Box bodies;
   bool have = false;
   for (size_t t = 0; t < motion.size(); ++t) {

@@ -118,7 +118,7 @@ Json tools(const Simulation& simulation) {
                     {"unit", simulation.model().per_width() ? "N/m" : "N"},
                     {"peak_moment", simulation.model().axisymmetric ? Json(nullptr) : vector(tool.peak_moment)},
                     {"moment_unit", simulation.model().per_width() ? "N" : "N m"},
-                    {"turned_deg", simulation.model().tools[i].turns_freely() ? number(tool.turned / kRadiansPerDegree) : Json(nullptr)},
+                    {"turned_deg", number(tool.turned / kRadiansPerDegree)},
                     {"position", vector(tool.position)},
                     {"orientation_xyzw", orientation(tool.rotation)},
                     {"present", tool.present},

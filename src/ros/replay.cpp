@@ -53,7 +53,7 @@ RunFrame run_frame(const Frame& stored) {
   for (const FrameTool& pose : stored.tools) {
     ToolStatus status;
     for (Vec3* vector : {&status.velocity, &status.peak_force, &status.peak_moment}) vector->setConstant(kUnknown);
-    status.radial_force = status.peak_radial_force = status.turned = kUnknown;
+    status.radial_force = status.peak_radial_force = kUnknown;
     status.position = pose.position;
     status.rotation = pose.rotation;
     status.force = pose.force;

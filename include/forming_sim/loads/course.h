@@ -9,11 +9,6 @@
 
 namespace forming_sim {
 
-inline int components(double) { return 1; }
-inline int components(const Vec3&) { return 3; }
-inline double component(double value, int) { return value; }
-inline double component(const Vec3& value, int k) { return value[k]; }
-
 /// Calls visit(times, values, moves) for each list of values over times; moves: what is level and not 0 goes on moving.
 template <class Visit> void each_course(const MotionConfig& m, Visit&& visit) {
   visit(m.times, m.positions, false);
@@ -56,17 +51,16 @@ template <class Config> bool changes(const Config& config, double from, double t
   return found;
 }
 
-/// Is it other than 0 at the time t of its own, s? Before 0 it has not begun. Throws Error(invalid_scene) as ScalarProfile does.
+inline bool is_other_than_zero(const std::vector<double>& times, const std::vector<double>& values, const std::string& profile, double t) {
+  return ScalarProfile(times, values, profile).at(t) != 0;
+}
+inline bool is_other_than_zero(const std::vector<double>& times, const std::vector<Vec3>& values, const std::string& profile, double t) {
+  return !VelocityProfile(times, values, profile).at(t).isZero(0);
+}
+/// Does a pressure or a load act at the time t of its own, s? Before 0 it has not begun. Throws Error(invalid_scene) as its profile does.
 template <class Config> bool acts(const Config& config, double t) {
   bool found = false;
-  each_course(config, [&](const std::vector<double>& times, const auto& values, bool) {
-    if (!(t >= 0) || values.empty()) return;
-    for (int k = 0; k < components(values.front()); ++k) {
-      std::vector<double> of_component;
-      for (const auto& value : values) of_component.push_back(component(value, k));
-      found = found || ScalarProfile(times, of_component, config.profile).at(t) != 0;
-    }
-  });
+  each_course(config, [&](const std::vector<double>& times, const auto& values, bool) { found = found || (t >= 0 && !values.empty() && is_other_than_zero(times, values, config.profile, t)); });
   return found;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <set>
 #include <unordered_map>
 
@@ -38,11 +39,14 @@ std::string name_of(const std::pair<int, int>& group) {
 }
 
 /// Names and tags are one for each dimension alone: a curve and a surface may have the same, and are told apart.
-std::string set_name_of(const std::pair<int, int>& group, const Groups& groups) {
+std::vector<std::string> set_names_of(const Groups& groups) {
   constexpr const char* kDimensions[] = {"point", "curve", "surface", "volume"};
-  const std::string name = name_of(group);
-  const bool alone = std::none_of(groups.begin(), groups.end(), [&](const auto& other) { return other.first != group.first && name_of(other) == name; });
-  return alone ? name : name + "_" + kDimensions[group.first];
+  std::vector<std::string> names;
+  std::map<std::string, std::set<int>> dimensions;
+  for (const auto& group : groups) dimensions[names.emplace_back(name_of(group))].insert(group.first);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (dimensions[names[g]].size() > 1) names[g] += std::string("_") + kDimensions[groups[g].first];
+  return names;
 }
 
 struct MeshReader {
@@ -118,7 +122,7 @@ struct MeshReader {
     for (int entity : entities) append_cells(group.first, entity, cells);
   }
 
-  void choose_body(const Groups& groups, const std::string& wanted) {
+  void choose_body(const Groups& groups, const std::vector<std::string>& set_names, const std::string& wanted) {
     if (wanted.empty()) {
       for (int dimension = 3; dimension >= 2 && raw.cells.empty(); --dimension) {
         append_cells(dimension, -1, raw.cells);
@@ -129,15 +133,15 @@ struct MeshReader {
     }
     std::string names;
     raw.dimension = -1;
-    const auto is_wanted = [&](const auto& group) { return name_of(group) == wanted || set_name_of(group, groups) == wanted; };
-    for (const auto& group : groups) {
-      names += (names.empty() ? "" : ", ") + set_name_of(group, groups);
-      if (is_wanted(group)) raw.dimension = std::max(raw.dimension, group.first);
+    const auto is_wanted = [&](std::size_t g) { return name_of(groups[g]) == wanted || set_names[g] == wanted; };
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      names += (names.empty() ? "" : ", ") + set_names[g];
+      if (is_wanted(g)) raw.dimension = std::max(raw.dimension, groups[g].first);
     }
     if (raw.dimension < 0)
       refuse("has no physical group \"" + wanted + "\"; it has " + (names.empty() ? std::string("none") : names));
-    for (const auto& group : groups)
-      if (group.first == raw.dimension && is_wanted(group)) append_group(group, raw.cells);
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      if (groups[g].first == raw.dimension && is_wanted(g)) append_group(groups[g], raw.cells);
     if (raw.dimension < 2 || raw.cells.empty())
       refuse("the physical group \"" + wanted + "\" holds no triangles, quadrilaterals, tetrahedra, hexahedra, wedges or pyramids, so it is no body");
   }
@@ -200,12 +204,15 @@ RawMesh read(const std::string& path, const std::string& group, double unit_scal
   reader.read_nodes(unit_scale);
   Groups groups;
   gmsh::model::getPhysicalGroups(groups);
-  reader.choose_body(groups, group);
-  for (const auto& a : groups)
-    for (const auto& b : groups)
-      if (a.first != b.first && set_name_of(a, groups) == set_name_of(b, groups))
-        reader.refuse("a group is called " + set_name_of(a, groups) + ", as another is told apart from those of its name; give one of them another name");
-  for (const auto& g : groups) reader.append_group(g, reader.raw.groups[set_name_of(g, groups)]);
+  const std::vector<std::string> set_names = set_names_of(groups);
+  reader.choose_body(groups, set_names, group);
+  std::map<std::string, int> dimension_of;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const auto [known, fresh] = dimension_of.emplace(set_names[g], groups[g].first);
+    if (!fresh && known->second != groups[g].first)
+      reader.refuse("a group is called " + set_names[g] + ", as another is told apart from those of its name; give one of them another name");
+    reader.append_group(groups[g], reader.raw.groups[set_names[g]]);
+  }
   reader.order_cells();
   reader.renumber_nodes();
   return std::move(reader.raw);
