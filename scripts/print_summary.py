@@ -38,6 +38,9 @@ def main():
         ("thickness", f"{number(s['thickness_m']['initial'], 1e3)} mm at first, {number(s['thickness_m']['min'], 1e3)} mm at least"),
         ("largest thinning", number(s["thinning"]["max"], 100) + " %"),
     ]
+    for damage in s.get("damage", []):
+        critical = "" if damage["critical"] is None else f", critical {number(damage['critical'])}"
+        rows.append((f"damage of {damage['body']}", f"{number(damage['max'])}{' Pa' if damage['unit'] == 'Pa' else ''} ({damage['criterion']}{critical})"))
     for tool in s["tools"]:
         force = tool["peak_force"]
         rows.append((f"peak force on {tool['name']}", "(" + ", ".join(number(f) for f in force) + f") {newton}"))

@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 COMPONENTS = {3: ("x", "y", "z"), 6: ("xx", "yy", "zz", "xy", "yz", "zx")}
-NAMES = {"plastic_strain": "equivalent plastic strain", "mises": "von Mises stress", "volume_ratio": "volume ratio V/V0",
+NAMES = {"plastic_strain": "equivalent plastic strain", "mises": "von Mises stress", "volume_ratio": "volume ratio V/V0", "damage": "damage",
          "surface_strain": "largest principal strain of the surface",
          "surface_strain_minor": "smallest principal strain in the surface"}
 ON_SURFACE_FACETS = ("surface_strain", "surface_strain_minor")

@@ -231,6 +231,28 @@ std::vector<int> Contact::tools_on(int body) const {
   return {found.begin(), found.end()};
 }
 
+std::vector<Contact::PressedInside> Contact::pressed_inside() const {
+  constexpr double kAtNode = 0.9;  // of the weights
+  const Workspace& work = impl_->work;
+  std::vector<PressedInside> found;
+  for (const ContactPair& pair : impl_->near.pairs) {
+    PressedInside press;
+    press.tool = pair.tool(impl_->features.bodies);
+    if (press.tool < 0 || !(pair.impulse > 0)) continue;
+    std::size_t k = 0;
+    double side = 1;
+    work.each_of_bodies(pair, [&](int entry, double b) {
+      press.nodes[k] = work.vertex[entry];
+      press.weights[k++] = std::abs(b);
+      side = b;
+    });
+    if (k < 2 || *std::max_element(press.weights.begin(), press.weights.end()) > kAtNode) continue;
+    press.impulse = std::copysign(pair.impulse, side) * vec3(pair.normal);
+    found.push_back(press);
+  }
+  return found;
+}
+
 bool Contact::ties() const { return !impl_->ties.empty(); }
 
 void Contact::add_held_impulses(std::vector<Vec3>& sum) const {

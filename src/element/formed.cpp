@@ -20,10 +20,11 @@ FormedMemory remaining(const FormedMemory& memory, const Remainder& left) {
     if (left.node[n] >= 0) rest.reference.push_back(memory.reference[n]);
   for (std::size_t b = 0; b < memory.cells.size(); ++b) {
     const FormedCells& of = memory.cells[b];
-    FormedCells cells{of.points, of.items, of.hourglass_items, {}, {}, {}};
+    FormedCells cells{of.points, of.items, of.hourglass_items, {}, {}, {}, {}};
     cells.memory = picked(of.memory, left.cells[b], of.points * of.items);
     cells.hourglass = picked(of.hourglass, left.cells[b], of.hourglass_items);
     cells.ratio = picked(of.ratio, left.cells[b], 1);
+    cells.damage = picked(of.damage, left.cells[b], of.points);
     rest.cells.push_back(std::move(cells));
   }
   rest.edges.items = memory.edges.items;

@@ -8,7 +8,7 @@ namespace forming_sim {
 
 namespace {
 
-constexpr std::int64_t kLayout = 1;  ///< counts up with every change of what is kept, that of the elements' memories too
+constexpr std::int64_t kLayout = 2;  ///< counts up with every change of what is kept, that of the elements' memories too
 
 template <class Archive> void exchange(Archive& a, FormedPart& part) {
   a.text(part.name);
@@ -29,7 +29,7 @@ template <class Archive> void exchange(Archive& a, FormedPart& part) {
   a.list(memory.reference);
   a.each(memory.cells, [&](FormedCells& cells) {
     for (int* size : {&cells.points, &cells.items, &cells.hourglass_items}) a.number(*size);
-    for (std::vector<double>* values : {&cells.memory, &cells.hourglass, &cells.ratio}) a.list(*values);
+    for (std::vector<double>* values : {&cells.memory, &cells.hourglass, &cells.ratio, &cells.damage}) a.list(*values);
   });
   a.number(memory.edges.items);
   a.list(memory.edges.ends);

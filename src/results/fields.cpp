@@ -6,6 +6,7 @@
 #include "forming_sim/config/fault.h"
 #include "forming_sim/config/words.h"
 #include "forming_sim/results/snapshot.h"
+#include "forming_sim/results/spanned_corner.h"
 #include "forming_sim/results/text_file.h"
 
 namespace forming_sim {
@@ -62,6 +63,7 @@ void Fields::write(const Simulation& simulation, bool interrupted) {
   frame.interrupted = interrupted;
   file_->write(frame);
   record_.pressed.rise_to(greatest_pressure(simulation, frame.stress));
+  record_.spanned.rise_to(farthest_spanned_corner(simulation, frame.contact_gap));
   record_.pressed_cells.rise_to(number_of_pressed_cells(simulation));
   if (Clock::now() >= xdmf_due_) write_xdmf();
 }

@@ -13,15 +13,27 @@ Vec3 centre(const Nodes& nodes, int count, const NodeField& positions) {
   return sum / count;
 }
 
-Peak greatest_plastic_strain(const Simulation& simulation) {
-  const std::vector<double> strain = simulation.plastic_strain();
+/// Of the elements from first to before end.
+Peak greatest(const Simulation& simulation, const std::vector<double>& values, int first, int end) {
   Peak peak;
   peak.time = simulation.time();
-  if (strain.empty()) return peak;
-  peak.element = static_cast<int>(std::max_element(strain.begin(), strain.end()) - strain.begin());
-  peak.value = strain[peak.element];
+  if (first == end) return peak;
+  peak.element = static_cast<int>(std::max_element(values.begin() + first, values.begin() + end) - values.begin());
+  peak.value = values[peak.element];
   peak.position = centre(simulation.elements()[peak.element], simulation.model().dimension + 1, simulation.positions());
   return peak;
+}
+
+Peak greatest_plastic_strain(const Simulation& simulation) {
+  const std::vector<double> strain = simulation.plastic_strain();
+  return greatest(simulation, strain, 0, static_cast<int>(strain.size()));
+}
+
+std::vector<Peak> greatest_damage(const Simulation& simulation) {
+  std::vector<Peak> peaks;
+  const std::vector<double> damage = simulation.damage();
+  for (const BodyModel* body : with_damage(simulation.model())) peaks.push_back(greatest(simulation, damage, body->first_element, body->first_element + body->element_count));
+  return peaks;
 }
 
 /// Faces in planes of symmetry are inside of what is simulated, and count for nothing.
@@ -61,6 +73,13 @@ Peak greatest_thinning(const Simulation& simulation, const std::vector<int>& top
 
 }  // namespace
 
+std::vector<const BodyModel*> with_damage(const Model& model) {
+  std::vector<const BodyModel*> bodies;
+  for (const BodyModel& body : model.bodies)
+    if (body.material.damage) bodies.push_back(&body);
+  return bodies;
+}
+
 Peak greatest_pressure(const Simulation& simulation, const std::vector<std::array<float, 6>>& stress) {
   Peak peak;
   const Model& model = simulation.model();
@@ -93,6 +112,7 @@ const Measures& Gauge::at(const Simulation& simulation) {
   if (step_ == simulation.steps()) return measures_;
   step_ = simulation.steps();
   measures_.plastic_strain = greatest_plastic_strain(simulation);
+  measures_.damage = greatest_damage(simulation);
   measures_.surface_strain = greatest_surface_strain(simulation);
   if (sheets_.any()) {
     measures_.thickness_of_nodes = sheets_.at(simulation.positions());

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "forming_sim/config/words.h"
+#include "forming_sim/results/gauge.h"
 
 namespace forming_sim {
 namespace {
@@ -74,6 +75,11 @@ std::string plan_text(const Simulation& simulation) {
   const double nodes = static_cast<double>(model.node_count());
   lines.start("nodes");
   lines.add(number_text(nodes) + ": positions, velocities, forces, masses");
+
+  lines.start("damage");
+  const std::vector<const BodyModel*> damaged = with_damage(model);
+  for (const BodyModel* body : damaged) lines.add(body->name + ": " + body->material.damage->criterion + ", summed at every 64th step or oftener; 24 bytes an element");
+  if (damaged.empty()) absent.push_back("damage");
 
   lines.start("loads");
   std::size_t held = 0, pressed = 0, dead = 0;

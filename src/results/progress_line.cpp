@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/results/gauge.h"
 #include "forming_sim/results/summary.h"
 #include "forming_sim/simulation/simulation.h"
 
@@ -74,6 +75,9 @@ void EndTable::on_end(const Simulation& simulation, Code, const std::string&) {
   std::printf("elements             %d\nsteps                %ld\n", simulation.model().element_count(), simulation.steps());
   std::printf("simulated time       %.6g s\nsolver time          %.3g s\noutput time          %.3g s\n", simulation.time(), simulation.wall_time(), simulation.observed_time());
   std::printf("plastic strain, max  %.4g\n", strain.empty() ? 0.0 : *std::max_element(strain.begin(), strain.end()));
+  const std::vector<double> damage = simulation.damage();
+  for (const BodyModel* body : with_damage(simulation.model()))
+    std::printf("damage of %-10s %.4g (%s)\n", body->name.c_str(), *std::max_element(damage.begin() + body->first_element, damage.begin() + body->first_element + body->element_count), body->material.damage->criterion.c_str());
   if (kinetic) std::printf("kinetic / internal   %.3g at most while forming\n", *kinetic);
   std::printf("balance error        %.3g\n", simulation.balance_error());
   std::printf("crossings            %ld\nsmallest gap / layer %.3g\n", contact.crossings, contact.min_gap_over_layer);

@@ -95,6 +95,20 @@ void Recorder::tell_short_steps(const Simulation& simulation, int stage) {
                           ": cells have become so thin or narrow, and the run took as many more steps. Where they are few, time_step.raise_to gives them mass instead; larger cells where the metal flows most, or other ones, stay longer in shape");
 }
 
+// Once a body, at the first row of the history where it is so.
+void Recorder::tell_damage(const Simulation& simulation) {
+  const std::vector<const BodyModel*> bodies = with_damage(simulation.model());
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const DamageConfig& damage = *bodies[k]->material.damage;
+    const Peak& most = gauge_.at(simulation).damage[k];
+    if (damage.critical == 0 || most.value < damage.critical) continue;
+    const std::string told = "body " + bodies[k]->name + " cracks by its criterion";
+    if (std::any_of(record_.notes.begin(), record_.notes.end(), [&](const std::string& note) { return note.compare(0, told.size(), told) == 0; })) continue;
+    record_.notes.push_back(told + ": at " + three_digits(most.time) + " s its damage (" + damage.criterion + ") had come to " + three_digits(most.value) + ", critical is " + three_digits(damage.critical) +
+                            ", at " + place(most.position) + ". Nothing parts here: what follows is the forming of metal that holds");
+  }
+}
+
 void Recorder::on_end(const Simulation& simulation, Code code, const std::string&) {
   // What a cancelled run takes with it must be what an unbroken one has.
   if (code != Code::cancelled) look(simulation);
@@ -108,6 +122,7 @@ void Recorder::look(const Simulation& simulation) {
     if (!record_.thickness_initial) record_.thickness_initial = gauge_.initial_thickness();
     record_.thickness_min = std::min(record_.thickness_min.value_or(*now.thickness), *now.thickness);
   }
+  tell_damage(simulation);
   record_.surface_strain.rise_to(now.surface_strain);
   record_.thinning.rise_to(now.thinning);
 }

@@ -42,6 +42,7 @@ void write_fields(Hdf5Group& group, const Frame& frame) {
   for (std::size_t e = 0; e < mises.size(); ++e) mises[e] = mises_stress(frame.stress[e]);
   group.write("mises", mises.data(), {elements}, "Pa", Storage::plain);
   group.write("volume_ratio", frame.volume_ratio.data(), {frame.volume_ratio.size()}, "1");
+  if (!frame.damage.empty()) group.write("damage", frame.damage.data(), {elements}, frame.damage_unit);
   group.write("surface_strain", frame.surface_strain.data(), {frame.surface_strain.size()}, "1");
   group.write("surface_strain_minor", frame.surface_strain_minor.data(), {frame.surface_strain_minor.size()}, "1");
   if (frame.thickness.empty()) return;
@@ -51,8 +52,8 @@ void write_fields(Hdf5Group& group, const Frame& frame) {
 
 /// At most what a frame takes in the file: its values as they are, and 4 KiB a data set and group for what describes them.
 std::uint64_t most_bytes(const Frame& frame, const ResultHeader& header) {
-  std::uint64_t bytes = 21 * 4096;
-  bytes += frame.positions.size() * (6 * sizeof(double) + 5 * sizeof(float)) + frame.stress.size() * 9 * sizeof(float) +
+  std::uint64_t bytes = 22 * 4096;
+  bytes += frame.positions.size() * (6 * sizeof(double) + 5 * sizeof(float)) + frame.stress.size() * 10 * sizeof(float) +
            2 * frame.surface_strain.size() * sizeof(float);
   for (const ToolShape& tool : header.tools) bytes += 6 * 4096 + tool.points.size() * 3 * sizeof(double);
   return bytes;
@@ -113,7 +114,7 @@ void ResultFile::write(const Frame& frame) {
   group.set("interrupted", std::int64_t{frame.interrupted});
   write_fields(group, frame);
   Hdf5Group tools = group.create("tools");
-  FrameEntry entry{name, frame.time, frame.step, frame.interrupted, {}, !frame.contact_gap.empty(), !frame.contact_slip.empty(), !frame.thickness.empty()};
+  FrameEntry entry{name, frame.time, frame.step, frame.interrupted, {}, !frame.contact_gap.empty(), !frame.contact_slip.empty(), !frame.thickness.empty(), !frame.damage.empty()};
   for (std::size_t i = 0; i < frame.tools.size(); ++i) {
     write_tool(tools, frame, i);
     entry.tools_present.push_back(frame.tools[i].present);

@@ -73,6 +73,7 @@ std::string RunRecord::to_json() const {
             {"thinning", of(thinning)},
             {"pressed", of(pressed)},
             {"pressed_cells", of(pressed_cells)},
+            {"spanned", {{"peak", of(spanned.peak)}, {"tool", spanned.tool}, {"length", spanned.length}, {"share", spanned.share}}},
             {"surface_strain_formed", surface_strain_formed ? of(*surface_strain_formed) : json(nullptr)},
             {"angle_formed_deg", of(angle_formed_deg)},
             {"kinetic_over_internal_formed", of(kinetic_over_internal_formed)},
@@ -100,6 +101,7 @@ RunRecord RunRecord::from_json(const std::string& text) {
     record.thinning = peak(j.at("thinning"));
     record.pressed = peak(j.at("pressed"));
     record.pressed_cells = peak(j.at("pressed_cells"));
+    record.spanned = {peak(j.at("spanned").at("peak")), j.at("spanned").at("tool"), j.at("spanned").at("length"), j.at("spanned").at("share")};
     if (!j.at("surface_strain_formed").is_null()) record.surface_strain_formed = peak(j.at("surface_strain_formed"));
     record.angle_formed_deg = number(j.at("angle_formed_deg"));
     record.kinetic_over_internal_formed = number(j.at("kinetic_over_internal_formed"));

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "forming_sim/material/damage.h"
 #include "forming_sim/results/history.h"
 #include "forming_sim/results/version.h"
 #include "forming_sim/scene/yaml.h"
@@ -66,6 +67,11 @@ Frame take_frame(const Simulation& simulation, const Measures& measures) {
   frame.contact_slip = single(simulation.contact_slip());
   const ElementFields fields = simulation.element_fields();
   frame.volume_ratio = single(fields.volume_ratio);
+  frame.damage = single(simulation.damage());
+  for (const BodyModel* body : with_damage(simulation.model())) {
+    const std::string unit = damage_unit(body->material.damage->criterion);
+    frame.damage_unit = frame.damage_unit.empty() || frame.damage_unit == unit ? unit : "Pa or 1, by the criterion of the body";
+  }
   for (const Sym& stress : fields.stress) {
     std::array<float, 6> row;
     for (int k = 0; k < 6; ++k) row[k] = static_cast<float>(stress[k]);

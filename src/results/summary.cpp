@@ -9,6 +9,8 @@
 
 #include "forming_sim/config/words.h"
 #include "forming_sim/loads/rotation.h"
+#include "forming_sim/mesh/measure.h"
+#include "forming_sim/material/damage.h"
 #include "forming_sim/results/body_measures.h"
 #include "forming_sim/results/text_file.h"
 #include "forming_sim/results/unfinished.h"
@@ -166,6 +168,14 @@ void tell_pressed_cells(const Simulation& simulation, const Peak& cells, std::ve
   warnings.push_back(text.str());
 }
 
+/// Corners of tools that cells are too large for.
+void tell_spanned_corner(const Simulation& simulation, const SpannedCorner& spanned, std::vector<std::string>& warnings) {
+  if (spanned.peak.element < 0) return;
+  warnings.push_back("at " + three_digits(spanned.peak.time) + " s a face of body " + body_of(simulation, spanned.peak.element)->name + ", " + three_digits(spanned.length) + " m long, spanned a corner of tool " + spanned.tool +
+                     " at " + forming_sim::place(spanned.peak.position) + " and stood off it by " + three_digits(100 * spanned.peak.value) +
+                     " % of that: metal flows around the corner as if cells had rounded it. Such places bore " + three_digits(100 * spanned.share) + " % of the force of the tool, which is then too large; smaller cells there, or a radius of the tool of about a cell, show by how much");
+}
+
 /// Metals that are pressed as forming never does: what cannot flow out and is pushed on, or corners of tools that hold a node of it.
 void tell_jams(const Simulation& simulation, const Peak& pressed, std::vector<std::string>& warnings) {
   constexpr double kMuch = 0.1;  // of the bulk modulus: 16 GPa in steel
@@ -233,6 +243,19 @@ Json stages(const RunRecord& record) {
   return list;
 }
 
+Json damages(const Model& model, const Measures& now) {
+  Json list = Json::array();
+  const std::vector<const BodyModel*> bodies = with_damage(model);
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const DamageConfig& config = *bodies[k]->material.damage;
+    Json of{{"body", bodies[k]->name}, {"criterion", config.criterion}, {"unit", damage_unit(config.criterion)}};
+    of.update(maximum(now.damage[k], model));
+    of["critical"] = config.critical > 0 ? Json(config.critical) : Json(nullptr);
+    list.push_back(of);
+  }
+  return list;
+}
+
 std::optional<double> smaller(const std::optional<double>& a, const std::optional<double>& b) {
   if (!a || !b) return a ? a : b;
   return std::min(*a, *b);
@@ -277,6 +300,7 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
                   {"share_at_max_sweeps", number(ratio(static_cast<double>(contact.unsettled_steps), swept))},
                   {"explicit_stable_dt_s", contact.explicit_stable_dt > 0 ? number(contact.explicit_stable_dt) : Json(nullptr)}};
   j["plastic_strain"] = maximum(now.plastic_strain, model);
+  j["damage"] = damages(model, now);
   Peak strain = record.surface_strain, thinning = record.thinning;
   strain.rise_to(now.surface_strain);
   thinning.rise_to(now.thinning);
@@ -296,6 +320,7 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
   tell_crossings(contact, warnings);
   tell_jams(simulation, record.pressed, warnings);
   tell_pressed_cells(simulation, record.pressed_cells, warnings);
+  tell_spanned_corner(simulation, record.spanned, warnings);
   if (came_to_its_end(code)) {
     tell_idle_tools(simulation, warnings);
     tell_unfinished(simulation, record, warnings);

@@ -58,6 +58,7 @@ class Writer {
     attribute("stress", "Matrix", "Cell", elements, 6, 4, path + "stress");
     attribute("mises", "Scalar", "Cell", elements, 1, 4, path + "mises");
     attribute("volume_ratio", "Scalar", "Cell", elements, 1, 4, path + "volume_ratio");
+    if (frame.damage) attribute("damage", "Scalar", "Cell", elements, 1, 4, path + "damage");
     out_ << "<Attribute Name=\"body\" AttributeType=\"Scalar\" Center=\"Cell\">\n";
     item(elements, 1, "Int", 4, "/topology/body");
     out_ << "</Attribute>\n</Grid>\n";

@@ -57,6 +57,10 @@ void print_summary(const SimulateFormingResult& result) {
   row("largest plastic strain", s.max_plastic_strain, 1, "");
   row("smallest thickness", s.min_thickness_m, 1e3, "mm");
   row("largest thinning", s.max_thinning, 100, "%");
+  for (const BodyDamage& damage : s.damage) {
+    row(("damage of " + damage.body).c_str(), damage.max, 1, damage.criterion.c_str());
+    if (damage.critical > 0) row("of the critical one", damage.max / damage.critical, 100, "%");
+  }
   row("springback", s.springback_deg, 1, "deg");
   row("energy balance error", s.energies.balance_error, 100, "%");
   row("kinetic over internal", s.kinetic_over_internal_forming, 100, "% (the most while forming)");

@@ -39,7 +39,7 @@ void RunMarkers::add_legend(const RunFrame& frame, const ros::Time& stamp,
   // One line a marker: rviz spaces the lines of one marker for texts of a metre.
   char text[160];
   const std::string& by = options_.colour_by;
-  const char* title = by == "plastic_strain" ? "plastic strain" : by == "contact_pressure" ? "contact pressure, Pa" : by == "contact_gap" ? "gap, m" : by == "contact_slip" ? "slip, m" : "thinning";
+  const std::string title = by == "plastic_strain" ? "plastic strain" : by == "contact_pressure" ? "contact pressure, Pa" : by == "contact_gap" ? "gap, m" : by == "contact_slip" ? "slip, m" : by;
   write(1, foot + (height + 2.6 * text_height) * up, title);
   write(2, foot - 1.0 * text_height * up, "0");
   std::snprintf(text, sizeof text, "%.3g", range);

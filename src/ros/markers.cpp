@@ -12,7 +12,7 @@ using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
 const std::vector<std::string>& MarkerOptions::colours() {
-  static const std::vector<std::string> words{"plastic_strain", "contact_pressure", "contact_gap", "contact_slip", "thinning"};
+  static const std::vector<std::string> words{"plastic_strain", "contact_pressure", "contact_gap", "contact_slip", "thinning", "damage"};
   return words;
 }
 
@@ -99,16 +99,25 @@ MarkerArray RunMarkers::at(const RunFrame& frame, const ros::Time& stamp) {
     array.markers.push_back(clear);
     started_ = true;
   }
-  const std::vector<double> all = options_.colour_by == "plastic_strain" ? frame.plastic_strain : values(frame);
-  for (const double value : all) range_ = std::max(range_, value);
+  for (const double value : of_elements(frame).value_or(values(frame))) range_ = std::max(range_, value);
   add_sheet(frame, stamp, array);
   add_tools(frame, stamp, array);
   add_legend(frame, stamp, array);
   return array;
 }
 
+std::optional<std::vector<double>> RunMarkers::of_elements(const RunFrame& frame) const {
+  if (options_.colour_by == "plastic_strain") return frame.plastic_strain;
+  if (options_.colour_by != "damage") return std::nullopt;
+  std::vector<double> damage = frame.damage;
+  damage.resize(frame.plastic_strain.size());
+  for (double& d : damage)
+    if (std::isnan(d)) d = 0;
+  return damage;
+}
+
 std::vector<double> RunMarkers::values(const RunFrame& frame) const {
-  if (options_.colour_by == "plastic_strain") return sheet_.node_means(frame.plastic_strain);
+  if (const auto field = of_elements(frame)) return sheet_.node_means(*field);
   const std::vector<double>& field = options_.colour_by == "contact_pressure" ? frame.contact_pressure
                                      : options_.colour_by == "contact_gap"    ? frame.contact_gap
                                      : options_.colour_by == "contact_slip"   ? frame.contact_slip

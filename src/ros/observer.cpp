@@ -49,6 +49,7 @@ void RosObserver::tell(const Simulation& simulation, bool always, Code code, con
     thinnest = smallest(thickness).value_or(-1);
     if (publisher_.wants_thinning()) frame.thinning = sheets_.thinning(thickness);
   }
+  if (publisher_.wants_damage()) frame.damage = simulation.damage();
   RunStatus status = status_of(simulation, frame, scene_, clock_.left(simulation.progress(), now_s()), thinnest);
   status.header = publisher_.header();
   status.running = code == Code::none;

@@ -49,6 +49,7 @@ RunFrame run_frame(const Frame& stored) {
   if (!stored.contact_gap.empty()) frame.contact_pressure.assign(stored.contact_pressure.begin(), stored.contact_pressure.end());
   frame.contact_gap.assign(stored.contact_gap.begin(), stored.contact_gap.end());
   frame.contact_slip.assign(stored.contact_slip.begin(), stored.contact_slip.end());
+  frame.damage.assign(stored.damage.begin(), stored.damage.end());
   frame.thinning.assign(stored.thinning.begin(), stored.thinning.end());
   for (const FrameTool& pose : stored.tools) {
     ToolStatus status;

@@ -86,6 +86,15 @@ RunSummary read_summary(const std::string& directory) {
     state.stopped_s = number(tool, "/stopped_s");
     summary.tools.push_back(state);
   }
+  for (const json& damage : root.value("damage", json::array())) {
+    BodyDamage of;
+    of.body = damage.value("body", "");
+    of.criterion = damage.value("criterion", "");
+    of.max = number(damage, "/max");
+    of.position = point_message(Vec3(number(damage, "/where/position/0"), number(damage, "/where/position/1"), number(damage, "/where/position/2")));
+    of.critical = damage.at("critical").is_number() ? damage.at("critical").get<double>() : 0;
+    summary.damage.push_back(of);
+  }
   summary.kinetic_over_internal_forming = number(root, "/energy_J/kinetic_over_internal_forming");
   summary.warnings = root.value("warnings", std::vector<std::string>());
   return summary;

@@ -246,7 +246,7 @@ bool make_tool(const Scene& scene, std::size_t i, const std::vector<Fault>& know
     return attempt(path + ".profile", "this profile", faults, [&] {
       const auto make = [&](double most) { return scene.dimension == 3 ? sweep_profile(*tool.profile, most) : mesh_profile(*tool.profile, most); };
       mesh = make(longest);
-      const bool turns_freely = tool.motion && !tool.motion->axle.isZero(0);
+      const bool turns_freely = tool.motion && tool.motion->turns_freely();
       if (turns_freely && tool.profile->sweep != "turned") mesh = make(std::min(longest, kRound * reach_from_axle(tool_model(tool, mesh))));
       if (scene.axisymmetric) check_beside_axis(tool, mesh);
     });

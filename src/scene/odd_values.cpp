@@ -109,7 +109,7 @@ void tell_odd_centres(const Scene& scene, std::vector<std::string>& notes) {
   for (const ToolConfig& tool : scene.tools) {
     if (!tool.motion) continue;
     const Vec3& centre = tool.motion->centre;
-    const bool spins = greatest(tool.motion->spins_deg_s) != 0 || !tool.motion->axle.isZero(0);
+    const bool spins = greatest(tool.motion->spins_deg_s) != 0 || tool.motion->turns_freely();
     if (spins && !centre.isZero(0) && tool.position.isZero(0))
       notes.push_back("tool " + tool.name + " turns about " + given_text(centre) + ", and its position, [0, 0, 0], goes round with it: the moments that are written are about that. If it is a roll, draw it about [0, 0, 0] and give its centre as position too: they are its torque then");
     if (!centre.isZero(0) || tool.position.isZero(0)) continue;

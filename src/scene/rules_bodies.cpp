@@ -116,6 +116,7 @@ void check_material(const BodyConfig& body, const std::string& path, int dimensi
   }
   if (material.anisotropy) check_anisotropy(material, here, dimension, faults);
   if (material.rate_dependence) check_rate(material, here, faults);
+  if (material.damage && !material.yields()) faults.add(here + ".damage", "damage without hardening", "give hardening, or layers that have one: damage grows with plastic flow");
   if (material.layers.empty()) return;
   if (material.hardening) faults.add(here, "both hardening and layers", "give one of them: each layer has a hardening of its own");
   if (material.layers.size() > kMaxLayers) {

@@ -40,7 +40,7 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
   if (trajectory && motion.times.size() == 1) {
     faults.add(path + ".times", "one time", "give at least two: a trajectory goes from one to the next");
   }
-  const bool turns_freely = !motion.axle.isZero(0);
+  const bool turns_freely = motion.turns_freely();
   if (motion.kind == "velocity" && motion.velocities.empty() && motion.spins_deg_s.empty() && !turns_freely) {
     faults.add(path, "a velocity without velocities and spins_deg_s", "give at least one of them, an entry for each time, or an axle about which it turns freely");
   }

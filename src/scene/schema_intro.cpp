@@ -55,7 +55,9 @@ A rolled sheet yields by the direction: `anisotropy` takes its r values (Hill's 
 which turn with the sheet as it is formed. The hardening curve is that of tension along the rolling direction. In a section both directions
 lie in the plane or along z.
 
-Metal does not part here, however far it is strained: to blank or to pierce a sheet, cut its cells away between two operations (`trim`).
+Metal does not part here, however far it is strained: to blank or to pierce a sheet, cut its cells away between two operations (`trim`). How near to a
+crack it has come tells `damage`: the integral of Cockcroft and Latham, as it is or normalized, or that of Rice and Tracey, of each element along its way,
+through all operations; with the `critical` value of the metal a run says when and where it was reached.
 
 A fast flow raises the yield stress with `rate_dependence`: after Cowper and Symonds, Johnson and Cook, or a power of the plastic strain rate. A scene whose tools
 move faster than in the press, to take fewer steps, says how many times with `speed_up`.
@@ -191,6 +193,7 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | `options` | what viscosity, damping, settling and mass scaling took or added; `time_step`: the limit and its cost; `raised_step`: mass added by `time_step.raise_to`, in kg, as a fraction, by body, and where most |
 | `contact` | `crossings` (must be 0), `halvings`, `min_gap_over_h0`, `h0_m`; `sweeps_per_step`: what finding the forces took, of the steps in which anything is near, and `share_at_max_sweeps`, the fraction of these steps that ended at `contact.max_sweeps`, with forces that still changed (by how much in all: `docs/contact.md`, patch); with `contact.method: explicit` `explicit_stable_dt_s`, the smallest step up to which its layer was stable |
 | `plastic_strain` | the largest equivalent plastic strain and where it is |
+| `damage` | of each body whose material has it the criterion, its unit, the largest of its elements at the end with its place, and the `critical` value |
 | `surface_strain` | the largest principal logarithmic strain on the surface; faces in planes of symmetry are none |
 | `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom` |
 | `thinning` | the largest 1 - t/t0 of a node of `top`, t its thickness, t0 that of the start, of a formed part that of its blank; where and when it is |

@@ -30,6 +30,7 @@ const NodeField& Simulation::positions() const { return impl_->x; }
 const NodeField& Simulation::velocities() const { return impl_->v; }
 double Simulation::first_dt() const { return impl_->first_dt; }
 const std::vector<ToolStatus>& Simulation::tools() const { return impl_->tools; }
+std::vector<Contact::PressedInside> Simulation::pressed_inside() const { return impl_->contact ? impl_->contact->pressed_inside() : std::vector<Contact::PressedInside>(); }
 std::vector<int> Simulation::tools_on(int body) const { return impl_->contact ? impl_->contact->tools_on(body) : std::vector<int>(); }
 bool Simulation::once_held(int node) const { return std::binary_search(impl_->once_held.begin(), impl_->once_held.end(), node); }
 void Simulation::keep_reactions(const std::vector<int>& nodes) {
@@ -154,7 +155,20 @@ ContactStatus Simulation::contact_status() const {
 FormedMemory Simulation::memory_of(const BodyModel& body) const {
   FormedMemory memory = impl_->elements.memory_of(body, impl_->x);
   memory.reference = body.reference();
+  if (!body.material.damage) return memory;
+  const std::vector<double> damage = this->damage();
+  const double* of_element = &damage[body.first_element];
+  for (std::size_t k = 0; k < memory.cells.size(); ++k) {
+    const Cells& cells = body.mesh.cells[k];
+    const int simplices = shape_of(cells.kind).simplices;
+    for (int cell = 0; cell < cells.count(); ++cell, of_element += simplices)
+      memory.cells[k].damage.insert(memory.cells[k].damage.end(), of_element, of_element + memory.cells[k].points);
+  }
   return memory;
+}
+std::vector<double> Simulation::damage() const {
+  const Impl& s = *impl_;
+  return s.damage.any() ? s.damage.at(plastic_strain(), stress()) : std::vector<double>();
 }
 std::vector<double> Simulation::plastic_strain() const { return impl_->elements.plastic_strain(); }
 std::vector<Sym> Simulation::stress(const std::vector<int>& elements) const { return impl_->elements.stress_of(elements, impl_->x, impl_->previous_dt); }

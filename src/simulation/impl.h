@@ -13,6 +13,7 @@
 #include "forming_sim/simulation/settle.h"
 #include "forming_sim/simulation/simulation.h"
 #include "forming_sim/simulation/steady_step.h"
+#include "simulation/damage.h"
 #include "simulation/departure.h"
 #include "simulation/global_limit.h"
 #include "simulation/stages.h"
@@ -28,6 +29,7 @@ struct Simulation::Impl {
   NodeField x, v, v_before;         ///< v at the half step
   NodeField external;               ///< pressure, dead loads and gravity at x, N; empty where there is none
   Elements elements;
+  Damage damage;
   std::vector<Facet> surface;       ///< joined
   std::vector<Face> faces;          ///< likewise
   std::vector<double> physical_mass;

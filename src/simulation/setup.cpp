@@ -79,6 +79,7 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
       elements(model.bodies, model.dimension, reference,
                {p.time_step.mass_scaling, p.time_step.linear_viscosity, p.time_step.quadratic_viscosity,
                 !by_cells(), model.axisymmetric}, n),
+      damage(model, elements, x),
       stages(plan.stages, model), contact_force(X.size(), 0.0), node_impulse(contact_force) {
   for (BodyModel& body : model.bodies)
     if (body.formed) body.formed->cells.clear(), body.formed->edges = {};  // the elements have them

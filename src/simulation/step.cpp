@@ -76,6 +76,7 @@ void Simulation::Impl::take_step() {
   previous_kick = 0.5 * (previous_dt + dt);
   previous_dt = dt;
   ++steps;
+  if (damage.due(steps)) damage.look(steps, elements.plastic_strain(), elements.observe(x, previous_dt).stress);
   place_tools();
   most = std::max(most, work + initial);
   if (way.then) departure.step(way.departed, elements.slowest_wave());

@@ -27,6 +27,7 @@ FormedPart part_of(CellKind kind, const std::string& name) {
   elements.forces(x, v, 0, 0, f);
   part.memory = elements.memory_of(body, x);
   part.memory.reference = body.mesh.nodes;
+  part.memory.cells[0].damage = {.25, .5, 1};
   for (std::size_t n = 0; n < x.size(); ++n) part.mesh.nodes[n] = vec3(x[n]);
   return part;
 }
@@ -52,6 +53,7 @@ void expect_same(const FormedPart& a, const FormedPart& b) {
     EXPECT_EQ(a.memory.cells[k].memory, b.memory.cells[k].memory);
     EXPECT_EQ(a.memory.cells[k].hourglass, b.memory.cells[k].hourglass);
     EXPECT_EQ(a.memory.cells[k].ratio, b.memory.cells[k].ratio);
+    EXPECT_EQ(a.memory.cells[k].damage, b.memory.cells[k].damage);
   }
   EXPECT_EQ(a.memory.edges.ends, b.memory.edges.ends);
   EXPECT_EQ(a.memory.edges.memory, b.memory.edges.memory);

@@ -79,7 +79,9 @@ inline Frame example_frame(const ResultHeader& header, int index) {
     frame.plastic_strain.push_back(value);
     frame.stress.push_back({value, 2 * value, 3 * value, 4 * value, 5 * value, 6 * value});
     frame.volume_ratio.push_back(1 + value);
+    frame.damage.push_back(0.5F * value);
   }
+  frame.damage_unit = "1";
   frame.surface_strain.assign(header.surface.size(), static_cast<float>(index));
   frame.surface_strain_minor.assign(header.surface.size(), static_cast<float>(-0.5 * index));
   frame.tools.resize(2);

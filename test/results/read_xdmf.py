@@ -51,7 +51,7 @@ def compare(reader_class, path, result):
         assert corners == list(result["topology/elements"][1]), corners
         assert np.array_equal(vtk_to_numpy(blank.GetPoints().GetData()), frame["positions"][:].astype(
             vtk_to_numpy(blank.GetPoints().GetData()).dtype))
-        for field in ("plastic_strain", "stress", "mises", "volume_ratio"):
+        for field in ("plastic_strain", "stress", "mises", "volume_ratio", "damage"):
             shown = vtk_to_numpy(blank.GetCellData().GetArray(field))
             assert np.array_equal(shown, frame[field][:]), (reader_class.__name__, name, field)
         for field in ("velocities", "contact_pressure", "contact_gap", "contact_slip", "thickness", "thinning"):

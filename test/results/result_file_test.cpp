@@ -28,6 +28,7 @@ void expect_frame(const Frame& frame, const ResultHeader& header, int index) {
   EXPECT_EQ(frame.positions, expected.positions);
   EXPECT_EQ(frame.velocities, expected.velocities);
   EXPECT_EQ(frame.plastic_strain, expected.plastic_strain);
+  EXPECT_EQ(frame.damage, expected.damage);
   EXPECT_EQ(frame.stress, expected.stress);
   EXPECT_EQ(frame.volume_ratio, expected.volume_ratio);
   EXPECT_EQ(frame.contact_pressure, expected.contact_pressure);

@@ -67,6 +67,7 @@ inline void expect_same_frames(const std::string& path, const std::string& expec
     EXPECT_EQ(a.positions, b.positions);
     EXPECT_EQ(a.velocities, b.velocities);
     EXPECT_EQ(a.plastic_strain, b.plastic_strain);
+    EXPECT_EQ(a.damage, b.damage);
     EXPECT_EQ(a.stress, b.stress);
     EXPECT_EQ(a.tools[0].force, b.tools[0].force);
   }

@@ -22,6 +22,7 @@ bodies:
       youngs_modulus: 70e9
       poissons_ratio: 0.33
       hardening: {curve: perfect, yield_stress: 50e6}
+      damage: {critical: 1e-4}
     boundaries:
       - {set: left, kind: fixed}
 tools:

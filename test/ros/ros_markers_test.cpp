@@ -210,6 +210,19 @@ TEST(RosMarkers, ThinningColoursTheSheetsAndNothingElse) {
   }
 }
 
+TEST(RosMarkers, DamageColoursTheBodiesThatHaveIt) {
+  const RunShape shape = section(2, 2);
+  RunFrame frame = at_rest(shape);
+  coloured(shape, frame, "damage", "damage", "0");
+  frame.damage.assign(shape.elements.size(), std::nan(""));
+  frame.damage[0] = 0.5;
+  const auto array = coloured(shape, frame, "damage", "damage", "0.5");
+  const auto none = scale_colour(0);
+  const auto& sheet = find(array, "sheet", 0);
+  EXPECT_TRUE(std::any_of(sheet.colors.begin(), sheet.colors.end(), [&](const auto& c) { return c.r != none.r; }));
+  EXPECT_TRUE(std::any_of(sheet.colors.begin(), sheet.colors.end(), [&](const auto& c) { return c.r == none.r; }));
+}
+
 TEST(RosMarkers, FramesWithoutNumbersAreKnown) {
   const RunShape shape = section(2, 2);
   RunFrame frame = at_rest(shape);

@@ -195,6 +195,15 @@ class Contact {
   };
   /// tools: 1 for those asked for. In the order of the nodes.
   std::vector<ActedOn> acted_on(const std::vector<char>& tools) const;
+  /// A tool that presses on a face of a body, or on an edge of it, and not at one of its nodes: a corner or an edge of the tool.
+  struct PressedInside {
+    int tool = -1;
+    std::array<int, 3> nodes{-1, -1, -1};    ///< of the body, 2 of an edge and in the plane
+    std::array<double, 3> weights{0, 0, 0};  ///< of the place between them, sum 1
+    Vec3 impulse = Vec3::Zero();             ///< normal, on the body, N s
+  };
+  /// Those of the last step. Of tools that are planes there are none.
+  std::vector<PressedInside> pressed_inside() const;
   const std::vector<double>& nodal_area() const;      ///< of the bodies' nodes at the start, m^2 (m in plane strain); 0 inside
 
   /// Distance of every node of the bodies' surfaces from the nearest other surface

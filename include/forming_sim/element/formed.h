@@ -17,6 +17,7 @@ struct FormedCells {
   std::vector<double> memory;     ///< [cell][point][item] of the law (material/law.h), V0 the last
   std::vector<double> hourglass;  ///< [cell][item] of one-point cells
   std::vector<double> ratio;      ///< [cell] of crossed triangles that have weights by their shape (element/crossed.h); else empty
+  std::vector<double> damage;     ///< [cell][point] material/damage.h; empty where the material has none
 };
 
 /// Of the points at the edges of free simplices (element/edge_points.h).

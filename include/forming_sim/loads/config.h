@@ -102,6 +102,8 @@ struct MotionConfig {
   std::string profile = "smooth";
   std::string since;                ///< stage at whose beginning it begins; empty: at the start
 
+  bool turns_freely() const { return !axle.isZero(0); }
+
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(kind), Field().required().choices({"trajectory", "velocity", "force"}).doc("trajectory: displacements and rotations at given times; velocity: velocities and spins at given times; force: forces at given times, and the tool goes where they and the bodies push it, along their line, without a turn but for its spins_deg_s and what its axle lets it: a blank holder, a hammer, a roll that is pressed on"));
     visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().doc("times of the knots, increasing; a trajectory rests before the first and after the last, a velocity or a force stays as at the nearest knot"));

@@ -18,7 +18,7 @@ struct ToolModel {
   std::optional<MotionConfig> motion;
   double friction = 0;
   double friction_limit = 0;  ///< Pa; 0: none
-  bool turns_freely() const { return motion && !motion->axle.isZero(0); }
+  bool turns_freely() const { return motion && motion->turns_freely(); }
 };
 
 }  // namespace forming_sim

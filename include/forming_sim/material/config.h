@@ -81,6 +81,18 @@ struct RateDependenceConfig {
   }
 };
 
+/// How near to a crack flow brings the metal (material/damage.h).
+struct DamageConfig {
+  std::string criterion = "normalized_cockcroft_latham";
+  double critical = 0;             ///< 0: not known
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(criterion), Field().choices({"normalized_cockcroft_latham", "cockcroft_latham", "rice_tracey"})
+          .doc("what damage D sums over the plastic strain: normalized_cockcroft_latham: max(largest principal stress, 0) over von Mises' stress; cockcroft_latham: max(largest principal stress, 0), in Pa; rice_tracey: exp(3/2 mean stress over von Mises' stress)"));
+    visit(FORMING_SIM_FIELD(critical), Field().at_least(0).computed("not known").doc("D at which the metal cracks, of cockcroft_latham in Pa: a run that reaches it says so, and where. Nothing parts; of normalized_cockcroft_latham about the true strain of fracture in tension"));
+  }
+};
+
 /// An elastic, elastic-plastic or hyperelastic solid.
 struct MaterialConfig {
   double density = 0;
@@ -91,6 +103,7 @@ struct MaterialConfig {
   std::vector<LayerConfig> layers;
   std::optional<AnisotropyConfig> anisotropy;  ///< absent: none
   std::optional<RateDependenceConfig> rate_dependence;  ///< absent: none
+  std::optional<DamageConfig> damage;        ///< absent: none is summed
   double h1 = 0, h2 = 0, bulk_modulus = 0;   ///< hyperelastic
 
   double mu() const { return law == "hyperelastic" ? h1 + 2 * h2 : youngs_modulus / (2 * (1 + poissons_ratio)); }
@@ -111,6 +124,7 @@ struct MaterialConfig {
     visit(FORMING_SIM_FIELD(layers), Field().when("law", {"green_elastic", "paper"}).doc("several levels of plasticity instead of hardening: together they follow a measured curve and its reversal (Bauschinger effect)"));
     visit(FORMING_SIM_FIELD(anisotropy), Field().when("law", {"green_elastic"}).doc("Hill's quadratic yield stress of 1948 in place of von Mises', with this hardening or these layers; absent: all directions yield alike"));
     visit(FORMING_SIM_FIELD(rate_dependence), Field().when("law", {"green_elastic", "paper", "classical"}).doc("fast flow raises the yield stress, that of every layer by its own rate; absent: it does not"));
+    visit(FORMING_SIM_FIELD(damage), Field().when("law", {"green_elastic", "paper", "classical"}).doc("tells how near to a crack flow brings the metal, and changes nothing of it; absent: not summed"));
     visit(FORMING_SIM_FIELD(h1), Field().unit("Pa").above(0).required().when("law", {"hyperelastic"}).doc("h1 of (3.74); the shear modulus at rest is h1 + 2 h2"));
     visit(FORMING_SIM_FIELD(h2), Field().unit("Pa").at_least(0).when("law", {"hyperelastic"}).doc("h2 of (3.74)"));
     visit(FORMING_SIM_FIELD(bulk_modulus), Field().unit("Pa").above(0).required().when("law", {"hyperelastic"}).doc("bulk modulus K"));

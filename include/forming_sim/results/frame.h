@@ -54,6 +54,8 @@ struct Frame {
   std::vector<float> plastic_strain;   ///< equivalent, per element
   std::vector<std::array<float, 6>> stress;  ///< Cauchy, Pa, per element: xx yy zz xy yz zx
   std::vector<float> volume_ratio;     ///< V/V0, per element
+  std::vector<float> damage;           ///< material/damage.h, per element; NaN of bodies without, empty where none has it
+  std::string damage_unit;
   std::vector<float> surface_strain, surface_strain_minor;  ///< principal log strains in the surface, the larger and the smaller, per surface facet
   std::vector<float> thickness, thinning;  ///< of sheets, m and 1, per node; NaN elsewhere, empty where no body is a sheet (results/thickness.h)
   std::vector<float> contact_pressure; ///< normal, Pa, per node; 0 inside, below 0 where a tie pulls
@@ -72,7 +74,7 @@ struct FrameEntry {
   long step = 0;
   bool interrupted = false;
   std::vector<bool> tools_present;
-  bool gap = false, slip = false, sheet = false;  ///< has contact_gap, contact_slip, thickness and thinning
+  bool gap = false, slip = false, sheet = false, damage = false;  ///< has contact_gap, contact_slip, thickness and thinning, damage
 };
 
 }  // namespace forming_sim

@@ -17,6 +17,7 @@ struct Measures {
   std::vector<double> thickness_of_nodes, thinning_of_nodes;  ///< results/thickness.h; empty without a sheet
   std::optional<double> thickness;    ///< smallest of the sheets, m
   Peak thinning;                      ///< greatest of the sheets, now
+  std::vector<Peak> damage;           ///< greatest of each body that with_damage() names, now
   std::vector<ProbeValue> probes;     ///< in the order of Gauge::probes()
 };
 
@@ -41,6 +42,9 @@ class Gauge {
 Peak number_of_pressed_cells(const Simulation& simulation);
 /// Where -tr sigma/3 of a metal is the largest part of its bulk modulus. stress: of the elements, Pa.
 Peak greatest_pressure(const Simulation& simulation, const std::vector<std::array<float, 6>>& stress);
+
+/// The bodies whose material has damage, in their order.
+std::vector<const BodyModel*> with_damage(const Model& model);
 
 /// Angle of the springback line now, degrees; NaN where its probes are not there.
 double springback_angle_deg(const SpringbackConfig& config, int dimension, const std::vector<Probe>& probes,

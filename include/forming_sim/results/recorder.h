@@ -23,6 +23,7 @@ class Recorder : public Observer {
   void tell_sharp_bends(const Simulation& simulation, int stage);             ///< when the last of the form stages ends
   void tell_great_strain(const Simulation& simulation, int stage);
   void tell_short_steps(const Simulation& simulation, int stage);
+  void tell_damage(const Simulation& simulation);
   const OutputConfig output_;
   Schedule schedule_;
   Gauge& gauge_;

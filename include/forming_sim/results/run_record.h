@@ -24,6 +24,17 @@ struct Peak {
   }
 };
 
+/// A face of a body that spans a corner of a tool (results/spanned_corner.h).
+struct SpannedCorner {
+  Peak peak;          ///< how far it stands off, over its length
+  std::string tool;
+  double length = 0;  ///< of the face, m
+  double share = 0;   ///< of the force of the tool that is borne by such corners of it
+  void rise_to(const SpannedCorner& other) {
+    if (other.peak.element >= 0 && (peak.element < 0 || other.peak.value > peak.value)) *this = other;
+  }
+};
+
 /// The largest kinetic over internal energy of a stage, of the times at which the internal energy
 /// was at least kMeaningful of what it was at the stage's end: before a tool has done any work the
 /// ratio is large and says nothing. What the end will be is not known on the way, so the largest
@@ -57,6 +68,7 @@ struct RunRecord {
   Peak surface_strain, thinning;                           ///< over all times of the history
   Peak pressed;                                            ///< -tr sigma/3 over the bulk modulus, of metals, over all frames
   Peak pressed_cells;                                      ///< how many there were, over all frames
+  SpannedCorner spanned;                                   ///< over all frames
   std::optional<Peak> surface_strain_formed;               ///< at the end of the last form stage so far
   std::optional<double> angle_formed_deg;                  ///< likewise
   std::optional<double> kinetic_over_internal_formed;      ///< likewise

@@ -17,6 +17,8 @@
 //   contact {crossings, halvings, min_gap_over_h0, h0_m, sweeps_per_step, share_at_max_sweeps, explicit_stable_dt_s}
 //                   per_step, share: of the steps with sweeps; null without any
 //   plastic_strain {max, where}                      at the end (it never decreases)
+//   damage [{body, criterion, unit, max, where, critical}]
+//                   of bodies whose material has it, at the end (it never decreases); critical: null where it is not given
 //   surface_strain {max, where, at_end_of_forming {max, where}, at_end {max, where}}
 //                   max: over all rows of the history; forming ends with the last form stage
 //   thickness_m {initial, min}                       smallest at the start, smallest over the history

@@ -2,6 +2,7 @@
 // A run as rviz markers: the sheet coloured by plastic strain, thinning or a field of contact, tools, a legend.
 // Namespaces and ids are fixed: sheet 0; tools k, tool_edges k for tool k;
 // legend 0 to 6.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ class RunMarkers {
 
  private:
   visualization_msgs::Marker marker(const std::string& ns, int id, int type, const ros::Time& stamp) const;
+  /// The field that colours where it is one of elements; 0 where there is none.
+  std::optional<std::vector<double>> of_elements(const RunFrame& frame) const;
   /// The field that colours, per drawn node.
   std::vector<double> values(const RunFrame& frame) const;
   void add_sheet(const RunFrame& frame, const ros::Time& stamp, visualization_msgs::MarkerArray& array) const;

@@ -40,6 +40,7 @@ class RunPublisher {
   bool wants_contact() const;
   /// Is the sheet coloured by its thinning?
   bool wants_thinning() const;
+  bool wants_damage() const;
   /// Sends what somebody listens to; `always`: also to the latched topics that
   /// nobody listens to yet.
   /// Messages are built only here; nothing waits for a subscriber.

@@ -32,6 +32,7 @@ struct RunFrame {
   NodeField positions;                      ///< m
   std::vector<double> plastic_strain;       ///< per element
   std::vector<double> contact_pressure, contact_gap, contact_slip;  ///< per node, Pa, m, m; empty where not asked for, and where nothing can meet or rub
+  std::vector<double> damage;               ///< per element; empty where not asked for and where no material has it (material/damage.h)
   std::vector<double> thinning;             ///< per node; empty where not asked for and where no body is a sheet (results/thickness.h)
   std::vector<ToolStatus> tools;            ///< as RunShape::tools
   /// False where a position or a strain is not a finite number.

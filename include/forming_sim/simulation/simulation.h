@@ -74,6 +74,7 @@ class Simulation {
   double balance_error() const;      ///< |residual| now over the largest work + initial so far, and no less than the energy of a strain of 1e-12
   ContactStatus contact_status() const;
   const std::vector<ToolStatus>& tools() const;
+  std::vector<Contact::PressedInside> pressed_inside() const;  ///< where edges and corners of tools pressed on the inside of faces in the last step
   std::vector<int> tools_on(int body) const;  ///< that pressed on it in the last step, or whose ties to it act
   /// Sum over those of the nodes that boundaries hold or drive, or have, and that keep_reactions() names; axisymmetric: what goes along the axis.
   Reaction reaction(const std::vector<int>& nodes) const;
@@ -85,6 +86,7 @@ class Simulation {
 
   // ---- fields per element, computed when asked
   std::vector<double> plastic_strain() const;
+  std::vector<double> damage() const;      ///< material/damage.h; NaN of bodies without, empty where none has it
   std::vector<int> pressed_cells() const;  ///< an element of each one-point cell that is kept from turning inside out at a corner (element/corner_guard.h)
   ElementFields element_fields() const;         ///< the two below at the cost of one
   std::vector<Sym> stress() const;              ///< Cauchy, Pa

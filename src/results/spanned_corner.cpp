@@ -1,0 +1,67 @@
+#include "forming_sim/results/spanned_corner.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "forming_sim/mesh/measure.h"
+
+namespace forming_sim {
+
+namespace {
+
+constexpr double kStandsOff = 0.2;   // of the face's length: a quarter circle of .6 of its length is less
+constexpr double kOfTheForce = 0.1;  // of the tool
+const double kFolded = std::cos(45 * M_PI / 180), kLevel = 0.9;  // cosines, now and at the start
+
+Vec3 normal_of(const Facet& f, int dimension, const NodeField& x) {
+  const Vec3 a = vec3(x[f.nodes[1]] - x[f.nodes[0]]);
+  return (dimension == 2 ? Vec3(a.y(), -a.x(), 0) : Vec3(a.cross(vec3(x[f.nodes[2]] - x[f.nodes[0]])))).normalized();
+}
+
+/// Of the faces that have one of these nodes two that were level make 45 degrees now. Gives one of them, -1: none do.
+int folded_at(const Simulation& simulation, const std::array<int, 3>& nodes) {
+  const int dimension = simulation.model().dimension;
+  const std::vector<Facet>& surface = simulation.surface();
+  std::vector<int> around;
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    if (std::any_of(nodes.begin(), nodes.end(), [&](int n) { return n >= 0 && std::find(surface[i].nodes.begin(), surface[i].nodes.end(), n) != surface[i].nodes.end(); })) around.push_back(static_cast<int>(i));
+  const auto cosine = [&](int i, int j, const NodeField& x) { return normal_of(surface[i], dimension, x).dot(normal_of(surface[j], dimension, x)); };
+  for (int i : around)
+    for (int j : around)
+      if (cosine(i, j, simulation.initial_positions()) > kLevel && cosine(i, j, simulation.positions()) < kFolded) return i;
+  return -1;
+}
+
+}  // namespace
+
+SpannedCorner farthest_spanned_corner(const Simulation& simulation, const std::vector<float>& gap) {
+  SpannedCorner farthest;
+  if (gap.empty() || !(simulation.dt() > 0)) return farthest;
+  const Model& model = simulation.model();
+  const NodeField& x = simulation.positions();
+  std::vector<SpannedCorner> of_tool(model.tools.size());
+  std::vector<Vec3> borne(model.tools.size(), Vec3::Zero());
+  for (const Contact::PressedInside& press : simulation.pressed_inside()) {
+    double stands_off = 0, length = 0;
+    Vec3 place = Vec3::Zero();
+    for (int a = 0; a < 3 && press.nodes[a] >= 0; ++a) {
+      stands_off += press.weights[a] * gap[press.nodes[a]];
+      place += press.weights[a] * vec3(x[press.nodes[a]]);
+      for (int b = 0; b < a; ++b) length = std::max(length, (x[press.nodes[a]] - x[press.nodes[b]]).norm());
+    }
+    const auto body = std::find_if(model.bodies.begin(), model.bodies.end(), [&](const BodyModel& b) { return press.nodes[0] < b.first_node + b.node_count; });
+    if (stands_off < kStandsOff * length || is_sheet(body->mesh, body->thickness)) continue;
+    const int face = folded_at(simulation, press.nodes);
+    if (face < 0) continue;
+    borne[press.tool] += press.impulse / simulation.dt();
+    of_tool[press.tool].rise_to({{stands_off / length, simulation.surface()[face].element, place, simulation.time()}, model.tools[press.tool].name, length, 0});
+  }
+  for (std::size_t t = 0; t < of_tool.size(); ++t) {
+    of_tool[t].share = std::min(1.0, borne[t].norm() / simulation.tools()[t].force.norm());
+    if (of_tool[t].share > kOfTheForce) farthest.rise_to(of_tool[t]);
+  }
+  return farthest;
+}
+
+}  // namespace forming_sim
