@@ -19,7 +19,8 @@ std::string number_text(double value) {
 }
 
 std::string three_digits(double value) {
-  const double digits = std::pow(10, 2 - std::floor(std::log10(value)));
+  if (value == 0) return "0";
+  const double digits = std::pow(10, 2 - std::floor(std::log10(std::abs(value))));
   return number_text(std::round(value * digits) / digits);
 }
 

@@ -132,10 +132,10 @@ void measure_bodies(Features& f, const NodeField& x, bool axisymmetric) {
 }
 
 // Every body meets every tool and other body, and itself where it says so; then what `pairs` says.
-void set_relations(const ContactSetup& setup, Features& f) {
+void set_relations(const ContactSetup& setup, const NodeField& x, Features& f) {
   const int bodies = f.bodies, surfaces = static_cast<int>(f.surfaces.size());
   f.relations.assign(surfaces * surfaces, Features::Relation());
-  const auto set = [&](int a, int b, bool meet, double friction, double limit) { f.relation(a, b) = f.relation(b, a) = {meet, friction, limit, -1}; };
+  const auto set = [&](int a, int b, bool meet, double friction, double limit) { f.relation(a, b) = f.relation(b, a) = {meet, friction, limit, -1, -1}; };
   const auto find = [&](const std::string& name) {
     for (int s = 0; s < surfaces; ++s)
       if ((s < bodies ? setup.bodies[s] : setup.tools[s - bodies]).name == name) return s;
@@ -149,6 +149,23 @@ void set_relations(const ContactSetup& setup, Features& f) {
   for (const PairConfig& pair : setup.config.pairs)
     set(find(pair.first), find(pair.second), pair.kind != "none",
         pair.kind == "sticking" ? std::numeric_limits<double>::max() : pair.kind == "frictionless" ? 0 : pair.friction, pair.friction_limit);
+  // Vertices of both that stick to faces of the other ask for more than meshes that do not match can do: where two lie nearly on each other, by hundreds of times
+  // the force, to and fro. Those of the finer surface hold all of it.
+  const auto mean_face = [&](int surface) {
+    const Features::Surface& s = f.surfaces[surface];
+    double sum = 0;
+    for (int i = s.first_facet; i < s.last_facet; ++i) {
+      const auto& c = f.facets[i];
+      sum += f.dimension == 2 ? (x[c[1]] - x[c[0]]).norm() : cross3(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]]).norm();
+    }
+    return sum / std::max(1, s.last_facet - s.first_facet);
+  };
+  for (int a = 0; a < bodies; ++a)
+    for (int b = a + 1; b < bodies; ++b) {
+      Features::Relation& relation = f.relation(a, b);
+      if (relation.friction < std::numeric_limits<double>::max() || relation.friction_limit > 0) continue;
+      relation.sticks_by = f.relation(b, a).sticks_by = mean_face(b) < mean_face(a) ? b : a;
+    }
 }
 
 }  // namespace
@@ -199,7 +216,7 @@ Features build_features(const ContactSetup& setup, const NodeField& x) {
     add_surface(setup.tools[t].facets, f.vertex_count, &number);
     f.vertex_count = f.body_nodes + static_cast<int>(f.place.size());
   }
-  set_relations(setup, f);
+  set_relations(setup, x, f);
   f.facet_edges.resize(f.facets.size());
   f.facets_at_vertex.assign(f.vertex_count, 0);
   f.vertex_surface.assign(f.vertex_count, -1);

@@ -95,8 +95,14 @@ void Contact::Impl::check_unmovable(double time) {
     sweeps.take_back(i, i + 1, near.pairs, near.rubs);
     const ContactPair& pair = near.pairs[i];
     if (pair.end_gap > 0) continue;
+    int held = 0;  // of the nodes of bodies the one that counts most
+    for (int k = 0; k < pair.nodes; ++k) {
+      const auto counts = [&](int i) { return pair.node[i] < work.body_entries ? std::abs(pair.weight[i]) : 0; };
+      if (counts(k) > counts(held)) held = k;
+    }
+    const int tool = pair.tool(features.bodies);
     std::ostringstream text;
-    text << "at time " << time << " s " << name_of_other(pair) << " runs over " << name_of_entry(pair.node[0])
+    text << "at time " << time << " s " << (tool >= 0 ? "tool " + tools.names[tool] : name_of_other(pair)) << " runs over " << name_of_entry(pair.node[held])
          << ", which is held or driven against it (gap " << pair.end_gap << " m at the end of the step): let it stop short of it, or free the node";
     throw Error(Code::contact_error, text.str());
   }

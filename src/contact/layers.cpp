@@ -5,6 +5,7 @@
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/impulse.h"
 #include "forming_sim/contact/law.h"
+#include "forming_sim/contact/levers.h"
 
 namespace forming_sim {
 namespace {
@@ -91,7 +92,8 @@ bool Layers::give(ContactPair& pair, std::vector<Rub>& rubs, Place& place) const
     pair.impulse = lasts_ * last_try_.pairs[last].force;
     if (pair.rub >= 0 && !last_try_.drags.empty()) {
       const double(&drag)[3] = last_try_.drags[last].force;
-      rubs[pair.rub].slip = lasts_ * node(drag[0], drag[1], drag[2]);
+      const Node last = lasts_ * node(drag[0], drag[1], drag[2]);
+      rubs[pair.rub].slip = pair.held ? moving_part(work_, pair, last) : last;
     }
   }
   if (known && before_.pairs[place.before].inside(base)) {

@@ -7,6 +7,7 @@
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/closest_pack.h"
 #include "forming_sim/contact/impulse.h"
+#include "forming_sim/contact/levers.h"
 
 namespace forming_sim {
 
@@ -217,11 +218,13 @@ class Phase {
                             node(pack.normal[0][l], pack.normal[1][l], pack.normal[2][l]));
     ContactPair& pair = out_.pairs.back();
     pair.link({e.node[0], e.node[1], e.node[2], e.node[3]}, 1 - s, s, t - 1, -t);
+    const bool first_on_held = leave_to_held(work_, 0, 2, pair), second_on_held = leave_to_held(work_, 2, 4, pair);
     if (set_aside(pair)) {
       out_.pairs.pop_back();
       return;
     }
-    take(pack.shares, l, pair);
+    if (first_on_held || second_on_held) take(pair);
+    else take(pack.shares, l, pair);
     finish();
   }
 
@@ -297,8 +300,9 @@ class Phase {
       const int i = c.which == 2 ? 0 : c.which, j = c.which == 2 ? 2 : c.which + 1;
       pair.link({g.node, e.node[i], e.node[j]}, 1, -c.weight[i], -c.weight[j]);
     }
+    const bool on_held = leave_to_held(work_, 1, pair.nodes, pair);
     if ((is_clear(range_, gap) && all_stand(work_, pair.node, pair.nodes)) || set_aside(pair)) pairs.pop_back();
-    else if (c.feature == Closest::face) take(faces_[hit.candidate / kLanes].shares, static_cast<int>(hit.candidate % kLanes), pair);
+    else if (c.feature == Closest::face && !on_held) take(faces_[hit.candidate / kLanes].shares, static_cast<int>(hit.candidate % kLanes), pair);
     else take(pair);
   }
 

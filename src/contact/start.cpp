@@ -1,6 +1,7 @@
 // Do the bodies start free of the tools? Small overlaps are mended, deep ones refused.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -267,7 +268,7 @@ std::vector<Vec3> part_bodies(double layer, const ContactSetup& setup, const Fea
 void check_start(double layer, const std::vector<int>& sides, const ContactSetup& setup, const NodeField& x,
                  const std::vector<ToolMotion>& at_start, Features& f, ToolSet& tools, std::vector<std::string>& warnings) {
   const Start start(layer, sides, setup, x, f, tools);
-  std::vector<std::string> refused;
+  std::vector<std::pair<double, std::string>> refused;  // with how deep it lies, m; what is all inside first
   NodeField place;
   tools.place_all(f, at_start, place);
   std::vector<bool> told(setup.tools.size(), false);
@@ -287,7 +288,7 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
       text << start.vertex_name(g.vertex, p);
       if (g.end >= 0) text << " and " << start.vertex_name(g.end, x[g.end]) << " are joined by an edge that";
       text << " lies " << layer - g.gap << " m deep in " << (g.vertex < f.body_nodes ? "tool " + setup.tools[t].name : "a body");
-      refused.push_back(text.str());
+      refused.emplace_back(layer - g.gap, text.str());
       told[t] = true;
     }
     tools.touching[t] = touches;
@@ -315,6 +316,7 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
     if (c.other >= f.bodies && told[c.other - f.bodies]) continue;
     const int pierced = c.facet >= 0 ? f.facet_surface[c.facet] : f.vertex_surface[c.edge[0]] == c.surface ? c.other : c.surface;
     std::ostringstream text;
+    double deep = std::numeric_limits<double>::infinity();
     text << start.vertex_name(c.edge[0], at(c.edge[0]));
     if (c.facet < 0) {
       text << " lies inside " << start.surface_name(pierced);
@@ -325,15 +327,17 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
       const double depth = std::min(std::abs(dot3(at(c.edge[0]) - at(corner[0]), n)), std::abs(dot3(at(c.edge[1]) - at(corner[0]), n)));
       text << " and " << start.vertex_name(c.edge[1], at(c.edge[1])) << " are joined by an edge that pierces a facet of "
            << start.surface_name(pierced) << " by " << depth + layer << " m";
+      deep = depth + layer;
     }
-    refused.push_back(text.str());
+    refused.emplace_back(deep, text.str());
   }
   if (refused.empty()) return;
   std::ostringstream text;
   text << refused.size() << " pairs of tools and bodies overlap at the start by more than " << 2 * layer
        << " m: move the tool's position, or where its motion begins, or the body, so that they at most touch.";
-  for (size_t i = 0; i < std::min<size_t>(refused.size(), 10); ++i) text << "\n  " << refused[i];
-  if (refused.size() > 10) text << "\n  ...";
+  std::stable_sort(refused.begin(), refused.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (refused.size() > 10) text << " The ten deepest:";
+  for (size_t i = 0; i < std::min<size_t>(refused.size(), 10); ++i) text << "\n  " << refused[i].second;
   throw Error(Code::initial_penetration, text.str());
 }
 

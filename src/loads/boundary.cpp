@@ -36,9 +36,9 @@ std::vector<Vec3> directions_of(const ResolvedBoundary& boundary, int dimension)
                                            "not zero" + (dimension == 2 ? ", and lie in the x-y plane" : ""));
     return {config.normal.normalized()};
   }
-  if (config.kind != "fixed" && config.kind != "velocity")
+  if (config.kind != "fixed" && !config.is_driven())
     throw Error(Code::invalid_scene, name_of(boundary) + ": given the kind \"" + config.kind +
-                                         "\"; give fixed, symmetric or velocity");
+                                         "\"; give fixed, symmetric, velocity or trajectory");
   std::vector<Vec3> directions;
   if (config.axes.empty())
     for (int k = 0; k < dimension; ++k) directions.push_back(Vec3::Unit(k));
@@ -87,7 +87,7 @@ BoundarySet::BoundarySet(const std::vector<ResolvedBoundary>& boundaries, int di
   for (size_t b = 0; b < boundaries.size(); ++b) {
     const BoundaryConfig& config = boundaries[b].config;
     try {
-      motions_.push_back(config.kind == "velocity" ? RigidVelocity(config, boundaries[b].clock) : RigidVelocity());
+      motions_.push_back(config.is_driven() ? RigidVelocity(config, boundaries[b].clock) : RigidVelocity());
     } catch (const Error& error) {
       throw Error(error.code(), name_of(boundaries[b]) + ": " + error.what());
     }
@@ -120,7 +120,7 @@ BoundarySet::Group BoundarySet::merge(const std::vector<int>& members,
     if (motions_[b].moves()) group.driven = true;
     int motion = b;
     for (int other : members)
-      if (other < motion && boundaries[other].config.kind == "velocity" && same_motion(boundaries[other].config, boundaries[b].config)) motion = other;
+      if (other < motion && boundaries[other].config.is_driven() && same_motion(boundaries[other].config, boundaries[b].config)) motion = other;
     for (const Vec3& direction : directions_of(boundaries[b], dimension)) {
       Vec3 rest = direction;
       std::vector<Term> terms;
@@ -196,22 +196,28 @@ void BoundarySet::check(const Group& group, const std::vector<int>& members, con
   }
 }
 
-Vec3 BoundarySet::prescribed(const Group& group, double t, double dt, const Vec3& x) const {
+Vec3 BoundarySet::prescribed(const Group& group, const std::vector<RigidVelocity::Step>& motions, const Vec3& x) const {
   Vec3 u = Vec3::Zero();
   for (const Direction& fixed : group.directions)
-    for (const Term& term : fixed.terms) u += term.weight.dot(motions_[term.motion].at(t, dt, x)) * fixed.axis;
+    for (const Term& term : fixed.terms) u += term.weight.dot(motions[term.motion].at(x)) * fixed.axis;
   return u;
 }
 
-Vec3 BoundarySet::prescribed(int k, double t, double dt, const Vec3& x) const { return prescribed(groups_[group_[k]], t, dt, x); }
+std::vector<RigidVelocity::Step> BoundarySet::motions_in(double t, double dt) const {
+  std::vector<RigidVelocity::Step> steps;
+  for (const RigidVelocity& motion : motions_) steps.push_back(motion.step(t, dt));
+  return steps;
+}
+
+Vec3 BoundarySet::prescribed(int k, double t, double dt, const Vec3& x) const { return prescribed(groups_[group_[k]], motions_in(t, dt), x); }
 
 const BoundarySet::Prescription& BoundarySet::prescription(double t, double dt) {
-  step_.t = t;
-  step_.dt = dt;
+  step_.motions.clear();  // and filled in the memory that is there
+  for (const RigidVelocity& motion : motions_) step_.motions.push_back(motion.step(t, dt));
   step_.u.clear();
   step_.speed.clear();
   for (const Group& group : groups_) {
-    step_.u.push_back(group.turns ? Vec3(Vec3::Zero()) : prescribed(group, t, dt, Vec3::Zero()));
+    step_.u.push_back(group.turns ? Vec3(Vec3::Zero()) : prescribed(group, step_.motions, Vec3::Zero()));
     step_.speed.push_back(step_.u.back().norm());
   }
   return step_;
@@ -222,7 +228,7 @@ double BoundarySet::apply_velocity(const Prescription& step, const NodeField& x,
   for (auto at = std::lower_bound(nodes_.begin(), nodes_.end(), first); at != nodes_.end() && *at < last; ++at) {
     const int g = group_[at - nodes_.begin()];
     const Group& group = groups_[g];
-    const Vec3 u = group.turns ? prescribed(group, step.t, step.dt, vec3(x[*at])) : step.u[g];
+    const Vec3 u = group.turns ? prescribed(group, step.motions, vec3(x[*at])) : step.u[g];
     fastest = std::max(fastest, group.turns ? u.norm() : step.speed[g]);
     Node& velocity = v[*at];
     velocity = node(group.whole ? u : Vec3(group.projector * vec3(velocity) + u));

@@ -69,8 +69,8 @@ Curve shaped(const std::string& profile, bool trajectory, const std::vector<doub
 }  // namespace
 
 RigidMotion::RigidMotion(const MotionConfig& config, int dimension) {
-  const bool trajectory = config.kind == "trajectory";
-  if (!trajectory && config.kind != "velocity" && config.kind != "force")
+  const bool trajectory = config.by_places();
+  if (!trajectory && config.kind != "velocity" && !config.is_driven())
     refuse("kind", "\"" + config.kind + "\"", "give trajectory, velocity or force");
   const size_t count = config.times.size();
   if (count == 0) refuse("times", "none", "give the times of the knots, or leave the motion out");

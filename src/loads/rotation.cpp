@@ -4,15 +4,12 @@
 #include <cmath>
 
 namespace forming_sim {
-namespace {
 
 Mat3 skew(const Vec3& v) {
   Mat3 w;
   w << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
   return w;
 }
-
-}  // namespace
 
 // R = I + sin a / a W + (1 - cos a) / a^2 W^2, with 1 - cos a = 2 sin^2(a/2).
 Mat3 rotation_matrix(const Vec3& vector) {

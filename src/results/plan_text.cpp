@@ -115,7 +115,7 @@ std::string plan_text(const Simulation& simulation) {
     lines.add((pair.first == pair.second ? pair.first + " with itself" : pair.first + " with " + pair.second) + ": " + kind_of(pair));
   }
   for (const ToolModel& tool : model.tools)
-    if (tool.motion && tool.motion->kind == "force") lines.add(tool.name + " is driven by a force: its speed is found with the impulses of its pairs");
+    if (tool.motion && tool.motion->is_driven()) lines.add(tool.name + " is driven by a force: its speed is found with the impulses of its pairs");
   for (const ToolModel& tool : model.tools)
     if (tool.turns_freely()) lines.add(tool.name + " turns freely about its axle: its spin is found with the impulses of its pairs");
   if (surface_pairs.empty()) absent.push_back("contact");

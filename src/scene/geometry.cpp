@@ -252,7 +252,11 @@ bool make_tool(const Scene& scene, std::size_t i, const std::vector<Fault>& know
     });
   if (!tool.mesh) return true;  // a plane
   return attempt(path + (tool.mesh->url.empty() ? ".mesh" : ".mesh.url"), origin_of(tool.mesh, ""), faults,
-                 [&] { mesh = load_tool_surface(*tool.mesh, scene.base_directory, geometry.model.notes); });
+                 [&] {
+                   std::vector<std::string> notes;
+                   mesh = load_tool_surface(*tool.mesh, scene.base_directory, notes);
+                   for (const std::string& note : notes) geometry.model.notes.push_back("tool " + tool.name + ": " + note);
+                 });
 }
 
 /// A probe that is meant to be on the body.

@@ -59,7 +59,7 @@ double greatest(const std::vector<Vec3>& values) {
 
 /// Of a trajectory the mean from knot to knot.
 double fastest(const MotionConfig& motion) {
-  if (motion.kind != "trajectory") return std::max(greatest(motion.velocities), motion.initial_velocity.norm());
+  if (!motion.by_places()) return std::max(greatest(motion.velocities), motion.initial_velocity.norm());
   double most = 0;
   for (std::size_t k = 1; k < motion.positions.size(); ++k) most = std::max(most, (motion.positions[k] - motion.positions[k - 1]).norm() / (motion.times[k] - motion.times[k - 1]));
   return most;
@@ -118,6 +118,26 @@ void tell_odd_centres(const Scene& scene, std::vector<std::string>& notes) {
   }
 }
 
+/// Paths as controllers write them: angles between -180 and 180, and many knots.
+void tell_odd_paths(const Scene& scene, std::vector<std::string>& notes) {
+  constexpr double kHalfTurn = 180;
+  constexpr std::size_t kMany = 20;
+  for (const ToolConfig& tool : scene.tools) {
+    if (!tool.motion || !tool.motion->by_places()) continue;
+    const MotionConfig& motion = *tool.motion;
+    for (std::size_t k = 1; k < motion.rotations_deg.size(); ++k) {
+      const Vec3 &before = motion.rotations_deg[k - 1], &now = motion.rotations_deg[k];
+      if ((now - before).norm() <= kHalfTurn || before.dot(now) >= 0) continue;
+      notes.push_back("tool " + tool.name + " turns from " + given_text(before) + " to " + given_text(now) + " degrees, by " + three_digits((now - before).norm()) + ", from knot " + std::to_string(k - 1) + " to the next: rotations_deg count on beyond 180 degrees, and these turn the long way round");
+      break;
+    }
+    std::size_t stops = 0;  // at knots between others, on a way that goes on
+    for (std::size_t k = 1; k + 1 < motion.positions.size(); ++k) stops += (motion.positions[k] - motion.positions[k - 1]).dot(motion.positions[k + 1] - motion.positions[k]) > 0;
+    if (motion.profile == "smooth" && stops >= kMany)
+      notes.push_back("tool " + tool.name + " stops at each of " + std::to_string(stops) + " knots on its way, since profile is smooth: a path of many points is meant for " + (motion.is_driven() ? "linear" : "spline, or linear"));
+  }
+}
+
 /// A tool that goes away by a displacement takes what is tied to it along.
 void tell_tied_withdrawal(const Scene& scene, std::vector<std::string>& notes) {
   for (const StageConfig& stage : scene.stages) {
@@ -139,6 +159,7 @@ void tell_odd_values(const Scene& scene, std::vector<std::string>& notes) {
   tell_odd_speeds(scene, notes);
   tell_odd_friction(scene, notes);
   tell_odd_centres(scene, notes);
+  tell_odd_paths(scene, notes);
   tell_tied_withdrawal(scene, notes);
   if (scene.time_step.mass_scaling > kMuchScaling)
     notes.push_back("time_step.mass_scaling " + number_text(scene.time_step.mass_scaling) + " makes waves " + three_digits(std::sqrt(scene.time_step.mass_scaling)) +

@@ -48,10 +48,13 @@ void check_axisymmetric(const Scene& scene, FaultList& faults) {
       rules.along_axis(body.formed->shift, body_path(i) + ".formed.shift", "give [0, y, 0]: a ring is shifted along its axis");
       if (!body.formed->turn_deg.isZero(0)) faults.add(body_path(i) + ".formed.turn_deg", given_text(body.formed->turn_deg), "leave it out, and turn the tools over instead: a section stays beside its axis");
     }
-    for (std::size_t k = 0; k < body.boundaries.size(); ++k)
-      faults.each(body.boundaries[k].spins_deg_s, [&](std::size_t n) {
-        rules.no_turn(body.boundaries[k].spins_deg_s[n], join_path(join_path(body_path(i) + ".boundaries", k) + ".spins_deg_s", n));
-      });
+    for (std::size_t k = 0; k < body.boundaries.size(); ++k) {
+      const auto no_turns = [&](const std::vector<Vec3>& turns, const char* field) {
+        faults.each(turns, [&](std::size_t n) { rules.no_turn(turns[n], join_path(join_path(body_path(i) + ".boundaries", k) + field, n)); });
+      };
+      no_turns(body.boundaries[k].spins_deg_s, ".spins_deg_s");
+      no_turns(body.boundaries[k].rotations_deg, ".rotations_deg");
+    }
   }
   for (std::size_t i = 0; i < scene.tools.size(); ++i)
     if (scene.tools[i].motion) rules.motion(*scene.tools[i].motion, tool_path(i) + ".motion");

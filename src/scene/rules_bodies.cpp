@@ -174,10 +174,18 @@ void check_bodies(const Scene& scene, FaultList& faults) {
       const bool begins = check_stage_name(boundary.since, stages, 0, here + ".since", faults), ends = check_stage_name(boundary.until, stages, 1, here + ".until", faults);
       if (begins && ends && !boundary.since.empty() && !boundary.until.empty() && first_stage(boundary.since, stages) >= release_stage(boundary.until, stages))
         faults.add(here + ".until", given_text(boundary.until), "name a stage after that of since, " + boundary.since + ": the boundary lets go when it begins");
-      if (boundary.kind != "velocity") continue;
+      if (!boundary.is_driven()) continue;
       check_times(boundary.times, here + ".times", faults);
       check_as_many(boundary.velocities, boundary.times, here + ".velocities", faults);
       check_as_many(boundary.spins_deg_s, boundary.times, here + ".spins_deg_s", faults);
+      check_as_many(boundary.positions, boundary.times, here + ".positions", faults);
+      check_as_many(boundary.rotations_deg, boundary.times, here + ".rotations_deg", faults);
+      if (boundary.kind == "trajectory") {
+        if (boundary.positions.empty() && boundary.rotations_deg.empty()) faults.add(here, "a trajectory without positions and rotations_deg", "give at least one of them, an entry for each time");
+        if (boundary.times.size() == 1) faults.add(here + ".times", "one time", "give at least two: a trajectory goes from one to the next");
+        continue;
+      }
+      if (boundary.profile == "spline") faults.add(here + ".profile", given_text(boundary.profile), "give smooth or linear: a spline is for trajectories");
       if (boundary.velocities.empty() && boundary.spins_deg_s.empty())
         faults.add(here, "a velocity without velocities and spins_deg_s", "give at least one of them, an entry for each time");
     }

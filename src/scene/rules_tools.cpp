@@ -44,6 +44,8 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
   if (motion.kind == "velocity" && motion.velocities.empty() && motion.spins_deg_s.empty() && !turns_freely) {
     faults.add(path, "a velocity without velocities and spins_deg_s", "give at least one of them, an entry for each time, or an axle about which it turns freely");
   }
+  if (motion.is_driven() && motion.by_places() && (!motion.velocities.empty() || !motion.spins_deg_s.empty()))
+    faults.add(path, "positions or rotations_deg beside velocities or spins_deg_s", "give one of both: places and orientations, or velocities and spins");
   if (motion.kind != "trajectory" && motion.profile == "spline") {
     faults.add(path + ".profile", given_text(motion.profile), "give smooth or linear: a spline is for trajectories");
   }
@@ -54,17 +56,13 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
   check_as_many(motion.forces, motion.times, path + ".forces", faults);
   check_as_many(motion.torques, motion.times, path + ".torques", faults);
   if (turns_freely) {
-    // The axle goes along with what is told: where that turns about one line, no part of it may be about the axle.
+    // What is told takes the axle along. All of it about the axle would be for nothing.
     const auto about_it = [&](const std::vector<Vec3>& turns, const char* field) {
       const Vec3 axle = motion.axle.stableNormalized();
-      faults.each(turns, [&](std::size_t i) {
-        const bool one_line = std::all_of(turns.begin(), turns.end(), [&](const Vec3& other) { return goes_along(other, turns[i].stableNormalized()); });
-        if (!turns[i].allFinite() || !axle.allFinite() || turns[i].isZero(0)) return;
-        if (!one_line)
-          faults.add(join_path(path + "." + field, i), given_text(turns[i]) + ", one of turns about several lines", "turn a tool with an axle about one line, across the axle: that goes along, and of turns about several lines a part would be about it");
-        else if (std::abs(turns[i].dot(axle)) > 1e-12 * turns[i].norm())
-          faults.add(join_path(path + "." + field, i), given_text(turns[i]) + ", in part about the axle, about which the tool turns freely", "leave out the axle of a tool that is turned, and what turns about the axle of an idle one");
-      });
+      const auto turned = std::find_if(turns.begin(), turns.end(), [](const Vec3& turn) { return !turn.isZero(0); });
+      if (turned == turns.end() || !axle.allFinite()) return;
+      if (std::any_of(turns.begin(), turns.end(), [&](const Vec3& turn) { return !turn.allFinite() || !goes_along(turn, axle); })) return;
+      faults.add(join_path(path + "." + field, static_cast<std::size_t>(turned - turns.begin())), given_text(*turned) + ", about the axle, about which the tool turns freely", "leave out the axle of a tool that is turned, and what turns about the axle of an idle one");
     };
     if (motion.stop_force > 0 && !goes(motion) && motion.rotations_deg.empty() && motion.spins_deg_s.empty())
       faults.add(path + ".stop_force", given_text(motion.stop_force) + " of a tool that goes nowhere", "leave it out: what turns freely is stopped by nothing but what touches it");
@@ -78,13 +76,26 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
     without(!motion.torques.empty(), "torques", given_text(static_cast<double>(motion.torques.size())) + " values");
     without(motion.initial_spin_deg_s != 0, "initial_spin_deg_s", given_text(motion.initial_spin_deg_s));
     without(motion.inertia != 0, "inertia", given_text(motion.inertia));
-    if (motion.kind != "force") without(motion.damping != 0, "damping", given_text(motion.damping));
+    if (!motion.is_driven()) without(motion.damping != 0, "damping", given_text(motion.damping));
   }
   const Vec3 guide = guide_of(motion);
   if (!motion.forces.empty() && guide.isZero(0))
     faults.add(path + ".forces", "no force other than 0, and no initial_velocity", "give one of them; a tool without either rests, and needs no motion");
   if (guide.allFinite() && motion.initial_velocity.allFinite() && !goes_along(motion.initial_velocity, guide))
     faults.add(path + ".initial_velocity", given_text(motion.initial_velocity), "give it along the line of the forces: on that the tool is guided");
+  if (motion.is_driven() && guide.allFinite() && !guide.isZero(0)) {
+    constexpr double kAlong = 1e-6;  // of the longest: paths of robots are rounded
+    const auto across = [&](const std::vector<Vec3>& values, const char* field) {
+      double longest = 0;
+      for (const Vec3& value : values) longest = std::max(longest, value.norm());
+      faults.each(values, [&](std::size_t i) {
+        if (std::abs(values[i].dot(guide)) > kAlong * longest)
+          faults.add(join_path(path + "." + field, i), given_text(values[i]) + ", in part along the line of the forces", "give what goes across that line alone: along it the tool goes where its forces and the bodies push it");
+      });
+    };
+    across(motion.positions, "positions");
+    across(motion.velocities, "velocities");
+  }
   faults.each(motion.forces, [&](std::size_t i) {
     if (motion.forces[i].allFinite() && guide.allFinite() && !goes_along(motion.forces[i], guide))
       faults.add(join_path(path + ".forces", i), given_text(motion.forces[i]), "give all forces along one line: on that the tool is guided");
@@ -98,7 +109,7 @@ void check_tools(const Scene& scene, FaultList& faults) {
   for (std::size_t i = 0; i < scene.tools.size(); ++i) {
     const ToolConfig& tool = scene.tools[i];
     check_source(tool, tool_path(i), scene.dimension, faults);
-    if (tool.motion && tool.motion->kind == "force" && scene.contact.method != "implicit")
+    if (tool.motion && tool.motion->is_driven() && scene.contact.method != "implicit")
       faults.add(tool_path(i) + ".motion.kind", "force, with contact.method " + given_text(scene.contact.method), "set contact.method to implicit: only that finds how fast the tool goes together with what presses on it");
     if (!tool.motion) continue;
     const std::string axle = tool_path(i) + ".motion.axle";

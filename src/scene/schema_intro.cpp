@@ -67,7 +67,8 @@ thickness of the sheet and its thinning in the results.
 
 A boundary of kind `velocity` moves a set as a rigid body would: with `velocities`, about a `centre` with `spins_deg_s`, or
 both, and only along its `axes`. A bar is twisted by an end with `spins_deg_s: [[0, 0, w], ...]` and `axes: [x, y]`, so
-that it may get longer or shorter; a sheet is bent by turning an end section. `until` names the stage with which a boundary
+that it may get longer or shorter; a sheet is bent by turning an end section. One of kind `trajectory` goes to places and orientations at given times instead, as the
+gripper of a robot does. `until` names the stage with which a boundary
 lets go, `since` that with which it takes hold: what was clamped in forming springs back when it is cut free. What boundaries push with is in
 `history.csv`, where a probe is on their set.
 
@@ -114,9 +115,19 @@ a light one follows at once, a heavy one takes time to start and to stop, and on
 what falls on it rattles. A set that is held rigidly does not stop it, but ends the run: keep it off what is clamped.
 With an `initial_velocity` and its own `mass` it is a hammer: what it has lost when it flies back went into the bodies, as `work`. Its weight is one of its forces.
 Its place is in `history.csv`. A `withdraw` stage takes it away like any other tool, from rest where it has come to.
+A robot that presses a roll on an edge and drives it along is one too: its `forces` go along one line, and its `positions` and `rotations_deg`, or `velocities` and
+`spins_deg_s`, take it across that:
+
+```yaml
+  - name: roll                                       # pressed down with 800 N, driven along x with .5 m/s, idle about its axle
+    profile: {sweep: straight, width: 0.01, start: [0.015, 0, 0], pieces: [{to: [-0.015, 0, 0], radius: 0.015}, {to: [0.015, 0, 0], radius: 0.015}]}
+    position: [0, 0, 0.016]
+    motion: {kind: force, times: [0, 0.002, 0.1], forces: [[0, 0, 0], [0, 0, -800], [0, 0, -800]], mass: 0.2, damping: 2000,
+             velocities: [[0, 0, 0], [0.5, 0, 0], [0.5, 0, 0]], centre: [0, 0, 0.016], axle: [0, 1, 0], inertia: 1e-5}
+```
 
 A tool with an `axle` is an idle roll: it turns about that as friction and its `torques` make it, and goes where the rest of its motion
-takes it, axle and all, also while it is withdrawn; in a `settle` stage it comes to rest with what it presses on, as a holder does. A roll of a mill turns at `spins_deg_s` instead, pressed on by a force if its `kind` is `force`. How far an idle roll has
+takes it, axle and all, round curves and leaning too, also while it is withdrawn; what of that is about the axle itself does not turn it. In a `settle` stage it comes to rest with what it presses on, as a holder does. A roll of a mill turns at `spins_deg_s` instead, pressed on by a force if its `kind` is `force`. How far an idle roll has
 turned is in `history.csv`, the torque on a driven one there as its moment. A heavy one takes long to settle: friction releases it slowly (`kinetic_fraction`):
 
 ```yaml

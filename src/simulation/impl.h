@@ -170,6 +170,7 @@ struct Simulation::Impl {
   bool still_driven() const;
   /// Of the running stage, which has come to its limit.
   std::string why_unsettled() const;
+  std::string what_flies() const;  ///< a body that goes as a whole, in words; empty: none does
   std::string what_moves() const;  ///< a tool or a set that is driven on, in words; empty: none
   /// Whether the bodies rest.
   void see_rest();

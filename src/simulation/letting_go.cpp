@@ -1,6 +1,7 @@
 // What lets go of a body: tools that leave while they press on it, boundaries that end. Taken away in one step their forces would send
 // a wave through the body, which makes it flow anew where it was about to. So they stay on its nodes: supports in the place of tools recede
 // until they squeeze it no more, and what then holds it fades.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -17,7 +18,7 @@ constexpr double kRoom = 0.25;       ///< of the time until the bodies have to r
 constexpr double kBeforeTools = 0.05;  ///< of a stage in which tools move away, by .1 % of their way until then: what boundaries held is balanced by what the tools bear, and goes before they do
 constexpr double kSqueezed = 0.1;    ///< of the forces of tools that are let go: less that balances itself does not squeeze
 constexpr double kNext = 0.01;       ///< to nothing, of the energy that a squeezed body had: what is left to fade may do as much in any case
-constexpr double kMoving = 0.3;      ///< of the forces that are let go: more than this sets the body in motion as a whole
+constexpr double kMoving = 0.3;      ///< of the forces that are let go, and of their moments: more than this sets the body in motion as a whole
 
 /// Size squared, m2, of what swings, however it lies: of a box the squares of its lengths together, which are 12 times the second moments of its
 /// volume about its middle. A sheet is held by a plane of symmetry at one end; a compact body goes on beyond one that ends it on one side, where its moments are about that plane.
@@ -181,14 +182,25 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, const std::vector<
   double slowest = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
-    Node moving = Node::Zero();  // what accelerates nodes that nothing presses on, all together
-    double held = 0;
     const int end = body.first_node + body.node_count;
+    double held = 0, held_moment = 0;
+    Vec3 middle = Vec3::Zero();  // of what holds
     for (int n = body.first_node; n < end; ++n) {
       held += held_by[n].norm();
-      if (!pressed_on[n]) moving += free_part(held_before, n, f[n]);
+      middle += held_by[n].norm() * vec3(x[n]);
     }
-    if (moving.norm() > kMoving * held) continue;  // it flies, or gathers speed: there is no rest that could be kept
+    if (held > 0) middle /= held;
+    Vec3 moving = Vec3::Zero(), turning = Vec3::Zero();  // what accelerates nodes that nothing presses on, all together, and its moment
+    for (int n = body.first_node; n < end; ++n) {
+      const Vec3 arm = vec3(x[n]) - middle;
+      held_moment += arm.cross(vec3(held_by[n])).norm();
+      if (pressed_on[n]) continue;
+      const Vec3 free = vec3(free_part(held_before, n, f[n]));
+      moving += free;
+      turning += arm.cross(free);
+    }
+    // It flies, gathers speed or swings about what holds it: there is no rest that could be kept.
+    if (moving.norm() > kMoving * held || turning.norm() > kMoving * std::max(held_moment, 0.5 * body.thickness * held)) continue;
     std::vector<Held>& forces = forces_on[b];
     for (int n = body.first_node; n < end; ++n) {
       if (held_by[n].isZero(0)) continue;

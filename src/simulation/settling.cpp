@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "forming_sim/config/words.h"
 #include "forming_sim/loads/course.h"
 #include "forming_sim/simulation/release.h"
 #include "simulation/impl.h"
@@ -119,6 +120,22 @@ std::string Simulation::Impl::what_moves() const {
   return "";
 }
 
+std::string Simulation::Impl::what_flies() const {
+  constexpr double kMostly = 0.5;  // of the kinetic energy
+  const std::vector<double>& m = elements.nodal_mass();
+  for (const BodyModel& body : model.bodies) {
+    double mass = 0, kinetic = 0;
+    Vec3 momentum = Vec3::Zero();
+    for (int i = body.first_node; i < body.first_node + body.node_count; ++i) {
+      mass += m[i];
+      momentum += m[i] * vec3(v[i]);
+      kinetic += 0.5 * m[i] * v[i].squaredNorm();
+    }
+    if (momentum.squaredNorm() > kMostly * 2 * mass * kinetic) return "body " + body.name + " goes as a whole, with " + three_digits(momentum.norm() / mass) + " m/s";
+  }
+  return "";
+}
+
 std::string Simulation::Impl::why_unsettled() const {
   std::ostringstream text;
   text << "stage " << stages.stage().title() << " reached its limit ";
@@ -129,8 +146,9 @@ std::string Simulation::Impl::why_unsettled() const {
     pressures.add(time, x, loads);
     dead_loads.add(time, loads);
     const bool loaded = std::any_of(loads.begin(), loads.end(), [](const Node& f) { return !f.isZero(0); });
-    const std::string moving = what_moves();
+    const std::string moving = what_moves(), flying = what_flies();
     if (!moving.empty()) text << moving << ": end it with a velocity of 0";
+    else if (!flying.empty()) text << flying << (plan.gravity.isZero(0) ? "" : " under gravity") << ", and nothing stops it: hold it, or lay it on a tool that stays";
     else text << (loaded ? "pressures or loads still act on them: let these end before (last entry 0) if nothing holds the bodies against them" : "a longer limit lets them come to rest");
   } else if (let_go_until() > 0) {
     text << "before the bodies rested; what held them was still fading, until " << let_go_until() << " s: a longer limit or a shorter stages[].release_time lets them come to rest";

@@ -10,7 +10,7 @@ namespace forming_sim {
 
 StageRunner::StageRunner(const std::vector<StageConfig>& stages, const Model& model) : stages_(stages), model_(&model) {
   for (const ToolModel& tool : model.tools) {
-    const bool by_force = tool.motion && tool.motion->kind == "force";
+    const bool by_force = tool.motion && tool.motion->is_driven();
     courses_.push_back(tool.motion ? RigidMotion(*tool.motion, model.dimension) : RigidMotion());
     motions_.push_back(tool.motion ? stay(courses_.back().at(0)) : RigidMotion());
     stop_force_.push_back(0);
@@ -86,13 +86,18 @@ Pose StageRunner::pushed(int tool, double t, double way, double speed, double an
     pose.translation += way * by->guide();
     pose.velocity += speed * by->guide();
   }
-  return axle(tool) ? turned_about(axle(tool)->axle(), angle, spin, pose) : pose;
+  return axle(tool) ? turned_about(axle(tool)->axle(), angle, spin - told_spin(tool, t), pose) : pose;
+}
+
+double StageRunner::told_spin(int tool, double t) const {
+  const Pose told = motions_[tool].at(t);
+  return told.spin.dot(told.rotation * axles_[tool]->axle());
 }
 
 Pose StageRunner::course(int tool, double t) const {
   const ForceDrive* along = drive(tool);
   const AxleDrive* about = axle(tool);
-  return pushed(tool, t, along ? along->gone() : 0, along ? along->speed() : 0, about ? about->gone() : 0, about ? about->speed() : 0);
+  return pushed(tool, t, along ? along->gone() : 0, along ? along->speed() : 0, about ? about->angle() : 0, about ? about->speed() : 0);
 }
 
 ToolPose StageRunner::pushed_by_none(int tool, double t, double kick, double dt) const {
@@ -100,7 +105,7 @@ ToolPose StageRunner::pushed_by_none(int tool, double t, double kick, double dt)
   const AxleDrive* about = axle(tool);
   if (!along && !about) return pose(tool, t + dt);
   const double speed = along ? along->free_speed(t, kick) : 0, spin = about ? about->free_speed(t, kick) : 0;
-  return tool_pose(model_->tools[tool], pushed(tool, t + dt, along ? along->gone() + dt * speed : 0, speed, about ? about->gone() + dt * spin : 0, spin));
+  return tool_pose(model_->tools[tool], pushed(tool, t + dt, along ? along->gone() + dt * speed : 0, speed, about ? about->angle() + dt * (spin - told_spin(tool, t + 0.5 * dt)) : 0, spin));
 }
 
 StageRunner::Line StageRunner::axle_now(int tool, double t) const {

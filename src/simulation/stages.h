@@ -46,6 +46,8 @@ class StageRunner {
     Vec3 point, along;
   };
   Line axle_now(int tool, double t) const;
+  /// Spin of what is told about the axle of a tool that has one, rad/s.
+  double told_spin(int tool, double t) const;
   /// When what has this `since` began; infinity: it has not.
   double began(const std::string& since) const;
   bool present(int tool) const { return present_[tool]; }
@@ -79,7 +81,7 @@ class StageRunner {
   void begin_motion(int tool, double t);
   /// Where its motion has come to, pushes included.
   Pose course(int tool, double t) const;
-  /// What it is told at time t, and pushed along by `way` at `speed`, about by `angle` at `spin`.
+  /// What it is told at time t, and pushed along by `way` at `speed`; about its axle turned by `angle` against that, at `spin` in all.
   Pose pushed(int tool, double t, double way, double speed, double angle, double spin) const;
 
   std::vector<StageConfig> stages_;

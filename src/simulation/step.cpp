@@ -78,7 +78,7 @@ void Simulation::Impl::take_step() {
   ++steps;
   if (damage.due(steps)) damage.look(steps, elements.plastic_strain(), elements.observe(x, previous_dt).stress);
   place_tools();
-  most = std::max(most, work + initial);
+  most = std::max(most, work + initial - std::min(0.0, contact_dissipated));
   if (way.then) departure.step(way.departed, elements.slowest_wave());
 }
 
@@ -98,9 +98,9 @@ double Simulation::Impl::first_kick_energy() const {
 }
 
 void Simulation::Impl::book(const ContactStep& done) {
-  work += done.tool_work + done.soft_start_work - done.held_work;
+  work += done.tool_work - done.held_work;
   friction += done.friction_work;
-  contact_dissipated += done.dissipated;
+  contact_dissipated += done.dissipated - done.soft_start_work;
   contact_potential = done.potential;
   halvings += done.halvings;
   sweeps += done.sweeps;
@@ -136,7 +136,7 @@ void Simulation::Impl::book(const ContactStep& done) {
     tool.felt += felt;
     const StageRunner::Line axle = stages.axle(static_cast<int>(k)) ? stages.axle_now(static_cast<int>(k), time) : StageRunner::Line();
     if (ForceDrive* drive = stages.drive(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k][0], felt.impulse.dot(drive->guide()));
-    if (AxleDrive* drive = stages.axle(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k][1], axle.along.dot(felt.angular - axle.point.cross(felt.impulse)));
+    if (AxleDrive* drive = stages.axle(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k][1], axle.along.dot(felt.angular - axle.point.cross(felt.impulse)), stages.told_spin(static_cast<int>(k), time + 0.5 * done.dt));
     tell_fall(static_cast<int>(k));
     const auto run_on = [&](auto& mean, const auto& impulse) { mean += (impulse / kick - mean) / kForceMeanSteps; };
     run_on(tool.force, felt.impulse);
@@ -206,7 +206,7 @@ void Simulation::Impl::book_loads() {
   if (!fading.empty() && fading.work(kick, v_before, v)) {
     std::ostringstream text;
     text << "what had let go of the bodies was to fade, but drove them on by more than the elastic energy that they could spring back by: they gave way. At " << time
-         << " s it was taken away at once; move the tools away instead (stages[].displacement), or give stages[].release_time less than they take to give way";
+         << " s it was taken away at once; give stages[].release: sudden where nothing is to spring back slowly, move tools away instead (stages[].displacement), or give stages[].release_time less than they take to give way";
     warnings.push_back(text.str());
   }
   if (alpha > 0) {

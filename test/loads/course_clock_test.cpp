@@ -75,7 +75,7 @@ TEST(CourseClock, MotionsAreThoseOfTheirOwnTime) {
   clock.begin(1, 4);
   const RigidVelocity of_run(boundary), of_stage(boundary, clock);
   EXPECT_EQ(of_stage.times(), (std::vector<double>{4, 5, 6}));
-  EXPECT_EQ(of_stage.at(4.5, 0.25, Vec3(1, 1, 1)), of_run.at(0.5, 0.25, Vec3(1, 1, 1)));
+  EXPECT_EQ(of_stage.step(4.5, 0.25).at(Vec3(1, 1, 1)), of_run.step(0.5, 0.25).at(Vec3(1, 1, 1)));
   MotionConfig push;
   push.times = {0, 1};
   push.forces = {Vec3(0, 0, 0), Vec3(0, 0, 6)};

@@ -108,6 +108,41 @@ TEST(BoundarySet, goes_as_far_as_its_table) {
   EXPECT_NEAR(x.norm(), 1, 1e-12);
 }
 
+// A gripper: whatever the steps, a node is where the trajectory says, and its velocity between them is that of the pose. Displacements count from the first.
+TEST(BoundarySet, a_trajectory_is_followed_to_its_places) {
+  ResolvedBoundary grip = driven({0, 0, 0}, {0, 0, 0}, {"x", "y", "z"}, {0});
+  BoundaryConfig& config = grip.config;
+  config.kind = "trajectory";
+  config.velocities.clear();
+  config.times = {0, 1, 2, 3};
+  config.positions = {Vec3(5, 0, 0), Vec3(6, 1, 0), Vec3(6, 1, 3), Vec3(9, 1, 3)};
+  config.rotations_deg = {Vec3::Zero(), Vec3(0, 0, 90), Vec3(30, 0, 120), Vec3(30, 40, 200)};
+  config.centre = Vec3(1, 2, 3);
+  const Vec3 place(2, 2, 2.5);
+  grip.places = {place};
+  MotionConfig same;
+  same.kind = "trajectory";
+  same.times = config.times;
+  same.positions = config.positions;
+  same.rotations_deg = config.rotations_deg;
+  for (const char* profile : {"linear", "smooth", "spline"}) {
+    config.profile = same.profile = profile;
+    const BoundarySet set({grip}, 3);
+    const RigidMotion motion(same, 3);
+    const auto told = [&](double t) { return Vec3(config.centre + motion.at(t).translation - config.positions[0] + motion.at(t).rotation * (place - config.centre)); };
+    Vec3 x = place;
+    double t = 0;
+    for (const double dt : {0.3, 0.9, 0.25, 0.8, 0.5, 1.0}) {
+      const Pose now = motion.at(t);
+      EXPECT_LT((set.prescribed(0, t, 0, x) - now.velocity - now.spin.cross(now.rotation * (place - config.centre))).norm(), 1e-12) << profile << " " << t;
+      x += dt * set.prescribed(0, t, dt, x);
+      t += dt;
+      EXPECT_LT((x - told(t)).norm(), 1e-13) << profile << " " << t;
+    }
+    EXPECT_EQ(set.prescribed(0, t, 0.1, x), Vec3::Zero().eval()) << "at rest after its last knot";
+  }
+}
+
 TEST(BoundarySet, a_part_of_the_nodes_at_a_time_is_all_of_them) {
   BoundarySet set({driven({2, 7, 0}, {4, 7, 0}, {"x"}, {0, 2, 3, 7}), symmetric(Vec3(1, 1, 0), {4, 8})}, 3);
   const NodeField at_random{{1, 2, 3, 0}, {4, 5, 6, 0}, {7, 8, 9, 0}, {1, 4, 7, 0}, {2, 5, 8, 0}, {3, 6, 9, 0}, {9, 7, 5, 0}, {8, 6, 4, 0}, {7, 5, 3, 0}};

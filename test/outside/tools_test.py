@@ -103,6 +103,115 @@ class Tools(SceneRun):
         told = self.refused(dict(data, tools=[dict(data['tools'][0], motion={'kind': 'velocity', 'times': [0], 'axle': [0, 0, 1]})]))
         self.assertIn('of a plane', told)
 
+    def test_an_idle_roll_is_carried_round_without_being_turned(self):
+        """Its axle leans, and the head that carries it turns about the vertical: its own spin stays what it was, here 0 and 500 turns/s."""
+        lean, yaw, time = math.radians(40), 90.0, 2e-5
+        axle, centre = [math.sin(lean), 0.0, math.cos(lean)], [0.005, 0.005, 0.030]
+        roll = {'name': 'roll', 'position': centre, 'rotation_deg': [0.0, math.degrees(lean), 0.0],
+                'profile': {'sweep': 'turned', 'start': [0, 0, -0.002], 'pieces': [{'to': [0.004, 0, -0.002]}, {'to': [0.004, 0, 0.002]}, {'to': [0, 0, 0.002]}]}}
+
+        def turn(vector):
+            angle = math.radians(numpy.linalg.norm(vector))
+            if angle == 0:
+                return numpy.eye(3)
+            x, y, z = math.radians(1) * numpy.array(vector) / angle
+            cross = numpy.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+            return numpy.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
+
+        def matrix(x, y, z, w):
+            return numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+        told = ({'kind': 'trajectory', 'times': [0, time], 'rotations_deg': [[0, 0, 0], [0, 0, yaw]]},
+                {'kind': 'velocity', 'times': [0, time], 'spins_deg_s': [[0, 0, yaw / time], [0, 0, yaw / time]]},
+                {'kind': 'force', 'times': [0, time], 'forces': [[0, 0, 1e-6], [0, 0, 1e-6]], 'mass': 1.0, 'rotations_deg': [[0, 0, 0], [0, 0, yaw]]})
+        for motion in told:
+            for spin in (0.0, 180000.0):
+                with self.subTest(kind=motion['kind'], spin=spin):
+                    tool = dict(roll, motion=dict(motion, centre=centre, axle=axle, inertia=1.0, initial_spin_deg_s=spin))
+                    found = self.run_scene(scene(body('plate', initial_velocity=[0.1, 0, 0]), dimension=3, tools=[tool], duration=time))['tools'][0]
+                    self.assertAlmostEqual(found['turned_deg'], spin * time, delta=1e-6)
+                    expected = turn([0, 0, yaw]) @ turn(numpy.array(axle) * (spin * time - yaw * math.cos(lean))) @ turn(roll['rotation_deg'])
+                    numpy.testing.assert_allclose(matrix(*found['orientation_xyzw']), expected, atol=1e-5)
+        for motion in ({'kind': 'velocity', 'times': [0], 'spins_deg_s': [axle]}, {'kind': 'trajectory', 'times': [0, 1], 'rotations_deg': [[0, 0, 0], axle]}):
+            self.assertIn('about the axle, about which the tool turns freely', self.refused(scene(body('plate'), dimension=3, tools=[dict(roll, motion=dict(motion, axle=axle))])))
+
+    def test_a_tool_is_pressed_by_a_force_while_it_is_driven_along(self):
+        """As a robot does under force control: its force is what it was told, and what it rubs by is friction times that."""
+        force, friction, speed, time = 4e4, 0.1, 5.0, 6e-4
+        strip = {'name': 'strip', 'blank': {'shape': 'strip', 'length': 0.010, 'thickness': 0.002, 'cells_along': 40, 'cells_through': 4}, 'material': dict(ALUMINIUM),
+                 'boundaries': [{'set': 'bottom', 'kind': 'fixed'}]}
+        centre, radius = [0.003, 0.007], 0.005
+        shoe = {'name': 'shoe', 'position': centre, 'friction': friction,
+                'profile': {'start': [0, -radius], 'pieces': [{'to': [0, radius], 'radius': radius}, {'to': [0, -radius], 'radius': radius}]}}
+        found = []
+        for told in ({'velocities': [[0, 0], [speed, 0], [speed, 0]]}, {'positions': [[0, 0], [speed * 5e-5, 0], [speed * (time - 5e-5), 0]]}):
+            motion = dict({'kind': 'force', 'times': [0, 1e-4, time], 'forces': [[0, 0], [0, -force], [0, -force]], 'profile': 'linear', 'mass': 0.05, 'damping': 2e4}, **told)
+            data = scene(strip, tools=[dict(shoe, motion=motion)], duration=time, output={'frames': 2, 'history_interval': 1e-5})
+            summary = self.run_scene(data)
+            rows = self.history()
+            along, down = (numpy.array([float(row[f'tool_shoe_force_{axis}_N_per_m']) for row in rows[30:]]) for axis in 'xy')
+            self.assertAlmostEqual(down.mean() / force, 1, delta=0.02)
+            self.assertAlmostEqual(along.mean() / down.mean(), -friction, delta=0.02 * friction)
+            self.assertAlmostEqual(float(rows[-1]['tool_shoe_position_x_m']) - centre[0], speed * (time - 5e-5), delta=1e-9)
+            self.assertEqual(summary['contact']['crossings'], 0)
+            found.append(along.mean())
+        self.assertAlmostEqual(found[0] / found[1], 1, delta=0.005)
+        for more, word in (({'velocities': [[0, 1], [0, 1]]}, 'in part along the line of the forces'), ({'positions': [[0, 0], [0, 1e-3]]}, 'in part along the line of the forces'),
+                           ({'positions': [[0, 0], [1e-3, 0]], 'velocities': [[1, 0], [1, 0]]}, 'give one of both')):
+            motion = dict({'kind': 'force', 'times': [0, time], 'forces': [[0, 0], [0, -force]]}, **more)
+            self.assertIn(word, self.refused(scene(strip, tools=[dict(shoe, motion=motion)])))
+
+    def test_an_edge_flush_with_a_clamped_end_ends_the_run_by_the_name_of_the_node(self):
+        """What presses there has no lever on the nodes beside the clamp; the run once went on with forces without bound."""
+        strip = {'name': 'strip', 'blank': {'shape': 'strip', 'length': 0.008, 'thickness': 0.001, 'cells_along': 6, 'cells_through': 3}, 'material': dict(ALUMINIUM),
+                 'boundaries': [{'set': 'left', 'kind': 'fixed'}]}
+        for motion in ({'kind': 'force', 'times': [0, 3e-5], 'forces': [[0, 0], [0, -48e3]], 'mass': 1.4e-4}, {'kind': 'trajectory', 'times': [0, 2e-5], 'positions': [[0, 0], [0, -1e-4]]}):
+            for edge in (0.0, 1e-6, -1e-5):
+                block = {'name': 'block', 'profile': {'closed': True, 'start': [edge, 0.003], 'pieces': [{'to': [edge, 0.001]}, {'to': [0.0048, 0.001]}, {'to': [0.0048, 0.003]}]}, 'motion': motion}
+                with open(self.path('scene.yaml'), 'w') as file:
+                    yaml.safe_dump(scene(strip, tools=[block], duration=4e-5), file)
+                run = subprocess.run([OFFLINE, self.path('scene.yaml'), '--output', self.path('out'), '--quiet'], stderr=subprocess.PIPE, text=True)
+                self.assertEqual(run.returncode, 1, run.stderr)
+                self.assertIn('tool block runs over node', run.stderr)
+                self.assertIn('which is held or driven against it', run.stderr)
+
+    def test_bodies_that_stick_to_each_other_in_a_plane_of_symmetry(self):
+        """Of two strips that are bent about it, the boundaries bear what bends them and no more, whether they are tied or stick, and friction gives nothing."""
+        def strip(name, y):
+            return {'name': name, 'blank': {'shape': 'strip', 'origin': [0, y], 'length': 0.01, 'thickness': 0.001, 'cells_along': 10, 'cells_through': 2, 'pattern': 'one_point'},
+                    'material': dict(ALUMINIUM, hardening={'curve': 'linear', 'yield_stress': 150e6, 'modulus': 300e6}), 'boundaries': [{'set': 'left', 'kind': 'symmetric', 'normal': [1, 0, 0]}]}
+        circle = {'start': [0, -0.002], 'pieces': [{'to': [0, 0.002], 'radius': 0.002}, {'to': [0, -0.002], 'radius': 0.002}]}
+        tools = [{'name': 'die', 'profile': circle, 'position': [0.008, -0.002]},
+                 {'name': 'punch', 'profile': circle, 'position': [0, 0.004], 'motion': {'kind': 'trajectory', 'times': [0, 4e-4], 'positions': [[0, 0], [0, -0.002]]}}]
+        most = {}
+        for kind in ('sticking', 'tied'):
+            data = scene(strip('lower', 0.0), strip('upper', 0.001), tools=tools, duration=4e-4, contact={'pairs': [{'first': 'lower', 'second': 'upper', 'kind': kind}]},
+                         output={'frames': 2, 'history_interval': 1e-5, 'probes': [{'name': each, 'body': each, 'set': 'left'} for each in ('lower', 'upper')]})
+            energy = self.run_scene(data)['energy_J']
+            self.assertGreater(energy['friction'], -1e-3 * energy['work'])
+            most[kind] = max(abs(float(row[f'probe_{each}_reaction_force_x_N_per_m'])) for row in self.history() for each in ('lower', 'upper'))
+        self.assertLess(most['sticking'], 1.5 * most['tied'])
+
+    def test_work_is_what_tools_do_where_pairs_come_and_go(self):
+        """A facetted ball right over a node: its corners and edges press by turns, and what each pushes as it comes is no work of the ball."""
+        plate = {'name': 'plate', 'blank': {'shape': 'plate', 'length': 0.01, 'width': 0.01, 'thickness': 0.002, 'cells_along': 4, 'cells_across': 4, 'cells_through': 2, 'pattern': 'one_point'},
+                 'material': dict(ALUMINIUM, hardening={'curve': 'linear', 'yield_stress': 150e6, 'modulus': 300e6}), 'boundaries': [{'set': 'bottom', 'kind': 'fixed'}]}
+        r, rings, around = 0.004, 6, 12
+        points = [[0, 0, -r]] + [[r * math.sin(a) * math.cos(b), r * math.sin(a) * math.sin(b), -r * math.cos(a)] for a in (math.pi / rings * i for i in range(1, rings)) for b in (2 * math.pi / around * j for j in range(around))] + [[0, 0, r]]
+        top, at = len(points) - 1, lambda i, j: 1 + i * around + j % around
+        facets = [corner for j in range(around) for corner in (0, at(0, j + 1), at(0, j), top, at(rings - 2, j), at(rings - 2, j + 1))]
+        for i in range(rings - 2):
+            for j in range(around):
+                facets += [at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i + 1, j)]
+        ball = {'name': 'ball', 'mesh': {'unit_scale': 1.0, 'points': points, 'cell_type': 'triangle', 'cells': facets}, 'position': [0.005, 0.005, 0.002 + r],
+                'motion': {'kind': 'trajectory', 'times': [0, 1e-4], 'positions': [[0, 0, 0], [0, 0, -2e-4]]}}
+        energy = self.run_scene(scene(plate, dimension=3, tools=[ball], duration=1e-4, output={'frames': 2, 'history_interval': 5e-7}))['energy_J']
+        rows = self.history()
+        done = sum(-float(row['tool_ball_force_z_N']) * (float(row['tool_ball_position_z_m']) - float(before['tool_ball_position_z_m'])) for before, row in zip(rows, rows[1:]))
+        self.assertAlmostEqual(energy['work'] / done, 1, delta=0.02)
+        self.assertLess(abs(energy['contact']), 0.05 * energy['work'])
+
     def test_a_turning_tool(self):
         """A plane that tips by a trajectory of rotations pushes one end of the strip more than the other."""
         data = scene(body('strip', boundaries=[{'set': 'bottom', 'kind': 'fixed'}]), duration=4e-5, tools=[{

@@ -138,6 +138,7 @@ TEST(RunScene, TheLastRowTellsWhatIsFeltAtRest) {
   scene.output.interval = 1;
   scene.bodies[0].blank->length = 0.02;
   scene.bodies[0].material.hardening.reset();
+  scene.bodies[0].material.damage.reset();
   LoadConfig load;
   load.set = "right";
   load.kind = "force";

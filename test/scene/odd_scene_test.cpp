@@ -137,6 +137,26 @@ TEST(OddScene, OddValuesAreTold) {
     motion.velocities = {Vec3::Zero(), Vec3::UnitZ()};
     s.tools[0].motion = motion;
   });
+  const auto by_places = [](Scene& s, int knots) -> MotionConfig& {
+    s.tools[0].motion.emplace();
+    MotionConfig& motion = *s.tools[0].motion;
+    motion.kind = "trajectory";
+    for (int k = 0; k < knots; ++k) motion.times.push_back(1e-5 * k);
+    return motion;
+  };
+  told("[0, 0, 179] to [0, 0, -179] degrees, by 358, from knot 1 to the next: rotations_deg count on beyond 180", [&](Scene& s) {
+    by_places(s, 3).rotations_deg = {Vec3(0, 0, 160), Vec3(0, 0, 179), Vec3(0, 0, -179)};
+    s.tools[0].position = s.tools[0].motion->centre = Vec3(0, 0, 1);
+  });
+  const auto on_a_path = [&](const char* profile) {
+    return [&by_places, profile](Scene& s) {
+      MotionConfig& motion = by_places(s, 30);
+      motion.profile = profile;
+      for (int k = 0; k < 30; ++k) motion.positions.emplace_back(1e-5 * k, 0, 0);
+    };
+  };
+  told("stops at each of 28 knots on its way, since profile is smooth", on_a_path("smooth"));
+  EXPECT_TRUE(notes_of(on_a_path("spline")).empty());
   told("tool " + plate_scene().tools[0].name + " moves with 2000 m/s, where waves in the bodies have", [](Scene& s) {
     MotionConfig motion;
     motion.kind = "trajectory";

@@ -123,6 +123,39 @@ TEST(LettingGo, APulledBlockComesToRestWhereverItsPressuresAre) {
   }
 }
 
+// A strip swings on its clamp when that lets go: nothing pushes it any more, and it flies on as it swung. What held it was no rest, and is not kept.
+TEST(LettingGo, WhatSwingsFliesOn) {
+  for (double at : {0.2e-3, 0.35e-3, 0.5e-3}) {
+    BlankConfig strip = strip_of(20e-3, 1e-3, 20, 2);
+    strip.pattern = "one_point";
+    OneBody run(body_of(generate_blank(strip), aluminium(true)), at);
+    clamp_left(run);
+    run.plan.bodies[0].boundaries[0].until = "after";
+    run.plan.bodies[0].initial_velocity_field = {"0", "2*(x/0.02)^2", "0"};
+    StageConfig after;
+    after.kind = "form";
+    after.name = "after";
+    after.duration = 1e-3;
+    run.plan.stages.push_back(after);
+    auto sim = run.start();
+    const auto momentum = [&] {
+      Vec3 sum = Vec3::Zero();
+      for (std::size_t i = 0; i < sim->velocities().size(); ++i) sum += sim->nodal_mass()[i] * vec3(sim->velocities()[i]);
+      return sum;
+    };
+    while (sim->stage() == 0) sim->step();
+    const Vec3 let_go = momentum();
+    const Energies& energies = sim->energies();
+    const double swinging = energies.kinetic + energies.elastic;
+    while (sim->step()) {}
+    double mass = 0;
+    for (double m : sim->nodal_mass()) mass += m;
+    EXPECT_LT((momentum() - let_go).norm() / mass, 0.02) << "m/s, let go at " << at;
+    EXPECT_NEAR((sim->energies().kinetic + sim->energies().elastic) / swinging, 1, 0.01) << at;
+    EXPECT_EQ(sim->energies().plastic, 0);
+  }
+}
+
 // A strip that planes press on from both sides, all elastic, and that is held at one end. Two pressures of fixed directions would make it buckle: its tip swung by
 // 13 mm and stayed bent (60 MPa on steel of 60 x 1 mm).
 TEST(LettingGo, APressedStripStaysFlat) {

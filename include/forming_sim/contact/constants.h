@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "forming_sim/contact/features.h"
+#include "forming_sim/contact/levers.h"
 #include "forming_sim/contact/pair.h"
 #include "forming_sim/contact/pair_shares.h"
 #include "forming_sim/contact/shear_waves.h"
@@ -32,12 +33,15 @@ struct PairConstants {
   }
   void finish(ContactPair& pair, std::vector<Rub>& rubs) const {
     const double any = pair.w;
+    if (pair.held && features.relation(pair.own, pair.surface).friction > 0) straighten(work, pair);
     if (pair.held) pair.w = held_w(pair);
     // Held against the normal up to rounding is held.
     if (pair.w <= 1e-12 * any) pair.w = pair.stiffness = 0;
-    const double friction = features.relation(pair.own, pair.surface).friction;
+    const Features::Relation& relation = features.relation(pair.own, pair.surface);
+    const double friction = relation.friction;
     pair.rub = -1;
     if (!(friction > 0)) return;
+    if (relation.sticks_by >= 0 && relation.sticks_by != pair.own && pair.key.kind() == PairKey::vertex_facet) return;
     pair.rub = static_cast<int>(rubs.size());
     rubs.push_back({Node::Zero(), friction, any});
     if (!work.steady.empty()) let_waves_leave(pair, rubs.back());

@@ -53,7 +53,7 @@ class BoundarySet {
 
   /// What the boundaries prescribe in the step from t to t + dt; it holds until the next is asked for.
   struct Prescription {
-    double t, dt;
+    std::vector<RigidVelocity::Step> motions;
     std::vector<Vec3> u;  ///< of each group that does not turn
     std::vector<double> speed;  ///< |u|
   };
@@ -101,7 +101,8 @@ class BoundarySet {
   Group merge(const std::vector<int>& members, const std::vector<ResolvedBoundary>& boundaries, int dimension) const;
   /// Throws where the boundaries of a group prescribe different velocities of a node.
   void check(const Group& group, const std::vector<int>& members, const std::vector<ResolvedBoundary>& boundaries, int node, const Vec3& place) const;
-  Vec3 prescribed(const Group& group, double t, double dt, const Vec3& x) const;
+  Vec3 prescribed(const Group& group, const std::vector<RigidVelocity::Step>& motions, const Vec3& x) const;
+  std::vector<RigidVelocity::Step> motions_in(double t, double dt) const;
 
   Prescription step_;
   std::vector<RigidVelocity> motions_;  ///< one per boundary; at rest where it holds

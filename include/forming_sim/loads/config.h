@@ -13,26 +13,32 @@ namespace forming_sim {
 /// What holds or drives a set of nodes.
 struct BoundaryConfig {
   std::string set;
-  std::string kind;                 ///< fixed | symmetric | velocity
-  std::vector<std::string> axes;    ///< fixed, velocity: which of x y z; empty: all
+  std::string kind;                 ///< fixed | symmetric | velocity | trajectory
+  std::vector<std::string> axes;    ///< not symmetric: which of x y z; empty: all
   Vec3 normal = Vec3::Zero();       ///< symmetric
-  std::vector<double> times;        ///< velocity: knots
+  std::vector<double> times;        ///< velocity, trajectory: knots
   std::vector<Vec3> velocities;     ///< velocity: values at the knots
   std::vector<Vec3> spins_deg_s;    ///< velocity: angular velocities at the knots
-  Vec3 centre = Vec3::Zero();       ///< velocity: about which the set turns
-  std::string profile = "linear";   ///< velocity between knots: linear | smooth
+  std::vector<Vec3> positions;      ///< trajectory: displacements at the knots
+  std::vector<Vec3> rotations_deg;  ///< trajectory: rotation vectors at the knots
+  Vec3 centre = Vec3::Zero();       ///< velocity, trajectory: about which the set turns
+  std::string profile = "linear";   ///< between knots: linear | smooth | spline
   std::string since, until;         ///< stages at whose beginning it takes hold and lets go; empty: from the start on; it stays
+
+  bool is_driven() const { return kind == "velocity" || kind == "trajectory"; }
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(set), Field().required().doc("name of a set of this body"));
-    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"fixed", "symmetric", "velocity"}).doc("fixed: no motion along the axes; symmetric: no motion along the normal, a plane of symmetry, which is no surface of the body (nor is one that fixed holds along its normal alone); velocity: the set moves and turns as a rigid body would, along the axes"));
-    visit(FORMING_SIM_FIELD(axes), Field().choices({"x", "y", "z"}).when("kind", {"fixed", "velocity"}).computed("all").doc("axes that are held or driven; the others stay free"));
+    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"fixed", "symmetric", "velocity", "trajectory"}).doc("fixed: no motion along the axes; symmetric: no motion along the normal, a plane of symmetry, which is no surface of the body (nor is one that fixed holds along its normal alone); velocity, trajectory: the set moves and turns as a rigid body would, along the axes, with velocities or to places at given times: a gripper"));
+    visit(FORMING_SIM_FIELD(axes), Field().choices({"x", "y", "z"}).when("kind", {"fixed", "velocity", "trajectory"}).computed("all").doc("axes that are held or driven; the others stay free"));
     visit(FORMING_SIM_FIELD(normal), Field().required().when("kind", {"symmetric"}).doc("normal of the plane of symmetry, any direction"));
-    visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().when("kind", {"velocity"}).doc("times of the knots, increasing; before the first and after the last the velocity stays"));
+    visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().when("kind", {"velocity", "trajectory"}).doc("times of the knots, increasing; before the first and after the last a velocity stays, and a trajectory rests"));
     visit(FORMING_SIM_FIELD(velocities), Field().unit("m/s").when("kind", {"velocity"}).doc("velocity at each knot, of the centre where the set turns"));
     visit(FORMING_SIM_FIELD(spins_deg_s), Field().unit("deg/s").when("kind", {"velocity"}).doc("angular velocity about the centre at each knot. Give velocities, spins_deg_s or both"));
-    visit(FORMING_SIM_FIELD(centre), Field().unit("m").when("kind", {"velocity"}).doc("centre of rotation at the start; it moves with the velocities"));
-    visit(FORMING_SIM_FIELD(profile), Field().choices({"linear", "smooth"}).when("kind", {"velocity"}).doc("between knots: linear, or smooth (cubic with zero acceleration at the knots)"));
+    visit(FORMING_SIM_FIELD(positions), Field().unit("m").when("kind", {"trajectory"}).doc("displacement at each knot from where the set is at the first, of the centre where it turns"));
+    visit(FORMING_SIM_FIELD(rotations_deg), Field().unit("deg").when("kind", {"trajectory"}).doc("rotation vector (axis times angle) about the centre at each knot, taken from one to the next component by component; in dimension 2 [0, 0, angle]. Give positions, rotations_deg or both"));
+    visit(FORMING_SIM_FIELD(centre), Field().unit("m").when("kind", {"velocity", "trajectory"}).doc("centre of rotation when the boundary takes hold; it moves with the velocities or positions"));
+    visit(FORMING_SIM_FIELD(profile), Field().choices({"linear", "smooth", "spline"}).when("kind", {"velocity", "trajectory"}).doc("between knots: linear; smooth: a velocity is a cubic with zero acceleration at the knots, a trajectory goes from rest to rest between them; spline: a trajectory that passes the inner knots without stopping"));
     visit(FORMING_SIM_FIELD(since), Field().computed("the start of the run").doc("name of a stage: the boundary takes hold of its nodes when that begins, and its times count from there"));
     visit(FORMING_SIM_FIELD(until), Field().computed("it stays").doc("name of a later stage: when that begins, the boundary lets its nodes go"));
   }
@@ -103,18 +109,21 @@ struct MotionConfig {
   std::string since;                ///< stage at whose beginning it begins; empty: at the start
 
   bool turns_freely() const { return !axle.isZero(0); }
+  bool is_driven() const { return kind == "force"; }
+  /// What is told is places and orientations; else velocities and spins.
+  bool by_places() const { return kind == "trajectory" || (is_driven() && (!positions.empty() || !rotations_deg.empty())); }
 
   template <class Visitor> static void declare(Visitor&& visit) {
-    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"trajectory", "velocity", "force"}).doc("trajectory: displacements and rotations at given times; velocity: velocities and spins at given times; force: forces at given times, and the tool goes where they and the bodies push it, along their line, without a turn but for its spins_deg_s and what its axle lets it: a blank holder, a hammer, a roll that is pressed on"));
+    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"trajectory", "velocity", "force"}).doc("trajectory: displacements and rotations at given times; velocity: velocities and spins at given times; force: forces at given times, and the tool goes where they and the bodies push it, along their line; across that, and how it turns, as a trajectory (positions, rotations_deg) or a velocity (velocities, spins_deg_s) says, or not at all: a blank holder, a hammer, a roll that is pressed on a sheet and driven along it"));
     visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().doc("times of the knots, increasing; a trajectory rests before the first and after the last, a velocity or a force stays as at the nearest knot"));
-    visit(FORMING_SIM_FIELD(positions), Field().unit("m").when("kind", {"trajectory"}).doc("displacement from the initial place at each knot"));
-    visit(FORMING_SIM_FIELD(rotations_deg), Field().unit("deg").when("kind", {"trajectory"}).doc("rotation vector (axis times angle) about the centre at each knot; in dimension 2 [0, 0, angle]"));
-    visit(FORMING_SIM_FIELD(velocities), Field().unit("m/s").when("kind", {"velocity"}).doc("velocity at each knot"));
+    visit(FORMING_SIM_FIELD(positions), Field().unit("m").when("kind", {"trajectory", "force"}).doc("displacement from the initial place at each knot; of kind force across the line of the forces"));
+    visit(FORMING_SIM_FIELD(rotations_deg), Field().unit("deg").when("kind", {"trajectory", "force"}).doc("rotation vector (axis times angle) about the centre at each knot, taken from one to the next component by component: angles count on beyond 180; in dimension 2 [0, 0, angle]"));
+    visit(FORMING_SIM_FIELD(velocities), Field().unit("m/s").when("kind", {"velocity", "force"}).doc("velocity at each knot; of kind force across the line of the forces"));
     visit(FORMING_SIM_FIELD(spins_deg_s), Field().unit("deg/s").when("kind", {"velocity", "force"}).doc("angular velocity about the centre at each knot"));
     visit(FORMING_SIM_FIELD(forces), Field().unit("N").required().when("kind", {"force"}).doc("force on the tool at each knot, all along one line; plane strain: N/m; axisymmetric: of the whole circle; the weight of the tool is one of them, gravity acts on bodies only"));
     visit(FORMING_SIM_FIELD(initial_velocity), Field().unit("m/s").when("kind", {"force"}).doc("velocity that the tool starts with, along the line of its forces: a hammer. Where all forces are 0 it is guided along this"));
     visit(FORMING_SIM_FIELD(mass), Field().unit("kg").at_least(0).computed("that of all bodies").when("kind", {"force"}).doc("mass of the tool, kg/m in plane strain; at least a thousandth of that of all bodies, mass scaling included"));
-    visit(FORMING_SIM_FIELD(axle), Field().above(0).computed("none").doc("direction at the start of an axle through the centre, about which the tool turns freely, as what touches it makes it: an idle roll, whose centre of mass is on the axle. It goes and turns with what the motion says, to which no turn about the axle belongs, and turns on while it is withdrawn (a velocity without velocities and spins_deg_s stays where it is). In dimension 2 [0, 0, 1]"));
+    visit(FORMING_SIM_FIELD(axle), Field().above(0).computed("none").doc("direction at the start of an axle through the centre, about which the tool turns freely, as what touches it makes it: an idle roll, whose centre of mass is on the axle. It goes and turns with what the motion says, without what that turns about the axle, and turns on while it is withdrawn (a velocity without velocities and spins_deg_s stays where it is). In dimension 2 [0, 0, 1]"));
     visit(FORMING_SIM_FIELD(torques), Field().unit("N m").doc("torque about the axle at each knot, in its right-hand sense; plane strain: N m per m"));
     visit(FORMING_SIM_FIELD(initial_spin_deg_s), Field().unit("deg/s").doc("how fast it turns about the axle at the start"));
     visit(FORMING_SIM_FIELD(inertia), Field().unit("kg m2").at_least(0).computed("the mass of all bodies times the square of the farthest that the tool reaches from the axle").doc("moment of inertia about the axle, plane strain: kg m; at least a thousandth of the default, with what mass scaling adds"));

@@ -21,6 +21,8 @@ template <class Visit> void each_course(const MotionConfig& m, Visit&& visit) {
 template <class Visit> void each_course(const BoundaryConfig& b, Visit&& visit) {
   visit(b.times, b.velocities, true);
   visit(b.times, b.spins_deg_s, true);
+  visit(b.times, b.positions, false);
+  visit(b.times, b.rotations_deg, false);
 }
 template <class Visit> void each_course(const PressureConfig& p, Visit&& visit) { visit(p.times, p.values, false); }
 template <class Visit> void each_course(const LoadConfig& l, Visit&& visit) {

@@ -87,19 +87,29 @@ class ForceDrive : public Drive {
   double pressed_at_ = std::numeric_limits<double>::quiet_NaN();  ///< gone() when it last pressed
 };
 
-/// About its axle, which the tool's told motion takes along; its centre of mass lies on that. It turns against what is told: a told turn has no part about the axle.
+/// About its axle, which the tool's told motion takes along; its centre of mass lies on that. V is all of its spin about the axle: what the told turn has about it
+/// is taken out of the free one, so that the tool is carried without being turned.
 class AxleDrive : public Drive {
  public:
   /// Of a motion with an axle, its inertia above 0, kg m2 (kg m in plane strain). Throws Error(invalid_scene) as ScalarProfile does.
   explicit AxleDrive(const MotionConfig& config);
 
   const Vec3& axle() const { return axle_; }  ///< at the start, of length 1
-  /// The step has been done, dt long, with V = V* + push; answer: J, about the axle, N m s.
-  void take(double t, double kick, double dt, double push, double answer) { take_step(t, kick, dt, push, answer); }
-  template <class Archive> void exchange(Archive& a) { exchange_motion(a); }
+  /// Against the told orientation, rad.
+  double angle() const { return gone() - told_; }
+  /// The step has been done, dt long, with V = V* + push; answer: J, about the axle, N m s; told: spin about the axle of the told turn, in the middle of the step, rad/s.
+  void take(double t, double kick, double dt, double push, double answer, double told) {
+    take_step(t, kick, dt, push, answer);
+    told_ += dt * told;
+  }
+  template <class Archive> void exchange(Archive& a) {
+    exchange_motion(a);
+    a.number(told_);
+  }
 
  private:
   Vec3 axle_;
+  double told_ = 0;  ///< turned about the axle by what is told, rad
 };
 
 }  // namespace forming_sim

@@ -39,7 +39,7 @@ class RigidMotion {
  public:
   /// Rests.
   RigidMotion() = default;
-  /// Of kind force: the spins alone. dimension 2 admits x, y and rotation about z only.
+  /// Of kind force: what is told beside the force. dimension 2 admits x, y and rotation about z only.
   /// Throws Error(invalid_scene) with field, value and remedy.
   RigidMotion(const MotionConfig& config, int dimension);
 

@@ -6,6 +6,9 @@ namespace forming_sim {
 
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
 
+/// W v = vector x v.
+Mat3 skew(const Vec3& vector);
+
 /// exp of the skew matrix of `vector` (Rodrigues): turns by |vector| about it.
 Mat3 rotation_matrix(const Vec3& vector);
 

@@ -17,12 +17,12 @@ struct Energies {
   double kinetic = 0;   ///< of the leapfrog: 1/2 v.(M - dt^2/4 K) v
   double elastic = 0;
   double plastic = 0;   ///< dissipated by plastic flow
-  double contact = 0;   ///< potential of the mild layer plus what its implicit step dissipated
+  double contact = 0;   ///< potential of the mild layer plus what its implicit step dissipated, less what layers that grow (soft start) have pushed
   double friction = 0;  ///< dissipated by Coulomb friction
   double damping = 0;   ///< dissipated by viscosity, damping and settling
   double viscosity = 0; ///< the part of damping that bulk viscosity took
   double settling = 0;  ///< the part of damping that the settle stage took
-  double work = 0;      ///< of tools, prescribed motion, pressure, dead loads, gravity and soft start
+  double work = 0;      ///< of tools, prescribed motion, pressure, dead loads and gravity
   double initial = 0;   ///< kinetic + elastic at the start, as the leapfrog has it: of a formed part that is let go at rest less by dt^2/8 f.M^-1 f
   double residual() const { return kinetic + elastic + contact + plastic + friction + damping - work - initial; }
 };
