@@ -137,7 +137,7 @@ double springback_angle_deg(const SpringbackConfig& config, int dimension, const
   };
   const auto angle = [&](std::size_t from, std::size_t to) {
     if (from >= values.size() || to >= values.size() || values[from].position == values[to].position) return std::numeric_limits<double>::quiet_NaN();
-    return line_angle_deg(dimension, values[from].position, values[to].position);
+    return line_angle_deg(dimension, values[from].position, values[to].position, config.normal);
   };
   const double of_line = angle(find(config.from), find(config.to));
   return config.has_reference() ? angle_change_deg(angle(find(config.reference_from), find(config.reference_to)), of_line) : of_line;

@@ -90,9 +90,13 @@ ProbeValue measure(const Probe& probe, const Model& model, const std::vector<std
   return value;
 }
 
-double line_angle_deg(int dimension, const Vec3& from, const Vec3& to) {
+double line_angle_deg(int dimension, const Vec3& from, const Vec3& to, const Vec3& normal) {
+  constexpr double kAcross = 0.99;  // cosine
   const Vec3 line = to - from;
-  return std::atan2(dimension == 2 ? line.y() : line.z(), line.x()) * kDegrees;
+  if (normal.isZero(0)) return std::atan2(dimension == 2 ? line.y() : line.z(), line.x()) * kDegrees;
+  const Vec3 n = normal.stableNormalized(), axis = std::abs(n.x()) < kAcross ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitY());
+  const Vec3 first = (axis - axis.dot(n) * n).normalized();
+  return std::atan2(line.dot(n.cross(first)), line.dot(first)) * kDegrees;
 }
 
 double angle_change_deg(double a, double b) {

@@ -34,7 +34,7 @@ template <class Config> void check_plane(const Config& config, const std::string
     } else if constexpr (std::is_same_v<T, Vec3>) {
       const bool corner_of_box = std::is_base_of_v<PlaceConfig, Config> && (name == "min" || name == "max");
       const bool axle = std::is_same_v<Config, MotionConfig> && name == "axle";
-      const bool through_the_plane = corner_of_box || axle || std::is_same_v<Config, AnisotropyConfig>;  // rules_bodies.cpp and rules_tools.cpp know what is right
+      const bool through_the_plane = corner_of_box || axle || std::is_same_v<Config, SpringbackConfig> || std::is_same_v<Config, AnisotropyConfig>;  // rules_bodies.cpp and rules_tools.cpp know what is right
       if (!through_the_plane) check_vector(value, here, field, faults);
     }
   });
@@ -45,6 +45,8 @@ template <class Config> void check_plane(const Config& config, const std::string
 void check_section(const Scene& scene, FaultList& faults) {
   if (scene.dimension != 2) return;
   check_plane(scene, "", scene.axisymmetric, faults);
+  if (scene.output.springback && !scene.output.springback->normal.isZero(0))
+    faults.add("output.springback.normal", given_text(scene.output.springback->normal), "leave it out: in dimension 2 angles are seen in the x-y plane");
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     for (std::size_t k = 0; k < scene.bodies[i].boundaries.size(); ++k) {
       const auto& axes = scene.bodies[i].boundaries[k].axes;

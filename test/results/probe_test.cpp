@@ -106,6 +106,10 @@ TEST(LineAngle, LiesInThePlaneOfTheDimension) {
   EXPECT_DOUBLE_EQ(line_angle_deg(2, Vec3(1, 1, 0), Vec3(1, 0, 9)), -90);
   EXPECT_DOUBLE_EQ(line_angle_deg(3, Vec3(0, 0, 0), Vec3(1, 7, 1)), 45);
   EXPECT_DOUBLE_EQ(line_angle_deg(2, Vec3(0, 0, 0), Vec3(-1, 0, 0)), 180);
+  EXPECT_DOUBLE_EQ(line_angle_deg(3, Vec3(0, 0, 0), Vec3(1, 7, 1), Vec3(0, -2, 0)), 45);
+  EXPECT_DOUBLE_EQ(line_angle_deg(3, Vec3(1, 0, 5), Vec3(2, -1, 9), Vec3(0, 0, 1)), -45);
+  EXPECT_DOUBLE_EQ(line_angle_deg(3, Vec3(0, 0, 0), Vec3(3, 1, 1), Vec3(1, 0, 0)), 45);
+  EXPECT_NEAR(line_angle_deg(3, Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(1, 0, 1)), 54.735610317245346, 1e-12);
 }
 
 TEST(LineAngle, ChangesTheShortWayRound) {

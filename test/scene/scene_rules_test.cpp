@@ -233,7 +233,9 @@ TEST(SceneRules, AForceGoesAlongOneLine) {
   expect_fault(with("forces: [[0, 0], [0, -2000, 1]]"), motion + ".forces[1]", "z = 0");
   expect_fault(with("forces: [[0, 0], [0, -2000]]\n      mass: -1"), motion + ".mass", "at least 0");
   expect_fault(with("forces: [[0, 0], [0, -2000]]\n      profile: spline"), motion + ".profile", "trajectories");
-  expect_fault(with("forces: [[0, 0], [0, -2000]]\n      positions: [[0, 0], [0, 1]]"), motion + ".positions", "where kind is trajectory");
+  expect_fault(with("forces: [[0, 0], [0, -2000]]\n      positions: [[0, 0], [0, 1]]"), motion + ".positions[1]", "in part along the line of the forces");
+  EXPECT_TRUE(faults_of(with("forces: [[0, 0], [0, -2000]]\n      positions: [[0, 0], [0.001, 0]]")).empty());
+  expect_fault(with("forces: [[0, 0], [0, -2000]]\n      positions: [[0, 0], [0.001, 0]]\n      velocities: [[0, 0], [1, 0]]"), motion, "give one of both");
   expect_fault(replaced(with("forces: [[0, 0], [0, -2000]]"), "tools:\n", "contact: {method: geometric}\ntools:\n"), motion + ".kind", "set contact.method to implicit");
   expect_flange_fault("positions: [[", "forces: [[0, 0], [0, -1]]\n      positions: [[", motion + ".forces", "where kind is force");
   EXPECT_TRUE(fault_at(faults_of(text), motion + ".forces"));

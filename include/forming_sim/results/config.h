@@ -27,13 +27,15 @@ struct ProbeConfig {
 /// Angle of the line through two probes, formed and released.
 struct SpringbackConfig {
   std::string from, to, reference_from, reference_to;
+  Vec3 normal = Vec3::Zero();
   bool has_reference() const { return !reference_from.empty() && !reference_to.empty(); }
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(from), Field().required().doc("probe at which the line starts"));
-    visit(FORMING_SIM_FIELD(to), Field().required().doc("probe through which it goes; the angle is that of the line in the x-y plane (dimension 2) or in the x-z plane (3D)"));
+    visit(FORMING_SIM_FIELD(to), Field().required().doc("probe through which it goes; the angle is that of the line against the x axis in the x-y plane (dimension 2), in the x-z plane (3D) or in that of normal"));
     visit(FORMING_SIM_FIELD(reference_from), Field().computed("the x axis").doc("probe at which a second line starts, against which the angle counts: one on another leg of the part, which may turn as a whole"));
     visit(FORMING_SIM_FIELD(reference_to), Field().computed("the x axis").doc("probe through which the second line goes"));
+    visit(FORMING_SIM_FIELD(normal), Field().computed("[0, -1, 0]: the x-z plane").doc("dimension 3: normal of the plane in which the angle is seen, that of a bend about [0, 0, 1] say; it counts in the right-hand sense about it, from the x axis, or from the y axis in a plane across x"));
   }
 };
 

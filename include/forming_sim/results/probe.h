@@ -38,8 +38,9 @@ ProbeValue measure(const Probe& probe, const Model& model, const std::vector<std
 double simplex_volume(const Model& model, const std::array<int, 4>& element, const NodeField& positions);
 
 /// Angle of the line from one point to another against the x axis, in the x-y
-/// plane (dimension 2) or the x-z plane (3), degrees in (-180, 180].
-double line_angle_deg(int dimension, const Vec3& from, const Vec3& to);
+/// plane (dimension 2) or the x-z plane (3), degrees in (-180, 180]. With a normal, of any length, in the plane across that, in the right-hand sense
+/// about it; across x against the y axis.
+double line_angle_deg(int dimension, const Vec3& from, const Vec3& to, const Vec3& normal = Vec3::Zero());
 /// b - a, brought into (-180, 180].
 double angle_change_deg(double a, double b);
 
