@@ -9,7 +9,6 @@
 namespace forming_sim {
 namespace {
 
-constexpr double kAtEnd = 0.02;   ///< so much less than 1 is the weight of the end at which an edge meets another, at most
 constexpr double kTurned = 1e-4;  ///< 1 - |n.n'|
 constexpr double kNearer = 0.01;  ///< of the smaller gap
 constexpr double kThinner = 1e-6; ///< of the layer

@@ -174,7 +174,7 @@ struct Contact::Impl {
   int first_touch(double dt);
   std::string name_of_vertex(int v) const;
   std::string name_of_entry(int entry) const;
-  std::string name_of_other(const ContactPair& pair) const;
+  std::string name_of_surface(int surface) const;
   void check_unmovable(double time);
   void check_resolution(double time, double dt, double gap) const;
   [[noreturn]] void give_up(double time, double dt, int touch) const;

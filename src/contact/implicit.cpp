@@ -85,9 +85,9 @@ std::string Contact::Impl::name_of_entry(int entry) const {
   return text.str();
 }
 
-std::string Contact::Impl::name_of_other(const ContactPair& pair) const {
-  const int tool = pair.surface - features.bodies;
-  return tool >= 0 ? "tool " + tools.names[tool] : "body " + body_names[pair.surface];
+std::string Contact::Impl::name_of_surface(int surface) const {
+  const int tool = surface - features.bodies;
+  return tool >= 0 ? "tool " + tools.names[tool] : "body " + body_names[surface];
 }
 
 void Contact::Impl::check_unmovable(double time) {
@@ -100,9 +100,9 @@ void Contact::Impl::check_unmovable(double time) {
       const auto counts = [&](int i) { return pair.node[i] < work.body_entries ? std::abs(pair.weight[i]) : 0; };
       if (counts(k) > counts(held)) held = k;
     }
-    const int tool = pair.tool(features.bodies);
+    const int of = features.vertex_surface[work.vertex[pair.node[held]]], other = pair.own == of ? pair.surface : pair.own;
     std::ostringstream text;
-    text << "at time " << time << " s " << (tool >= 0 ? "tool " + tools.names[tool] : name_of_other(pair)) << " runs over " << name_of_entry(pair.node[held])
+    text << "at time " << time << " s " << name_of_surface(other) << " runs over " << name_of_entry(pair.node[held])
          << ", which is held or driven against it (gap " << pair.end_gap << " m at the end of the step): let it stop short of it, or free the node";
     throw Error(Code::contact_error, text.str());
   }
@@ -124,7 +124,7 @@ void Contact::Impl::check_unmovable(double time) {
         worst = p.end_gap;
         pair = &p;
       }
-    if (pair) text << ": " << name_of_entry(pair->node[0]) << " against " << name_of_other(*pair) << " ends at a gap of " << worst << " m";
+    if (pair) text << ": " << name_of_entry(pair->node[0]) << " against " << name_of_surface(pair->surface) << " ends at a gap of " << worst << " m";
   }
   text << ". The bodies may be squeezed harder than they can yield, or move too fast for the layer of " << layer
        << " m: check the tools' stroke, refine the mesh there, or set contact.layer larger";

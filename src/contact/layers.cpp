@@ -93,7 +93,7 @@ bool Layers::give(ContactPair& pair, std::vector<Rub>& rubs, Place& place) const
     if (pair.rub >= 0 && !last_try_.drags.empty()) {
       const double(&drag)[3] = last_try_.drags[last].force;
       const Node last = lasts_ * node(drag[0], drag[1], drag[2]);
-      rubs[pair.rub].slip = pair.held ? moving_part(work_, pair, last) : last;
+      rubs[pair.rub].slip = pair.held && !last.isZero(0) ? moving_part(work_, pair, last) : last;
     }
   }
   if (known && before_.pairs[place.before].inside(base)) {

@@ -89,7 +89,8 @@ BoundarySet::BoundarySet(const std::vector<ResolvedBoundary>& boundaries, int di
     try {
       motions_.push_back(config.is_driven() ? RigidVelocity(config, boundaries[b].clock) : RigidVelocity());
     } catch (const Error& error) {
-      throw Error(error.code(), name_of(boundaries[b]) + ": " + error.what());
+      const std::string what = error.what(), of_tools = "motion.";  // of RigidMotion, which knows the motions of tools
+      throw Error(error.code(), name_of(boundaries[b]) + ": " + (what.rfind(of_tools, 0) == 0 ? what.substr(of_tools.size()) : what));
     }
     for (size_t i = 0; i < boundaries[b].nodes.size(); ++i) {
       const int node = boundaries[b].nodes[i];
@@ -171,11 +172,18 @@ void BoundarySet::check(const Group& group, const std::vector<int>& members, con
   for (int member : members) from = std::max(from, boundaries[member].clock.of_run(0));
   for (const Beyond& beyond : group.beyond) {
     std::set<double> knots{from};
+    for (const Term& term : beyond.terms)
+      for (double t : motions_[term.motion].times()) knots.insert(std::max(t, from));
+    // The difference is a polynomial of fourth degree at most between neighbouring knots: five points decide.
+    std::vector<double> looked_at;
+    for (auto k = knots.begin(); k != knots.end(); ++k) {
+      const double next = std::next(k) == knots.end() ? *k : *std::next(k);
+      for (int part = 0; part < 4; ++part) looked_at.push_back(*k + 0.25 * part * (next - *k));
+    }
     double scale = 0;
     for (const Term& term : beyond.terms) {
       const RigidVelocity& motion = motions_[term.motion];
-      for (double t : motion.times()) {
-        knots.insert(std::max(t, from));
+      for (double t : looked_at) {
         scale = std::max(scale, motion.velocity(t).norm());
         // A turn asks for nothing along its axis, and for nothing of a node on its axis.
         const Vec3 w = motion.spin(t), r = place - motion.centre();
@@ -183,15 +191,11 @@ void BoundarySet::check(const Group& group, const std::vector<int>& members, con
           refuse(beyond.boundary, " where the set turns", "take the node out of one set, or leave to each the axes that are its own");
       }
     }
-    // The difference is a cubic between neighbouring knots: four points decide.
-    for (auto k = knots.begin(); k != knots.end(); ++k) {
-      const double next = std::next(k) == knots.end() ? *k : *std::next(k);
-      for (double t : {*k, (2 * *k + next) / 3, (*k + 2 * next) / 3}) {
-        double speed = 0;
-        for (const Term& term : beyond.terms) speed += term.weight.dot(motions_[term.motion].velocity(t));
-        if (std::abs(speed) > 1e-9 * scale)
-          refuse(beyond.boundary, " at t = " + short_number(t) + " s", "take the node out of one set, give equal velocities, or let the one go (until) before the other takes hold (since)");
-      }
+    for (double t : looked_at) {
+      double speed = 0;
+      for (const Term& term : beyond.terms) speed += term.weight.dot(motions_[term.motion].velocity(t));
+      if (std::abs(speed) > 1e-9 * scale)
+        refuse(beyond.boundary, " at t = " + short_number(t) + " s", "take the node out of one set, give equal velocities, or let the one go (until) before the other takes hold (since)");
     }
   }
 }

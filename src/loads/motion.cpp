@@ -70,7 +70,7 @@ Curve shaped(const std::string& profile, bool trajectory, const std::vector<doub
 
 RigidMotion::RigidMotion(const MotionConfig& config, int dimension) {
   const bool trajectory = config.by_places();
-  if (!trajectory && config.kind != "velocity" && !config.is_driven())
+  if (!trajectory && config.kind != "velocity" && !config.by_force())
     refuse("kind", "\"" + config.kind + "\"", "give trajectory, velocity or force");
   const size_t count = config.times.size();
   if (count == 0) refuse("times", "none", "give the times of the knots, or leave the motion out");

@@ -14,17 +14,17 @@ RigidVelocity::RigidVelocity(const BoundaryConfig& config, const CourseClock& cl
     motion.times = times_ = config.times;
     motion.positions = config.positions;
     motion.rotations_deg = config.rotations_deg;
-    motion.profile = config.profile;
+    motion.profile = config.shape();
     places_.emplace(motion, 3);
     if (!config.positions.empty()) first_ = config.positions.front();
     turning_ = !config.rotations_deg.empty();
     return;
   }
-  if (!config.velocities.empty()) velocity_ = VelocityProfile(config.times, config.velocities, config.profile);
+  if (!config.velocities.empty()) velocity_ = VelocityProfile(config.times, config.velocities, config.shape());
   if (config.spins_deg_s.empty()) return;
   std::vector<Vec3> spins;
   for (const Vec3& spin : config.spins_deg_s) spins.push_back(kRadiansPerDegree * spin);
-  spin_ = VelocityProfile(config.times, spins, config.profile);
+  spin_ = VelocityProfile(config.times, spins, config.shape());
 }
 
 RigidVelocity::Step RigidVelocity::between_places(double t, double dt) const {
@@ -58,7 +58,7 @@ RigidVelocity::Step RigidVelocity::step(double time, double dt) const {
 
 bool same_motion(const BoundaryConfig& a, const BoundaryConfig& b) {
   return a.kind == b.kind && a.since == b.since && a.times == b.times && a.velocities == b.velocities && a.spins_deg_s == b.spins_deg_s && a.positions == b.positions &&
-         a.rotations_deg == b.rotations_deg && a.profile == b.profile && (a.centre == b.centre || (a.spins_deg_s.empty() && a.rotations_deg.empty()));
+         a.rotations_deg == b.rotations_deg && a.shape() == b.shape() && (a.centre == b.centre || (a.spins_deg_s.empty() && a.rotations_deg.empty()));
 }
 
 }  // namespace forming_sim

@@ -78,7 +78,8 @@ std::string plan_text(const Simulation& simulation) {
 
   lines.start("damage");
   const std::vector<const BodyModel*> damaged = with_damage(model);
-  for (const BodyModel* body : damaged) lines.add(body->name + ": " + body->material.damage->criterion + ", summed at every 64th step or oftener; 24 bytes an element");
+  for (const BodyModel* body : damaged) lines.add(body->name + ": " + body->material.damage->criterion + ", summed at every 64th step or oftener");
+  if (!damaged.empty()) lines.add("  40 bytes for each element of all bodies");
   if (damaged.empty()) absent.push_back("damage");
 
   lines.start("loads");
@@ -115,7 +116,7 @@ std::string plan_text(const Simulation& simulation) {
     lines.add((pair.first == pair.second ? pair.first + " with itself" : pair.first + " with " + pair.second) + ": " + kind_of(pair));
   }
   for (const ToolModel& tool : model.tools)
-    if (tool.motion && tool.motion->is_driven()) lines.add(tool.name + " is driven by a force: its speed is found with the impulses of its pairs");
+    if (tool.motion && tool.motion->by_force()) lines.add(tool.name + " is driven by a force: its speed is found with the impulses of its pairs");
   for (const ToolModel& tool : model.tools)
     if (tool.turns_freely()) lines.add(tool.name + " turns freely about its axle: its spin is found with the impulses of its pairs");
   if (surface_pairs.empty()) absent.push_back("contact");

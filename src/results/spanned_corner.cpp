@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "forming_sim/mesh/measure.h"
 
@@ -19,13 +20,22 @@ Vec3 normal_of(const Facet& f, int dimension, const NodeField& x) {
   return (dimension == 2 ? Vec3(a.y(), -a.x(), 0) : Vec3(a.cross(vec3(x[f.nodes[2]] - x[f.nodes[0]])))).normalized();
 }
 
+/// The faces of every node.
+std::multimap<int, int> faces_at(const std::vector<Facet>& surface) {
+  std::multimap<int, int> at;
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    for (int n : surface[i].nodes)
+      if (n >= 0) at.emplace(n, static_cast<int>(i));
+  return at;
+}
+
 /// Of the faces that have one of these nodes two that were level make 45 degrees now. Gives one of them, -1: none do.
-int folded_at(const Simulation& simulation, const std::array<int, 3>& nodes) {
+int folded_at(const Simulation& simulation, const std::multimap<int, int>& faces, const std::array<int, 3>& nodes) {
   const int dimension = simulation.model().dimension;
   const std::vector<Facet>& surface = simulation.surface();
   std::vector<int> around;
-  for (std::size_t i = 0; i < surface.size(); ++i)
-    if (std::any_of(nodes.begin(), nodes.end(), [&](int n) { return n >= 0 && std::find(surface[i].nodes.begin(), surface[i].nodes.end(), n) != surface[i].nodes.end(); })) around.push_back(static_cast<int>(i));
+  for (int n : nodes)
+    for (auto [face, end] = faces.equal_range(n); face != end; ++face) around.push_back(face->second);
   const auto cosine = [&](int i, int j, const NodeField& x) { return normal_of(surface[i], dimension, x).dot(normal_of(surface[j], dimension, x)); };
   for (int i : around)
     for (int j : around)
@@ -42,6 +52,7 @@ SpannedCorner farthest_spanned_corner(const Simulation& simulation, const std::v
   const NodeField& x = simulation.positions();
   std::vector<SpannedCorner> of_tool(model.tools.size());
   std::vector<Vec3> borne(model.tools.size(), Vec3::Zero());
+  std::multimap<int, int> faces;
   for (const Contact::PressedInside& press : simulation.pressed_inside()) {
     double stands_off = 0, length = 0;
     Vec3 place = Vec3::Zero();
@@ -52,13 +63,15 @@ SpannedCorner farthest_spanned_corner(const Simulation& simulation, const std::v
     }
     const auto body = std::find_if(model.bodies.begin(), model.bodies.end(), [&](const BodyModel& b) { return press.nodes[0] < b.first_node + b.node_count; });
     if (stands_off < kStandsOff * length || is_sheet(body->mesh, body->thickness)) continue;
-    const int face = folded_at(simulation, press.nodes);
+    if (faces.empty()) faces = faces_at(simulation.surface());
+    const int face = folded_at(simulation, faces, press.nodes);
     if (face < 0) continue;
     borne[press.tool] += press.impulse / simulation.dt();
     of_tool[press.tool].rise_to({{stands_off / length, simulation.surface()[face].element, place, simulation.time()}, model.tools[press.tool].name, length, 0});
   }
   for (std::size_t t = 0; t < of_tool.size(); ++t) {
-    of_tool[t].share = std::min(1.0, borne[t].norm() / simulation.tools()[t].force.norm());
+    const Vec3& force = simulation.tools()[t].force;
+    of_tool[t].share = force.isZero(0) ? 0 : std::clamp(-borne[t].dot(force) / force.squaredNorm(), 0.0, 1.0);
     if (of_tool[t].share > kOfTheForce) farthest.rise_to(of_tool[t]);
   }
   return farthest;

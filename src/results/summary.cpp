@@ -9,8 +9,8 @@
 
 #include "forming_sim/config/words.h"
 #include "forming_sim/loads/rotation.h"
-#include "forming_sim/mesh/measure.h"
 #include "forming_sim/material/damage.h"
+#include "forming_sim/mesh/measure.h"
 #include "forming_sim/results/body_measures.h"
 #include "forming_sim/results/text_file.h"
 #include "forming_sim/results/unfinished.h"

@@ -13,12 +13,13 @@
 #include "forming_sim/SimulateFormingAction.h"
 #include "forming_sim/config/fault.h"
 #include "forming_sim/mesh/url.h"
+#include "forming_sim/config/words.h"
+#include "forming_sim/material/damage.h"
 #include "forming_sim/results/command_line.h"
 #include "forming_sim/ros/convert.h"
 #include "forming_sim/ros/client_progress.h"
 #include "forming_sim/ros/signals.h"
 #include "forming_sim/scene/yaml.h"
-#include "forming_sim/config/words.h"
 
 namespace forming_sim {
 namespace {
@@ -58,7 +59,7 @@ void print_summary(const SimulateFormingResult& result) {
   row("smallest thickness", s.min_thickness_m, 1e3, "mm");
   row("largest thinning", s.max_thinning, 100, "%");
   for (const BodyDamage& damage : s.damage) {
-    row(("damage of " + damage.body).c_str(), damage.max, 1, damage.criterion.c_str());
+    row(("damage of " + damage.body).c_str(), damage.max, 1, (std::string(damage_unit(damage.criterion)) == "Pa" ? "Pa, " + damage.criterion : damage.criterion).c_str());
     if (damage.critical > 0) row("of the critical one", damage.max / damage.critical, 100, "%");
   }
   row("springback", s.springback_deg, 1, "deg");

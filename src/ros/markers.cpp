@@ -99,7 +99,8 @@ MarkerArray RunMarkers::at(const RunFrame& frame, const ros::Time& stamp) {
     array.markers.push_back(clear);
     started_ = true;
   }
-  for (const double value : of_elements(frame).value_or(values(frame))) range_ = std::max(range_, value);
+  const std::optional<std::vector<double>> field = of_elements(frame);
+  for (const double value : field ? *field : values(frame)) range_ = std::max(range_, value);
   add_sheet(frame, stamp, array);
   add_tools(frame, stamp, array);
   add_legend(frame, stamp, array);

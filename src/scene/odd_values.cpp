@@ -57,11 +57,10 @@ double greatest(const std::vector<Vec3>& values) {
   return most;
 }
 
-/// Of a trajectory the mean from knot to knot.
-double fastest(const MotionConfig& motion) {
-  if (!motion.by_places()) return std::max(greatest(motion.velocities), motion.initial_velocity.norm());
-  double most = 0;
-  for (std::size_t k = 1; k < motion.positions.size(); ++k) most = std::max(most, (motion.positions[k] - motion.positions[k - 1]).norm() / (motion.times[k] - motion.times[k - 1]));
+/// Of places the mean from knot to knot.
+template <class Course> double fastest(const Course& course) {
+  double most = greatest(course.velocities);
+  for (std::size_t k = 1; k < std::min(course.positions.size(), course.times.size()); ++k) most = std::max(most, (course.positions[k] - course.positions[k - 1]).norm() / (course.times[k] - course.times[k - 1]));
   return most;
 }
 
@@ -75,10 +74,10 @@ void tell_odd_speeds(const Scene& scene, std::vector<std::string>& notes) {
     slowest = std::min(slowest, wave);
     if (speed > wave) tell("body " + body.name + " begins", speed, wave, "in it");
     for (const BoundaryConfig& boundary : body.boundaries)
-      if (const double driven = greatest(boundary.velocities); driven > kFast * wave) tell("set " + boundary.set + " of body " + body.name + " is driven", driven, wave, "in it");
+      if (const double driven = fastest(boundary); driven > kFast * wave) tell("set " + boundary.set + " of body " + body.name + " is driven", driven, wave, "in it");
   }
   for (const ToolConfig& tool : scene.tools)
-    if (const double speed = tool.motion ? fastest(*tool.motion) : 0; speed > kFast * slowest) tell("tool " + tool.name + " moves", speed, slowest, "in the bodies");
+    if (const double speed = tool.motion ? std::max(fastest(*tool.motion), tool.motion->initial_velocity.norm()) : 0; speed > kFast * slowest) tell("tool " + tool.name + " moves", speed, slowest, "in the bodies");
 }
 
 /// Loads and motions that go on when the stages are over.
@@ -119,23 +118,29 @@ void tell_odd_centres(const Scene& scene, std::vector<std::string>& notes) {
 }
 
 /// Paths as controllers write them: angles between -180 and 180, and many knots.
-void tell_odd_paths(const Scene& scene, std::vector<std::string>& notes) {
+void tell_odd_path(const std::string& who, const std::vector<Vec3>& positions, const std::vector<Vec3>& rotations_deg, bool stops_at_knots, const char* meant, std::vector<std::string>& notes) {
   constexpr double kHalfTurn = 180;
   constexpr std::size_t kMany = 20;
+  for (std::size_t k = 1; k < rotations_deg.size(); ++k) {
+    const Vec3 &before = rotations_deg[k - 1], &now = rotations_deg[k];
+    if ((now - before).norm() <= kHalfTurn || before.dot(now) >= 0) continue;
+    notes.push_back(who + " turns from " + given_text(before) + " to " + given_text(now) + " degrees, by " + three_digits((now - before).norm()) + ", from knot " + std::to_string(k - 1) + " to the next: rotations_deg count on beyond 180 degrees, and these turn the long way round");
+    break;
+  }
+  std::size_t stops = 0;  // at knots between others, on a way that goes on
+  for (std::size_t k = 1; k + 1 < positions.size(); ++k) stops += (positions[k] - positions[k - 1]).dot(positions[k + 1] - positions[k]) > 0;
+  if (stops_at_knots && stops >= kMany) notes.push_back(who + " stops at each of " + std::to_string(stops) + " knots on its way, since profile is smooth: a path of many points is meant for " + meant);
+}
+
+void tell_odd_paths(const Scene& scene, std::vector<std::string>& notes) {
   for (const ToolConfig& tool : scene.tools) {
     if (!tool.motion || !tool.motion->by_places()) continue;
     const MotionConfig& motion = *tool.motion;
-    for (std::size_t k = 1; k < motion.rotations_deg.size(); ++k) {
-      const Vec3 &before = motion.rotations_deg[k - 1], &now = motion.rotations_deg[k];
-      if ((now - before).norm() <= kHalfTurn || before.dot(now) >= 0) continue;
-      notes.push_back("tool " + tool.name + " turns from " + given_text(before) + " to " + given_text(now) + " degrees, by " + three_digits((now - before).norm()) + ", from knot " + std::to_string(k - 1) + " to the next: rotations_deg count on beyond 180 degrees, and these turn the long way round");
-      break;
-    }
-    std::size_t stops = 0;  // at knots between others, on a way that goes on
-    for (std::size_t k = 1; k + 1 < motion.positions.size(); ++k) stops += (motion.positions[k] - motion.positions[k - 1]).dot(motion.positions[k + 1] - motion.positions[k]) > 0;
-    if (motion.profile == "smooth" && stops >= kMany)
-      notes.push_back("tool " + tool.name + " stops at each of " + std::to_string(stops) + " knots on its way, since profile is smooth: a path of many points is meant for " + (motion.is_driven() ? "linear" : "spline, or linear"));
+    tell_odd_path("tool " + tool.name, motion.positions, motion.rotations_deg, motion.profile == "smooth", motion.by_force() ? "linear" : "spline, or linear", notes);
   }
+  for (const BodyConfig& body : scene.bodies)
+    for (const BoundaryConfig& boundary : body.boundaries)
+      if (boundary.kind == "trajectory") tell_odd_path("set " + boundary.set + " of body " + body.name, boundary.positions, boundary.rotations_deg, boundary.shape() == "smooth", "spline, or linear", notes);
 }
 
 /// A tool that goes away by a displacement takes what is tied to it along.

@@ -44,7 +44,7 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
   if (motion.kind == "velocity" && motion.velocities.empty() && motion.spins_deg_s.empty() && !turns_freely) {
     faults.add(path, "a velocity without velocities and spins_deg_s", "give at least one of them, an entry for each time, or an axle about which it turns freely");
   }
-  if (motion.is_driven() && motion.by_places() && (!motion.velocities.empty() || !motion.spins_deg_s.empty()))
+  if (motion.by_force() && motion.by_places() && (!motion.velocities.empty() || !motion.spins_deg_s.empty()))
     faults.add(path, "positions or rotations_deg beside velocities or spins_deg_s", "give one of both: places and orientations, or velocities and spins");
   if (motion.kind != "trajectory" && motion.profile == "spline") {
     faults.add(path + ".profile", given_text(motion.profile), "give smooth or linear: a spline is for trajectories");
@@ -76,14 +76,14 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
     without(!motion.torques.empty(), "torques", given_text(static_cast<double>(motion.torques.size())) + " values");
     without(motion.initial_spin_deg_s != 0, "initial_spin_deg_s", given_text(motion.initial_spin_deg_s));
     without(motion.inertia != 0, "inertia", given_text(motion.inertia));
-    if (!motion.is_driven()) without(motion.damping != 0, "damping", given_text(motion.damping));
+    if (!motion.by_force()) without(motion.damping != 0, "damping", given_text(motion.damping));
   }
   const Vec3 guide = guide_of(motion);
   if (!motion.forces.empty() && guide.isZero(0))
     faults.add(path + ".forces", "no force other than 0, and no initial_velocity", "give one of them; a tool without either rests, and needs no motion");
   if (guide.allFinite() && motion.initial_velocity.allFinite() && !goes_along(motion.initial_velocity, guide))
     faults.add(path + ".initial_velocity", given_text(motion.initial_velocity), "give it along the line of the forces: on that the tool is guided");
-  if (motion.is_driven() && guide.allFinite() && !guide.isZero(0)) {
+  if (motion.by_force() && guide.allFinite() && !guide.isZero(0)) {
     constexpr double kAlong = 1e-6;  // of the longest: paths of robots are rounded
     const auto across = [&](const std::vector<Vec3>& values, const char* field) {
       double longest = 0;
@@ -109,7 +109,7 @@ void check_tools(const Scene& scene, FaultList& faults) {
   for (std::size_t i = 0; i < scene.tools.size(); ++i) {
     const ToolConfig& tool = scene.tools[i];
     check_source(tool, tool_path(i), scene.dimension, faults);
-    if (tool.motion && tool.motion->is_driven() && scene.contact.method != "implicit")
+    if (tool.motion && tool.motion->by_force() && scene.contact.method != "implicit")
       faults.add(tool_path(i) + ".motion.kind", "force, with contact.method " + given_text(scene.contact.method), "set contact.method to implicit: only that finds how fast the tool goes together with what presses on it");
     if (!tool.motion) continue;
     const std::string axle = tool_path(i) + ".motion.axle";

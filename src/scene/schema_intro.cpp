@@ -57,7 +57,7 @@ lie in the plane or along z.
 
 Metal does not part here, however far it is strained: to blank or to pierce a sheet, cut its cells away between two operations (`trim`). How near to a
 crack it has come tells `damage`: the integral of Cockcroft and Latham, as it is or normalized, or that of Rice and Tracey, of each element along its way,
-through all operations; with the `critical` value of the metal a run says when and where it was reached.
+through all operations; with the `critical` value of the metal a run says when and where it was reached. It is asked for from the first operation on: what is not summed there is not known later.
 
 A fast flow raises the yield stress with `rate_dependence`: after Cowper and Symonds, Johnson and Cook, or a power of the plastic strain rate. A scene whose tools
 move faster than in the press, to take fewer steps, says how many times with `speed_up`.

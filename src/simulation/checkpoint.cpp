@@ -157,7 +157,7 @@ void Simulation::restore(const std::vector<char>& data) {
   std::vector<char> contact;
   in.list(contact);
   if (s.contact) s.contact->restore(contact);
-  s.energies_step = -1;
+  s.energies_step = s.damage_step = -1;
   s.place_tools();
 }
 

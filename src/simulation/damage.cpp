@@ -10,10 +10,15 @@ namespace {
 constexpr double kGrowth = 0.01;  ///< of p in a stretch, about
 constexpr long kLongest = 64;     ///< steps
 
-double weight_of(DamageCriterion criterion, const Sym& s) {
+DamageStress stress_of(const Sym& s) {
   Mat3 sigma;
   sigma << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-  return damage_per_strain(criterion, sigma);
+  return damage_stress(sigma);
+}
+
+double mean_weight(DamageCriterion criterion, const DamageStress& a, const DamageStress& b) {
+  const double flow = std::max(a.sigma_e, b.sigma_e);
+  return 0.5 * (damage_per_strain(criterion, a, flow) + damage_per_strain(criterion, b, flow));
 }
 
 }  // namespace
@@ -28,12 +33,12 @@ Damage::Damage(const Model& model, const Elements& elements, const NodeField& x)
     if (body.material.damage) bodies_.push_back({body.first_element, body.first_element + body.element_count, damage_criterion(body.material.damage->criterion)});
   if (!any()) return;
   damage_.assign(static_cast<std::size_t>(model.element_count()), std::numeric_limits<double>::quiet_NaN());
-  weight_.assign(damage_.size(), 0);
+  stress_.resize(damage_.size());
   strain_ = elements.plastic_strain();
   const std::vector<Sym> stress = elements.observe(x).stress;
-  over_elements([&](int e, DamageCriterion criterion) {
+  over_elements([&](int e, DamageCriterion) {
     damage_[e] = 0;
-    weight_[e] = weight_of(criterion, stress[e]);
+    stress_[e] = stress_of(stress[e]);
   });
   for (const BodyModel& body : model.bodies) {
     if (!body.material.damage || !body.formed) continue;
@@ -49,9 +54,10 @@ Damage::Damage(const Model& model, const Elements& elements, const NodeField& x)
 void Damage::look(long steps, const std::vector<double>& strain, const std::vector<Sym>& stress) {
   double most = 0;
   over_elements([&](int e, DamageCriterion criterion) {
-    const double w = weight_of(criterion, stress[e]), growth = strain[e] - strain_[e];
-    damage_[e] += 0.5 * (weight_[e] + w) * growth;
-    weight_[e] = w;
+    const DamageStress now = stress_of(stress[e]);
+    const double growth = strain[e] - strain_[e];
+    if (growth > 0) damage_[e] += growth * mean_weight(criterion, stress_[e], now);
+    stress_[e] = now;
     strain_[e] = strain[e];
     most = std::max(most, growth);
   });
@@ -63,7 +69,8 @@ void Damage::look(long steps, const std::vector<double>& strain, const std::vect
 std::vector<double> Damage::at(const std::vector<double>& strain, const std::vector<Sym>& stress) const {
   std::vector<double> now = damage_;
   over_elements([&](int e, DamageCriterion criterion) {
-    if (strain[e] > strain_[e]) now[e] += 0.5 * (weight_[e] + weight_of(criterion, stress[e])) * (strain[e] - strain_[e]);
+    const double growth = strain[e] - strain_[e];
+    if (growth > 0) now[e] += growth * mean_weight(criterion, stress_[e], stress_of(stress[e]));
   });
   return now;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The damage of all elements (material/damage.h), summed on the way: D grows by the mean of w at both ends of a stretch of steps times what p
-// has grown on it. Stretches are so long that p grows by about a hundredth on them, and of 64 steps at most: a look costs about two passes over the elements.
+// The damage of all elements (material/damage.h), summed on the way: where p has grown on a stretch of steps, D grows by that times the mean of w at both ends,
+// which are divided by the larger sigma_e of both: at one of them the element may have unloaded. Stretches are so long that p grows by about a hundredth on them, and of 64 steps at most: a look costs about two passes over the elements.
 #include <vector>
 
 #include "forming_sim/element/elements.h"
@@ -21,7 +21,9 @@ class Damage {
   std::vector<double> at(const std::vector<double>& strain, const std::vector<Sym>& stress) const;
 
   template <class Archive> void exchange(Archive& a) {
-    for (std::vector<double>* values : {&damage_, &strain_, &weight_}) a.numbers(values->data(), values->size());
+    for (std::vector<double>* values : {&damage_, &strain_}) a.numbers(values->data(), values->size());
+    for (DamageStress& s : stress_)
+      for (double* value : {&s.sigma_1, &s.sigma_m, &s.sigma_e}) a.number(*value);
     a.number(next_);
     a.number(stretch_);
   }
@@ -33,7 +35,8 @@ class Damage {
   };
   template <class Work> void over_elements(Work&& work) const;  // work(element, criterion)
   std::vector<Range> bodies_;
-  std::vector<double> damage_, strain_, weight_;  ///< [element] D, p and w at the last look; empty where no body asks
+  std::vector<double> damage_, strain_;  ///< [element] D and p at the last look; empty where no body asks
+  std::vector<DamageStress> stress_;     ///< likewise
   long next_ = 1, stretch_ = 1;                   ///< the step of the next look; steps between them
 };
 

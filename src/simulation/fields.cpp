@@ -168,7 +168,10 @@ FormedMemory Simulation::memory_of(const BodyModel& body) const {
 }
 std::vector<double> Simulation::damage() const {
   const Impl& s = *impl_;
-  return s.damage.any() ? s.damage.at(plastic_strain(), stress()) : std::vector<double>();
+  if (!s.damage.any()) return {};
+  if (s.damage_step != s.steps) s.damage_now = s.damage.at(plastic_strain(), stress());
+  s.damage_step = s.steps;
+  return s.damage_now;
 }
 std::vector<double> Simulation::plastic_strain() const { return impl_->elements.plastic_strain(); }
 std::vector<Sym> Simulation::stress(const std::vector<int>& elements) const { return impl_->elements.stress_of(elements, impl_->x, impl_->previous_dt); }

@@ -91,6 +91,8 @@ struct Simulation::Impl {
   long crossings = 0;
   double next_crossing_check = 0;
 
+  mutable std::vector<double> damage_now;  ///< of the step damage_step
+  mutable long damage_step = -1;
   mutable Energies energies;
   mutable long energies_step = -1;
 

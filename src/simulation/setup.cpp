@@ -341,7 +341,7 @@ void Simulation::Impl::give_tools_inertia() {
       text << "tool " << tool.name << ", " << told << ", has " << of_what << ", " << usual << unit << ": set its motion." << field << " where it matters how soon it goes and stops";
       warnings.push_back(text.str());
     };
-    if (tool.motion && tool.motion->is_driven()) give("mass", tool.motion->mass, all, model.per_width() ? " kg/m" : " kg", "the mass of the bodies", "which a force drives");
+    if (tool.motion && tool.motion->by_force()) give("mass", tool.motion->mass, all, model.per_width() ? " kg/m" : " kg", "the mass of the bodies", "which a force drives");
     if (!tool.turns_freely()) continue;
     const double farthest = reach_from_axle(tool);
     give("inertia", tool.motion->inertia, all * farthest * farthest, model.per_width() ? " kg m" : " kg m2", "the inertia of the mass of the bodies at its radius of " + three_digits(farthest) + " m", "which turns freely about its axle");

@@ -10,7 +10,7 @@ namespace forming_sim {
 
 StageRunner::StageRunner(const std::vector<StageConfig>& stages, const Model& model) : stages_(stages), model_(&model) {
   for (const ToolModel& tool : model.tools) {
-    const bool by_force = tool.motion && tool.motion->is_driven();
+    const bool by_force = tool.motion && tool.motion->by_force();
     courses_.push_back(tool.motion ? RigidMotion(*tool.motion, model.dimension) : RigidMotion());
     motions_.push_back(tool.motion ? stay(courses_.back().at(0)) : RigidMotion());
     stop_force_.push_back(0);
@@ -90,7 +90,7 @@ Pose StageRunner::pushed(int tool, double t, double way, double speed, double an
 }
 
 double StageRunner::told_spin(int tool, double t) const {
-  const Pose told = motions_[tool].at(t);
+  const Pose told = this->told(tool, t);
   return told.spin.dot(told.rotation * axles_[tool]->axle());
 }
 

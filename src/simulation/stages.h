@@ -46,6 +46,8 @@ class StageRunner {
     Vec3 point, along;
   };
   Line axle_now(int tool, double t) const;
+  /// Where a tool is told to be, what pushes it left out.
+  Pose told(int tool, double t) const { return motions_[tool].at(t); }
   /// Spin of what is told about the axle of a tool that has one, rad/s.
   double told_spin(int tool, double t) const;
   /// When what has this `since` began; infinity: it has not.

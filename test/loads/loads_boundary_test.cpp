@@ -313,6 +313,26 @@ TEST(BoundarySet, a_turning_set_leaves_other_axes_free) {
   EXPECT_LT((v[0] - Node(0, 2 * M_PI, 5, 0)).norm(), 1e-12);
 }
 
+// A trajectory rests at its knots; what it asks for between them is looked at.
+TEST(BoundarySet, a_trajectory_agrees_with_what_it_leaves_alone) {
+  ResolvedBoundary turns = turning(Vec3::Zero(), Vec3::Zero(), {}, {{0, 2, 3}}), goes = driven({0, 0, 0}, {0, 0, 0}, {}, {0});
+  for (ResolvedBoundary* each : {&turns, &goes}) {
+    each->config.kind = "trajectory";
+    each->config.velocities.clear();
+    each->config.spins_deg_s.clear();
+  }
+  turns.config.times = {0, 2};
+  turns.config.rotations_deg = {Vec3::Zero(), Vec3(0, 0, 90)};
+  goes.config.positions = {Vec3::Zero(), Vec3(0.8, -0.6, 0)};
+  for (const char* profile : {"", "linear", "smooth", "spline"}) {
+    turns.config.profile = goes.config.profile = profile;
+    EXPECT_NE(refusal({turns, fixed({"x"}, {0})}).find("where the set turns"), std::string::npos) << profile;
+    EXPECT_EQ(refusal({turns, fixed({"z"}, {0})}), "") << profile;
+    EXPECT_NE(refusal({goes, fixed({"x"}, {0})}), "") << profile;
+    EXPECT_EQ(refusal({goes, symmetric(Vec3(0.6, 0.8, 0), {0})}), "") << profile;
+  }
+}
+
 TEST(BoundarySet, a_turn_agrees_with_what_it_leaves_alone) {
   const Vec3 z(0, 0, 90), origin = Vec3::Zero();
   const std::vector<Vec3> on_axis{{0, 0, 3}}, off_axis{{0, 2, 3}};

@@ -14,7 +14,10 @@ namespace {
 constexpr double kStress = 300e6;
 const char* const kCriteria[] = {"cockcroft_latham", "normalized_cockcroft_latham", "rice_tracey"};
 
-double weight(const char* criterion, const Mat3& sigma) { return damage_per_strain(damage_criterion(criterion), sigma); }
+double weight(const char* criterion, const Mat3& sigma) {
+  const DamageStress stress = damage_stress(sigma);
+  return damage_per_strain(damage_criterion(criterion), stress, stress.sigma_e);
+}
 Mat3 principal(double a, double b, double c) { return Vec3(a, b, c).asDiagonal(); }
 
 TEST(Damage, InTensionCompressionAndShearIsWhatItsFormulaSays) {
@@ -39,6 +42,14 @@ TEST(Damage, UnderAPressureBesideItIsLess) {
   EXPECT_NEAR(weight("rice_tracey", neck), std::exp(1.5 * (1. / 3 + 0.5)), 1e-6);
   EXPECT_NEAR(weight("normalized_cockcroft_latham", pressed), 0, 1e-6);
   EXPECT_NEAR(weight("rice_tracey", pressed), std::exp(-1), 1e-6);
+}
+
+// Unloaded to next to no deviator under a tension from all sides, an element that has flowed before counts as it did then.
+TEST(Damage, OfAnUnloadedElementIsBounded) {
+  const DamageStress unloaded = damage_stress(kStress * Mat3::Identity() + principal(1e-3, 0, 0));
+  EXPECT_NEAR(damage_per_strain(DamageCriterion::normalized_cockcroft_latham, unloaded, kStress), 1, 1e-6);
+  EXPECT_NEAR(damage_per_strain(DamageCriterion::rice_tracey, unloaded, kStress), std::exp(1.5), 1e-6);
+  EXPECT_NEAR(weight("rice_tracey", kStress * Mat3::Identity() + principal(1e-3, 0, 0)), std::exp(7.5), 1e-6);
 }
 
 TEST(Damage, WithoutStressThereIsNone) {

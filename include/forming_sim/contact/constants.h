@@ -2,6 +2,7 @@
 // What a pair is given before it can act: its stiffness E A h0, the inverse mass
 // that it feels, its friction.
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "forming_sim/contact/features.h"
@@ -32,19 +33,28 @@ struct PairConstants {
     pair.held = held != 0;
   }
   void finish(ContactPair& pair, std::vector<Rub>& rubs) const {
-    const double any = pair.w;
-    if (pair.held && features.relation(pair.own, pair.surface).friction > 0) straighten(work, pair);
+    const double any = pair.w, friction = features.relation(pair.own, pair.surface).friction;
+    const bool rubs_here = friction > 0 && !sticks_elsewhere(pair);
     if (pair.held) pair.w = held_w(pair);
+    if (pair.held && rubs_here && pair.w < (1 - 1e-12) * any) {
+      straighten(work, pair);
+      pair.w = held_w(pair);
+    }
     // Held against the normal up to rounding is held.
     if (pair.w <= 1e-12 * any) pair.w = pair.stiffness = 0;
-    const Features::Relation& relation = features.relation(pair.own, pair.surface);
-    const double friction = relation.friction;
     pair.rub = -1;
-    if (!(friction > 0)) return;
-    if (relation.sticks_by >= 0 && relation.sticks_by != pair.own && pair.key.kind() == PairKey::vertex_facet) return;
+    if (!rubs_here) return;
     pair.rub = static_cast<int>(rubs.size());
     rubs.push_back({Node::Zero(), friction, any});
     if (!work.steady.empty()) let_waves_leave(pair, rubs.back());
+  }
+  /// Of bodies that stick by the vertices of one: a pair of a vertex of the other.
+  bool sticks_elsewhere(const ContactPair& pair) const {
+    const int by = features.relation(pair.own, pair.surface).sticks_by;
+    if (by < 0 || pair.key.kind() == PairKey::vertex_vertex) return false;
+    if (pair.key.kind() == PairKey::vertex_facet) return pair.own != by;
+    const int k = pair.own == by ? 2 : 0;  // the edge of the other
+    return std::max(std::abs(pair.weight[k]), std::abs(pair.weight[k + 1])) >= 1 - kAtEnd;
   }
   void let_waves_leave(const ContactPair& pair, Rub& rub) const;
   /// Along the normal, held directions removed.

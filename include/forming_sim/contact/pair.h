@@ -86,6 +86,8 @@ struct ContactPair : Link {
   int tool(int bodies) const { return std::max(-1, std::max(own, surface) - bodies); }
 };
 
+constexpr double kAtEnd = 0.02;  ///< so much less than 1 is the weight of the end at which an edge meets another, at most
+
 constexpr long kPairsOfAThread = 1200;  ///< fewer are not worth another thread
 
 /// Points of two features that are tied, or a vertex that is tied to a tool; see ties.h. A Link of feature vertices.

@@ -53,7 +53,7 @@ class BoundarySet {
 
   /// What the boundaries prescribe in the step from t to t + dt; it holds until the next is asked for.
   struct Prescription {
-    std::vector<RigidVelocity::Step> motions;
+    std::vector<RigidVelocity::Step> motions;  ///< of each boundary
     std::vector<Vec3> u;  ///< of each group that does not turn
     std::vector<double> speed;  ///< |u|
   };

@@ -22,10 +22,11 @@ struct BoundaryConfig {
   std::vector<Vec3> positions;      ///< trajectory: displacements at the knots
   std::vector<Vec3> rotations_deg;  ///< trajectory: rotation vectors at the knots
   Vec3 centre = Vec3::Zero();       ///< velocity, trajectory: about which the set turns
-  std::string profile = "linear";   ///< between knots: linear | smooth | spline
+  std::string profile;              ///< between knots: linear | smooth | spline; empty: see shape()
   std::string since, until;         ///< stages at whose beginning it takes hold and lets go; empty: from the start on; it stays
 
   bool is_driven() const { return kind == "velocity" || kind == "trajectory"; }
+  std::string shape() const { return !profile.empty() ? profile : kind == "trajectory" ? "smooth" : "linear"; }
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(set), Field().required().doc("name of a set of this body"));
@@ -35,10 +36,10 @@ struct BoundaryConfig {
     visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().when("kind", {"velocity", "trajectory"}).doc("times of the knots, increasing; before the first and after the last a velocity stays, and a trajectory rests"));
     visit(FORMING_SIM_FIELD(velocities), Field().unit("m/s").when("kind", {"velocity"}).doc("velocity at each knot, of the centre where the set turns"));
     visit(FORMING_SIM_FIELD(spins_deg_s), Field().unit("deg/s").when("kind", {"velocity"}).doc("angular velocity about the centre at each knot. Give velocities, spins_deg_s or both"));
-    visit(FORMING_SIM_FIELD(positions), Field().unit("m").when("kind", {"trajectory"}).doc("displacement at each knot from where the set is at the first, of the centre where it turns"));
-    visit(FORMING_SIM_FIELD(rotations_deg), Field().unit("deg").when("kind", {"trajectory"}).doc("rotation vector (axis times angle) about the centre at each knot, taken from one to the next component by component; in dimension 2 [0, 0, angle]. Give positions, rotations_deg or both"));
+    visit(FORMING_SIM_FIELD(positions), Field().unit("m").when("kind", {"trajectory"}).doc("displacement at each knot, of the centre where it turns; it counts from that of the first"));
+    visit(FORMING_SIM_FIELD(rotations_deg), Field().unit("deg").when("kind", {"trajectory"}).doc("rotation vector (axis times angle) about the centre at each knot, taken from one to the next component by component; it counts from that of the first, and on beyond 180 degrees; in dimension 2 [0, 0, angle]. Give positions, rotations_deg or both"));
     visit(FORMING_SIM_FIELD(centre), Field().unit("m").when("kind", {"velocity", "trajectory"}).doc("centre of rotation when the boundary takes hold; it moves with the velocities or positions"));
-    visit(FORMING_SIM_FIELD(profile), Field().choices({"linear", "smooth", "spline"}).when("kind", {"velocity", "trajectory"}).doc("between knots: linear; smooth: a velocity is a cubic with zero acceleration at the knots, a trajectory goes from rest to rest between them; spline: a trajectory that passes the inner knots without stopping"));
+    visit(FORMING_SIM_FIELD(profile), Field().choices({"linear", "smooth", "spline"}).when("kind", {"velocity", "trajectory"}).computed("linear; smooth for a trajectory").doc("between knots: linear; smooth: a velocity is a cubic with zero acceleration at the knots, a trajectory goes from rest to rest between them; spline: a trajectory that passes the inner knots without stopping"));
     visit(FORMING_SIM_FIELD(since), Field().computed("the start of the run").doc("name of a stage: the boundary takes hold of its nodes when that begins, and its times count from there"));
     visit(FORMING_SIM_FIELD(until), Field().computed("it stays").doc("name of a later stage: when that begins, the boundary lets its nodes go"));
   }
@@ -109,9 +110,9 @@ struct MotionConfig {
   std::string since;                ///< stage at whose beginning it begins; empty: at the start
 
   bool turns_freely() const { return !axle.isZero(0); }
-  bool is_driven() const { return kind == "force"; }
+  bool by_force() const { return kind == "force"; }
   /// What is told is places and orientations; else velocities and spins.
-  bool by_places() const { return kind == "trajectory" || (is_driven() && (!positions.empty() || !rotations_deg.empty())); }
+  bool by_places() const { return kind == "trajectory" || (by_force() && (!positions.empty() || !rotations_deg.empty())); }
 
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(kind), Field().required().choices({"trajectory", "velocity", "force"}).doc("trajectory: displacements and rotations at given times; velocity: velocities and spins at given times; force: forces at given times, and the tool goes where they and the bodies push it, along their line; across that, and how it turns, as a trajectory (positions, rotations_deg) or a velocity (velocities, spins_deg_s) says, or not at all: a blank holder, a hammer, a roll that is pressed on a sheet and driven along it"));

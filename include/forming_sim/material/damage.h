@@ -4,7 +4,8 @@
 //   cockcroft_latham             w = max(sigma_1, 0)               Cockcroft and Latham 1968, Pa
 //   normalized_cockcroft_latham  w = max(sigma_1, 0) / sigma_e     Oh, Chen and Kobayashi 1979
 //   rice_tracey                  w = exp(3/2 sigma_m / sigma_e)    Rice and Tracey 1969: ln of the radius of a void, over .283
-// In a tension before necking sigma_1 = sigma_e = 3 sigma_m: w = sigma_s(p), 1 and exp(1/2).
+// In a tension before necking sigma_1 = sigma_e = 3 sigma_m: w = sigma_s(p), 1 and exp(1/2). What is asked of an element that does not flow just then is
+// divided by the sigma_e at which it does; sigma_m / sigma_e counts up to 5, more than necks and the tips of cracks have.
 #include <string>
 
 #include "forming_sim/tensor/vec.h"
@@ -18,7 +19,13 @@ DamageCriterion damage_criterion(const std::string& word);
 /// "Pa" or "1".
 const char* damage_unit(const std::string& criterion);
 
-/// w = dD/dp under the Cauchy stress sigma (Pa); of none at all 0.
-double damage_per_strain(DamageCriterion criterion, const Mat3& sigma);
+/// What the criteria ask of a Cauchy stress, Pa.
+struct DamageStress {
+  double sigma_1 = 0, sigma_m = 0, sigma_e = 0;
+};
+DamageStress damage_stress(const Mat3& sigma);
+
+/// w = dD/dp; flow: sigma_e where the element flows, Pa. Of no stress at all 0.
+double damage_per_strain(DamageCriterion criterion, const DamageStress& stress, double flow);
 
 }  // namespace forming_sim

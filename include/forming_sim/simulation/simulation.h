@@ -71,7 +71,7 @@ class Simulation {
   /// The ledger at the half step before time(), where every term of it is known to
   /// second order; evaluated when asked, at the cost of about one pass over the elements.
   const Energies& energies() const;
-  double balance_error() const;      ///< |residual| now over the largest work + initial so far, and no less than the energy of a strain of 1e-12
+  double balance_error() const;      ///< |residual| now over the largest of what was put in so far (work + initial, and what contact has given if it gave), and no less than the energy of a strain of 1e-12
   ContactStatus contact_status() const;
   const std::vector<ToolStatus>& tools() const;
   std::vector<Contact::PressedInside> pressed_inside() const;  ///< where edges and corners of tools pressed on the inside of faces in the last step
