@@ -43,6 +43,7 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
   for (const Features::Relation& relation : m.features.relations)
     if (relation.meet && relation.friction > 0) m.slip.assign(at.size(), 0.0);
   m.shear_limit = ShearLimit(m.features, setup.axisymmetric);
+  m.sticking.emplace(m.features);
   m.both = m.features.bodies_meet() ? 2 : 1;
   if (m.method == Impl::Method::implicit && m.config.swing == "damped" && !m.slip.empty()) {
     std::vector<WaveBody> bodies;

@@ -149,8 +149,7 @@ void set_relations(const ContactSetup& setup, const NodeField& x, Features& f) {
   for (const PairConfig& pair : setup.config.pairs)
     set(find(pair.first), find(pair.second), pair.kind != "none",
         pair.kind == "sticking" ? std::numeric_limits<double>::max() : pair.kind == "frictionless" ? 0 : pair.friction, pair.friction_limit);
-  // Vertices of both that stick to faces of the other ask for more than meshes that do not match can do: where two lie nearly on each other, by hundreds of times
-  // the force, to and fro. Those of the finer surface hold it, and edges that cross.
+  // The finer of two surfaces that stick does so first.
   const auto mean_face = [&](int surface) {
     const Features::Surface& s = f.surfaces[surface];
     double sum = 0;

@@ -2,6 +2,7 @@
 // What a Contact holds, and the parts of a step that its methods share.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "forming_sim/contact/narrow.h"
 #include "forming_sim/contact/shear_limit.h"
 #include "forming_sim/contact/shear_waves.h"
+#include "forming_sim/contact/sticking.h"
 #include "forming_sim/contact/sweeps.h"
 #include "forming_sim/contact/ties.h"
 #include "forming_sim/contact/tools.h"
@@ -56,6 +58,7 @@ struct Contact::Impl {
   ShearWaves waves;
   FrictionDelay delay;
   ShearLimit shear_limit;
+  std::optional<Sticking> sticking;
   std::vector<char> parted; ///< of every tie: it held what was held already, that has parted, and it is given up
   double previous_dt = 0;   ///< of the step before, s; 0 at the start
   std::vector<ToolMotion> previous_motion;  ///< of the tools: position0, rotation0 at the start of the step before

@@ -221,6 +221,7 @@ void Contact::Impl::advance_implicit(double time, double dt, double full_dt, Nod
         const Layers layers(records, tried, work, dt, previous_dt, layer, ceiling);
         narrow_phase(constants(), &layers, planes, all, {reach, bound, travel, thickest, aside ? dt : 0}, team, list, near);
         layers.hand_over(near.born, near.pairs);
+        if (sticking->any()) sticking->leave_to_one_side(features, work, layer, near.pairs, near.rubs);
         if (waves.any()) delay.recall(work, near.pairs, near.rubs);
         if (!all) alike.join(work, near.pairs, near.rubs);
         if (shear_limit.any()) shear_limit.set(features, x, work.kick, work, near.pairs, near.rubs);

@@ -5,7 +5,6 @@
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/impulse.h"
 #include "forming_sim/contact/law.h"
-#include "forming_sim/contact/levers.h"
 
 namespace forming_sim {
 namespace {
@@ -92,8 +91,7 @@ bool Layers::give(ContactPair& pair, std::vector<Rub>& rubs, Place& place) const
     pair.impulse = lasts_ * last_try_.pairs[last].force;
     if (pair.rub >= 0 && !last_try_.drags.empty()) {
       const double(&drag)[3] = last_try_.drags[last].force;
-      const Node last = lasts_ * node(drag[0], drag[1], drag[2]);
-      rubs[pair.rub].slip = pair.held && !last.isZero(0) ? moving_part(work_, pair, last) : last;
+      rubs[pair.rub].slip = lasts_ * node(drag[0], drag[1], drag[2]);
     }
   }
   if (known && before_.pairs[place.before].inside(base)) {

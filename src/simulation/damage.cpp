@@ -8,7 +8,7 @@ namespace forming_sim {
 namespace {
 
 constexpr double kGrowth = 0.01;  ///< of p in a stretch, about
-constexpr long kLongest = 64;     ///< steps
+constexpr long kLongest = 16;     ///< steps
 
 DamageStress stress_of(const Sym& s) {
   Mat3 sigma;

@@ -1,6 +1,6 @@
 #pragma once
 // The damage of all elements (material/damage.h), summed on the way: where p has grown on a stretch of steps, D grows by that times the mean of w at both ends,
-// which are divided by the larger sigma_e of both: at one of them the element may have unloaded. Stretches are so long that p grows by about a hundredth on them, and of 64 steps at most: a look costs about two passes over the elements.
+// which are divided by the larger sigma_e of both: at one of them the element may have unloaded. Stretches are so long that p grows by about a hundredth on them, and of 16 steps at most: a look costs about two passes over the elements.
 #include <vector>
 
 #include "forming_sim/element/elements.h"

@@ -151,6 +151,12 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, const std::vector<
   NodeField f(x.size());
   sum_nodes(elements.team(), forces(), f);
   NodeField held_by(x.size(), Node::Zero());
+  std::vector<char> pressed_by_others(model.bodies.size(), 0);
+  const auto is_free = [&](std::size_t b) {
+    const BodyModel& body = model.bodies[b];
+    const auto first = std::lower_bound(boundaries.nodes().begin(), boundaries.nodes().end(), body.first_node);
+    return (first == boundaries.nodes().end() || *first >= body.first_node + body.node_count) && !pressed_by_others[b] && together()[b].size() == 1;
+  };
   const auto free_part = [](const BoundarySet& set, int n, const Node& force) -> Node {
     const auto found = std::lower_bound(set.nodes().begin(), set.nodes().end(), n);
     if (found == set.nodes().end() || *found != n) return force;
@@ -169,6 +175,7 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, const std::vector<
     for (const Contact::ActedOn& on : contact->acted_on(stages.left())) {
       const int n = on.node;
       pressed_on[n] = pressed_on[n] || on.others;
+      for (std::size_t b = 0; b < model.bodies.size(); ++b) pressed_by_others[b] = pressed_by_others[b] || (on.others && n >= model.bodies[b].first_node && n < model.bodies[b].first_node + model.bodies[b].node_count);
       if (!on.asked || !pressed_on[n]) continue;
       held_by[n] = free_part(boundaries, n, on.others ? Node(on.impulse / previous_kick) : Node(-f[n]));
       pressed_area[n] = contact->nodal_area()[n];
@@ -190,17 +197,18 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, const std::vector<
       middle += held_by[n].norm() * vec3(x[n]);
     }
     if (held > 0) middle /= held;
-    Vec3 moving = Vec3::Zero(), turning = Vec3::Zero();  // what accelerates nodes that nothing presses on, all together, and its moment
+    Node moving = Node::Zero();    // what accelerates nodes that nothing presses on, all together
+    Vec3 turning = Vec3::Zero();   // moment of what is let go
     for (int n = body.first_node; n < end; ++n) {
-      const Vec3 arm = vec3(x[n]) - middle;
-      held_moment += arm.cross(vec3(held_by[n])).norm();
-      if (pressed_on[n]) continue;
-      const Vec3 free = vec3(free_part(held_before, n, f[n]));
-      moving += free;
-      turning += arm.cross(free);
+      const Vec3 moment = (vec3(x[n]) - middle).cross(vec3(held_by[n]));
+      held_moment += moment.norm();
+      turning += moment;
+      if (!pressed_on[n]) moving += free_part(held_before, n, f[n]);
     }
-    // It flies, gathers speed or swings about what holds it: there is no rest that could be kept.
-    if (moving.norm() > kMoving * held || turning.norm() > kMoving * std::max(held_moment, 0.5 * body.thickness * held)) continue;
+    // It flies or gathers speed: there is no rest that could be kept.
+    if (moving.norm() > kMoving * held) continue;
+    // Nothing holds it any more, and what did turned it: it swung about that.
+    if (is_free(b) && turning.norm() > kMoving * std::max(held_moment, 0.5 * body.thickness * held)) continue;
     std::vector<Held>& forces = forces_on[b];
     for (int n = body.first_node; n < end; ++n) {
       if (held_by[n].isZero(0)) continue;

@@ -150,6 +150,7 @@ std::string Simulation::Impl::why_unsettled() const {
     const bool loaded = std::any_of(loads.begin(), loads.end(), [](const Node& f) { return !f.isZero(0); });
     const std::string moving = what_moves(), flying = what_flies();
     if (!moving.empty()) text << moving << ": end it with a velocity of 0";
+    else if (still_driven()) text << "a motion, a pressure or a load still changed: a longer limit lets them come to rest after it";
     else if (!flying.empty()) text << flying << (plan.gravity.isZero(0) ? "" : " under gravity") << ", and nothing stops it: hold it, or lay it on a tool that stays";
     else text << (loaded ? "pressures or loads still act on them: let these end before (last entry 0) if nothing holds the bodies against them" : "a longer limit lets them come to rest");
   } else if (let_go_until() > 0) {

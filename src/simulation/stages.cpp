@@ -1,5 +1,6 @@
 #include "simulation/stages.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -94,6 +95,13 @@ double StageRunner::told_spin(int tool, double t) const {
   return told.spin.dot(told.rotation * axles_[tool]->axle());
 }
 
+// The twist about the axle a of R(t)^T R(t + dt), in the tool's own frame: of its quaternion (w, q) the angle 2 atan2(q.a, w).
+double StageRunner::told_turn(int tool, double t, double dt) const {
+  const Eigen::Quaterniond turn(Mat3(told(tool, t).rotation.transpose() * told(tool, t + dt).rotation));
+  const double sign = turn.w() < 0 ? -1 : 1;
+  return 2 * std::atan2(sign * turn.vec().dot(axles_[tool]->axle()), sign * turn.w());
+}
+
 Pose StageRunner::course(int tool, double t) const {
   const ForceDrive* along = drive(tool);
   const AxleDrive* about = axle(tool);
@@ -105,7 +113,7 @@ ToolPose StageRunner::pushed_by_none(int tool, double t, double kick, double dt)
   const AxleDrive* about = axle(tool);
   if (!along && !about) return pose(tool, t + dt);
   const double speed = along ? along->free_speed(t, kick) : 0, spin = about ? about->free_speed(t, kick) : 0;
-  return tool_pose(model_->tools[tool], pushed(tool, t + dt, along ? along->gone() + dt * speed : 0, speed, about ? about->angle() + dt * (spin - told_spin(tool, t + 0.5 * dt)) : 0, spin));
+  return tool_pose(model_->tools[tool], pushed(tool, t + dt, along ? along->gone() + dt * speed : 0, speed, about ? about->angle() + dt * spin - told_turn(tool, t, dt) : 0, spin));
 }
 
 StageRunner::Line StageRunner::axle_now(int tool, double t) const {

@@ -136,7 +136,7 @@ void Simulation::Impl::book(const ContactStep& done) {
     tool.felt += felt;
     const StageRunner::Line axle = stages.axle(static_cast<int>(k)) ? stages.axle_now(static_cast<int>(k), time) : StageRunner::Line();
     if (ForceDrive* drive = stages.drive(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k][0], felt.impulse.dot(drive->guide()));
-    if (AxleDrive* drive = stages.axle(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k][1], axle.along.dot(felt.angular - axle.point.cross(felt.impulse)), stages.told_spin(static_cast<int>(k), time + 0.5 * done.dt));
+    if (AxleDrive* drive = stages.axle(static_cast<int>(k))) drive->take(time, kick, done.dt, done.tool_push[k][1], axle.along.dot(felt.angular - axle.point.cross(felt.impulse)), stages.told_turn(static_cast<int>(k), time, done.dt));
     tell_fall(static_cast<int>(k));
     const auto run_on = [&](auto& mean, const auto& impulse) { mean += (impulse / kick - mean) / kForceMeanSteps; };
     run_on(tool.force, felt.impulse);

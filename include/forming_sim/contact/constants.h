@@ -34,9 +34,9 @@ struct PairConstants {
   }
   void finish(ContactPair& pair, std::vector<Rub>& rubs) const {
     const double any = pair.w, friction = features.relation(pair.own, pair.surface).friction;
-    const bool rubs_here = friction > 0 && !sticks_elsewhere(pair);
+    const bool rubs_here = friction > 0;
     if (pair.held) pair.w = held_w(pair);
-    if (pair.held && rubs_here && pair.w < (1 - 1e-12) * any) {
+    if (pair.held && rubs_here && features.relation(pair.own, pair.surface).sticks_by >= 0 && pair.w < (1 - 1e-12) * any) {
       straighten(work, pair);
       pair.w = held_w(pair);
     }
@@ -47,14 +47,6 @@ struct PairConstants {
     pair.rub = static_cast<int>(rubs.size());
     rubs.push_back({Node::Zero(), friction, any});
     if (!work.steady.empty()) let_waves_leave(pair, rubs.back());
-  }
-  /// Of bodies that stick by the vertices of one: a pair of a vertex of the other.
-  bool sticks_elsewhere(const ContactPair& pair) const {
-    const int by = features.relation(pair.own, pair.surface).sticks_by;
-    if (by < 0 || pair.key.kind() == PairKey::vertex_vertex) return false;
-    if (pair.key.kind() == PairKey::vertex_facet) return pair.own != by;
-    const int k = pair.own == by ? 2 : 0;  // the edge of the other
-    return std::max(std::abs(pair.weight[k]), std::abs(pair.weight[k + 1])) >= 1 - kAtEnd;
   }
   void let_waves_leave(const ContactPair& pair, Rub& rub) const;
   /// Along the normal, held directions removed.

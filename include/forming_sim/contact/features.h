@@ -28,7 +28,7 @@ struct Features {
     double friction = 0;              ///< the largest double: sticking
     double friction_limit = 0;        ///< largest shear stress of friction, Pa; 0: none
     int tie = -1;                     ///< which of `tied_zones`
-    int sticks_by = -1;               ///< of two bodies that stick whatever it takes: the surface whose vertices do so, and edges that cross between vertices; -1: all (with a friction_limit, of a body with itself, of tools)
+    int sticks_by = -1;               ///< of two bodies that stick whatever it takes the surface whose vertices do so first (contact/sticking.h); -1: of others (with a friction_limit, a body and itself, tools)
     bool limited() const { return meet && friction > 0 && friction_limit > 0; }
   };
   struct Edge {

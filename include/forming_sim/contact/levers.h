@@ -25,8 +25,8 @@ Vec3 closed_part(const Workspace& work, const ContactPair& pair, const Vec3& vec
 /// The part of an impulse on the pair that moves something. The rest of it sweeps would leave at whatever it was.
 Node moving_part(const Workspace& work, const ContactPair& pair, const Node& impulse);
 
-/// A normal whose closed part is small is put right across it, as it is where a surface meets a plane of symmetry. Else friction, which goes across the
-/// normal, would have to be very large to have a small part along what can move. The gap stays that of the normal before, up to 2 % more.
+/// Of bodies that stick whatever it takes a normal whose closed part is small is put right across it, as it is where a surface meets a plane of symmetry. Else friction,
+/// which goes across the normal, would have to be very large to have a small part along what can move. The gap stays that of the normal before, up to 2 % more.
 void straighten(const Workspace& work, ContactPair& pair);
 
 }  // namespace forming_sim

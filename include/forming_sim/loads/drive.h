@@ -97,10 +97,10 @@ class AxleDrive : public Drive {
   const Vec3& axle() const { return axle_; }  ///< at the start, of length 1
   /// Against the told orientation, rad.
   double angle() const { return gone() - told_; }
-  /// The step has been done, dt long, with V = V* + push; answer: J, about the axle, N m s; told: spin about the axle of the told turn, in the middle of the step, rad/s.
+  /// The step has been done, dt long, with V = V* + push; answer: J, about the axle, N m s; told: what the told turn has about the axle in the step, rad.
   void take(double t, double kick, double dt, double push, double answer, double told) {
     take_step(t, kick, dt, push, answer);
-    told_ += dt * told;
+    told_ += told;
   }
   template <class Archive> void exchange(Archive& a) {
     exchange_motion(a);
