@@ -18,7 +18,8 @@ constexpr double kRoom = 0.25;       ///< of the time until the bodies have to r
 constexpr double kBeforeTools = 0.05;  ///< of a stage in which tools move away, by .1 % of their way until then: what boundaries held is balanced by what the tools bear, and goes before they do
 constexpr double kSqueezed = 0.1;    ///< of the forces of tools that are let go: less that balances itself does not squeeze
 constexpr double kNext = 0.01;       ///< to nothing, of the energy that a squeezed body had: what is left to fade may do as much in any case
-constexpr double kMoving = 0.3;      ///< of the forces that are let go, and of their moments: more than this sets the body in motion as a whole
+constexpr double kMoving = 0.3;      ///< of the forces that are let go: more than this sets the body in motion as a whole
+constexpr double kSwings = 0.9;      ///< of the moments of what is let go: with less of them beside a swing what is at rest is worth keeping
 
 /// Size squared, m2, of what swings, however it lies: of a box the squares of its lengths together, which are 12 times the second moments of its
 /// volume about its middle. A sheet is held by a plane of symmetry at one end; a compact body goes on beyond one that ends it on one side, where its moments are about that plane.
@@ -197,18 +198,19 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, const std::vector<
       middle += held_by[n].norm() * vec3(x[n]);
     }
     if (held > 0) middle /= held;
-    Node moving = Node::Zero();    // what accelerates nodes that nothing presses on, all together
-    Vec3 turning = Vec3::Zero();   // moment of what is let go
+    Vec3 moving = Vec3::Zero(), turning = Vec3::Zero();  // what accelerates nodes that nothing presses on, all together, and its moment
     for (int n = body.first_node; n < end; ++n) {
-      const Vec3 moment = (vec3(x[n]) - middle).cross(vec3(held_by[n]));
-      held_moment += moment.norm();
-      turning += moment;
-      if (!pressed_on[n]) moving += free_part(held_before, n, f[n]);
+      const Vec3 arm = vec3(x[n]) - middle;
+      held_moment += arm.cross(vec3(held_by[n])).norm();
+      if (pressed_on[n]) continue;
+      const Vec3 free = vec3(free_part(held_before, n, f[n]));
+      moving += free;
+      turning += arm.cross(free);
     }
     // It flies or gathers speed: there is no rest that could be kept.
     if (moving.norm() > kMoving * held) continue;
-    // Nothing holds it any more, and what did turned it: it swung about that.
-    if (is_free(b) && turning.norm() > kMoving * std::max(held_moment, 0.5 * body.thickness * held)) continue;
+    // Nothing holds it any more, and what did held a swing and nothing else.
+    if (is_free(b) && turning.norm() > kSwings * held_moment) continue;
     std::vector<Held>& forces = forces_on[b];
     for (int n = body.first_node; n < end; ++n) {
       if (held_by[n].isZero(0)) continue;
