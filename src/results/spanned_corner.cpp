@@ -5,14 +5,16 @@
 #include <cmath>
 #include <map>
 
+#include "forming_sim/contact/closest.h"
 #include "forming_sim/mesh/measure.h"
 
 namespace forming_sim {
 
 namespace {
 
-constexpr double kStandsOff = 0.2;   // of the face's length: a quarter circle of .6 of its length is less
+constexpr double kStandsOff = 0.1;   // of the face's length
 constexpr double kOfTheForce = 0.1;  // of the tool
+constexpr double kNear = 0.125;      // of the face's length: a corner of a radius of .3 of that is as good as sharp
 const double kFolded = std::cos(45 * M_PI / 180), kLevel = 0.9;  // cosines, now and at the start
 
 Vec3 normal_of(const Facet& f, int dimension, const NodeField& x) {
@@ -41,6 +43,20 @@ int folded_at(const Simulation& simulation, const std::multimap<int, int>& faces
     for (int j : around)
       if (cosine(i, j, simulation.initial_positions()) > kLevel && cosine(i, j, simulation.positions()) < kFolded) return i;
   return -1;
+}
+
+/// The tool turns by 45 degrees and more within that distance of a place.
+bool is_sharp(const ToolModel& tool, const ToolStatus& now, const Vec3& place, double within) {
+  const int corners = tool.mesh.dimension;
+  const Node p = node(Vec3(now.rotation.transpose() * (place - now.position)));  // in the frame of its mesh
+  NodeField x;
+  for (const Vec3& point : tool.mesh.nodes) x.push_back(node(point));
+  std::vector<Vec3> normals;
+  for (const Facet& f : tool.mesh.surface)
+    if (closest_on_facet(corners, p, x[f.nodes[0]], x[f.nodes[1]], x[f.nodes[corners - 1]]).squared <= within * within) normals.push_back(normal_of(f, corners, x));
+  return std::any_of(normals.begin(), normals.end(), [&](const Vec3& a) {
+    return std::any_of(normals.begin(), normals.end(), [&](const Vec3& b) { return std::abs(a.dot(b)) < kFolded; });  // whichever way a file has turned its facets
+  });
 }
 
 }  // namespace
@@ -72,7 +88,8 @@ SpannedCorner farthest_spanned_corner(const Simulation& simulation, const std::v
   for (std::size_t t = 0; t < of_tool.size(); ++t) {
     const Vec3& force = simulation.tools()[t].force;
     of_tool[t].share = force.isZero(0) ? 0 : std::clamp(-borne[t].dot(force) / force.squaredNorm(), 0.0, 1.0);
-    if (of_tool[t].share > kOfTheForce) farthest.rise_to(of_tool[t]);
+    const SpannedCorner& at = of_tool[t];
+    if (at.share > kOfTheForce && is_sharp(model.tools[t], simulation.tools()[t], at.peak.position, kNear * at.length)) farthest.rise_to(of_tool[t]);
   }
   return farthest;
 }

@@ -170,6 +170,35 @@ class Features(SceneRun):
             warnings = self.run_scene(scene(block, duration=1e-4 * squeezed))['warnings']
             self.assertEqual(any('nothing parts here' in each for each in warnings), told, warnings)
 
+    def test_corners_of_tools_that_cells_are_too_large_for_are_told(self):
+        """A punch of 10 mm pressed into a billet of twice that width in a container: with a sharp edge the cells round it, with a radius of a cell and more they follow it."""
+        width, radius = 0.005, 1e-3
+        sharp = {'start': [-0.002, 0.01], 'pieces': [{'to': [width, 0.01]}, {'to': [width, 0.03]}]}
+        rounded = {'start': [-0.002, 0.01], 'pieces': [{'to': [width - radius, 0.01]}, {'to': [width, 0.01 + radius], 'radius': radius}, {'to': [width, 0.03]}]}
+        for profile, told in ((sharp, True), (rounded, False)):
+            billet = body('strip', {'hardening': {'curve': 'perfect', 'yield_stress': 200e6}}, boundaries=[{'set': 'left', 'kind': 'symmetric', 'normal': [1, 0, 0]}])
+            billet['blank'].update(length=0.01, thickness=0.01, cells_along=12, cells_through=12)
+            tools = [{'name': 'punch', 'profile': profile, 'motion': {'kind': 'trajectory', 'times': [0, 6e-4], 'positions': [[0, 0], [0, -0.0025]]}},
+                     {'name': 'floor', 'normal': [0, 1]}, {'name': 'wall', 'point': [0.01, 0], 'normal': [-1, 0]}]
+            warnings = self.run_scene(scene(billet, tools=tools, duration=6e-4, output={'frames': 20}))['warnings']
+            self.assertEqual([each for each in warnings if 'spanned a corner of tool punch' in each] != [], told, warnings)
+
+    def test_a_settle_stage_says_why_it_does_not_end(self):
+        """What flies is told, and what swings is not taken for it."""
+        def why(part, **fields):
+            data = scene(part, duration=1e-5, **fields)
+            data['stages'].append({'kind': 'settle', 'limit': 5e-5})
+            with open(self.path('scene.yaml'), 'w') as file:
+                yaml.safe_dump(data, file)
+            run = subprocess.run([OFFLINE, self.path('scene.yaml'), '--output', self.path('out'), '--quiet'], stderr=subprocess.PIPE, text=True)
+            self.assertEqual(run.returncode, 1)
+            return run.stderr
+        self.assertIn('body body goes as a whole, with', why(body('strip'), gravity=[0, -9.81]))
+        swings = why(body('strip', boundaries=[{'set': 'left', 'kind': 'fixed'}], initial_velocity_field=['0', '5*(x/0.01)^2']))
+        self.assertIn('a longer limit lets them come to rest', swings)
+        pulled = body('strip', boundaries=[{'set': 'left', 'kind': 'trajectory', 'times': [0, 1], 'positions': [[0, 0], [1, 0]], 'profile': 'linear'}])
+        self.assertIn('a motion, a pressure or a load still changed', why(pulled))
+
     def test_a_rate_dependence_says_what_it_misses(self):
         for rate, hardening, word in (({'law': 'cowper_symonds', 'reference_rate': 40.0}, True, 'rate_dependence.exponent'),
                                       ({'law': 'cowper_symonds', 'reference_rate': 40.0, 'exponent': 0.2}, True, 'at least 1'),
