@@ -8,7 +8,8 @@ namespace forming_sim {
 namespace {
 
 constexpr double kGrowth = 0.01;  ///< of p in a stretch, about
-constexpr long kLongest = 16;     ///< steps
+constexpr double kLongest = 64;   ///< steps
+constexpr double kOnset = 0.1;    ///< strain of a cell, as high as a wave goes in a step, at most in a stretch
 
 DamageStress stress_of(const Sym& s) {
   Mat3 sigma;
@@ -51,7 +52,7 @@ Damage::Damage(const Model& model, const Elements& elements, const NodeField& x)
   }
 }
 
-void Damage::look(long steps, const std::vector<double>& strain, const std::vector<Sym>& stress) {
+void Damage::look(long steps, double fastest, const std::vector<double>& strain, const std::vector<Sym>& stress) {
   double most = 0;
   over_elements([&](int e, DamageCriterion criterion) {
     const DamageStress now = stress_of(stress[e]);
@@ -61,8 +62,9 @@ void Damage::look(long steps, const std::vector<double>& strain, const std::vect
     strain_[e] = strain[e];
     most = std::max(most, growth);
   });
-  if (most > kGrowth) stretch_ = std::max(1L, stretch_ / 2);
-  else if (most < 0.25 * kGrowth) stretch_ = std::min(kLongest, 2 * stretch_);
+  if (most > kGrowth) stretch_ /= 2;
+  else if (most < 0.25 * kGrowth) stretch_ *= 2;
+  stretch_ = std::clamp(stretch_, 1L, static_cast<long>(std::clamp(kOnset / fastest, 1.0, kLongest)));
   next_ = steps + stretch_;
 }
 

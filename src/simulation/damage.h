@@ -1,6 +1,6 @@
 #pragma once
 // The damage of all elements (material/damage.h), summed on the way: where p has grown on a stretch of steps, D grows by that times the mean of w at both ends,
-// which are divided by the larger sigma_e of both: at one of them the element may have unloaded. Stretches are so long that p grows by about a hundredth on them, and of 16 steps at most: a look costs about two passes over the elements.
+// which are divided by the larger sigma_e of both: at one of them the element may have unloaded. Stretches are so long that p grows by about a hundredth on them, and of 64 steps at most, of fewer where something moves so fast that a cell could be strained by a tenth in them: a look costs about two passes over the elements.
 #include <vector>
 
 #include "forming_sim/element/elements.h"
@@ -15,8 +15,8 @@ class Damage {
   Damage(const Model& model, const Elements& elements, const NodeField& x);
   bool any() const { return !bodies_.empty(); }
   bool due(long steps) const { return any() && steps >= next_; }
-  /// At the end of a stretch: plastic strains and Cauchy stresses (Pa) of all elements then.
-  void look(long steps, const std::vector<double>& strain, const std::vector<Sym>& stress);
+  /// At the end of a stretch: plastic strains and Cauchy stresses (Pa) of all elements then; fastest: speed of a node over that of waves.
+  void look(long steps, double fastest, const std::vector<double>& strain, const std::vector<Sym>& stress);
   /// Per element, with what has grown since the last look; NaN of bodies that do not ask for it. Empty where none does.
   std::vector<double> at(const std::vector<double>& strain, const std::vector<Sym>& stress) const;
 

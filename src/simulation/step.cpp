@@ -1,6 +1,7 @@
 // One step: forces, the kick, contact, and the ledger's sums.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <sstream>
@@ -76,7 +77,11 @@ void Simulation::Impl::take_step() {
   previous_kick = 0.5 * (previous_dt + dt);
   previous_dt = dt;
   ++steps;
-  if (damage.due(steps)) damage.look(steps, elements.plastic_strain(), elements.observe(x, previous_dt).stress);
+  if (damage.due(steps)) {
+    double fastest = 0;  // squared
+    for (const Node& u : v) fastest = std::max(fastest, u.squaredNorm());
+    damage.look(steps, std::sqrt(fastest) / elements.slowest_wave(), elements.plastic_strain(), elements.observe(x, previous_dt).stress);
+  }
   place_tools();
   most = std::max(most, work + initial - std::min(0.0, contact_dissipated));
   if (way.then) departure.step(way.departed, elements.slowest_wave());
