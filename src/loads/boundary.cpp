@@ -207,17 +207,19 @@ Vec3 BoundarySet::prescribed(const Group& group, const std::vector<RigidVelocity
   return u;
 }
 
-std::vector<RigidVelocity::Step> BoundarySet::motions_in(double t, double dt) const {
-  std::vector<RigidVelocity::Step> steps;
-  for (const RigidVelocity& motion : motions_) steps.push_back(motion.step(t, dt));
-  return steps;
+void BoundarySet::find_motions(double t, double dt, std::vector<RigidVelocity::Step>& motions) const {
+  motions.clear();  // and filled in the memory that is there
+  for (const RigidVelocity& motion : motions_) motions.push_back(motion.step(t, dt));
 }
 
-Vec3 BoundarySet::prescribed(int k, double t, double dt, const Vec3& x) const { return prescribed(groups_[group_[k]], motions_in(t, dt), x); }
+Vec3 BoundarySet::prescribed(int k, double t, double dt, const Vec3& x) const {
+  std::vector<RigidVelocity::Step> motions;
+  find_motions(t, dt, motions);
+  return prescribed(groups_[group_[k]], motions, x);
+}
 
 const BoundarySet::Prescription& BoundarySet::prescription(double t, double dt) {
-  step_.motions.clear();  // and filled in the memory that is there
-  for (const RigidVelocity& motion : motions_) step_.motions.push_back(motion.step(t, dt));
+  find_motions(t, dt, step_.motions);
   step_.u.clear();
   step_.speed.clear();
   for (const Group& group : groups_) {

@@ -79,8 +79,7 @@ std::string plan_text(const Simulation& simulation) {
   lines.start("damage");
   const std::vector<const BodyModel*> damaged = with_damage(model);
   for (const BodyModel* body : damaged) lines.add(body->name + ": " + body->material.damage->criterion + ", summed at every 64th step or oftener");
-  if (!damaged.empty()) lines.add("  40 bytes for each element of all bodies");
-  if (damaged.empty()) absent.push_back("damage");
+  if_any(!damaged.empty(), "  40 bytes for each element of all bodies", "damage");
 
   lines.start("loads");
   std::size_t held = 0, pressed = 0, dead = 0;

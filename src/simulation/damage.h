@@ -1,6 +1,7 @@
 #pragma once
 // The damage of all elements (material/damage.h), summed on the way: where p has grown on a stretch of steps, D grows by that times the mean of w at both ends,
-// which are divided by the larger sigma_e of both: at one of them the element may have unloaded. Stretches are so long that p grows by about a hundredth on them, and of 64 steps at most, of fewer where something moves so fast that a cell could be strained by a tenth in them: a look costs about two passes over the elements.
+// which are divided by the larger sigma_e of both: at one of them the element may have unloaded. Stretches are so long that p grows by about a hundredth
+// on them, and of 64 steps at most, of fewer where something moves so fast that a cell could be strained by a tenth in them: a look costs about two passes over the elements.
 #include <vector>
 
 #include "forming_sim/element/elements.h"
@@ -37,7 +38,7 @@ class Damage {
   std::vector<Range> bodies_;
   std::vector<double> damage_, strain_;  ///< [element] D and p at the last look; empty where no body asks
   std::vector<DamageStress> stress_;     ///< likewise
-  long next_ = 1, stretch_ = 1;                   ///< the step of the next look; steps between them
+  long next_ = 1, stretch_ = 1;          ///< the step of the next look; steps between them
 };
 
 }  // namespace forming_sim

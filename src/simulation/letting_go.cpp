@@ -152,11 +152,13 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, const std::vector<
   NodeField f(x.size());
   sum_nodes(elements.team(), forces(), f);
   NodeField held_by(x.size(), Node::Zero());
-  std::vector<char> pressed_by_others(model.bodies.size(), 0);
+  const Together with = together();
+  std::vector<char> pressed_by_others(x.size(), 0);
   const auto is_free = [&](std::size_t b) {
-    const BodyModel& body = model.bodies[b];
-    const auto first = std::lower_bound(boundaries.nodes().begin(), boundaries.nodes().end(), body.first_node);
-    return (first == boundaries.nodes().end() || *first >= body.first_node + body.node_count) && !pressed_by_others[b] && together()[b].size() == 1;
+    const int begin = model.bodies[b].first_node, end = begin + model.bodies[b].node_count;
+    const auto held = std::lower_bound(boundaries.nodes().begin(), boundaries.nodes().end(), begin);
+    const auto others = pressed_by_others.begin();
+    return (held == boundaries.nodes().end() || *held >= end) && std::find(others + begin, others + end, 1) == others + end && with[b].size() == 1;
   };
   const auto free_part = [](const BoundarySet& set, int n, const Node& force) -> Node {
     const auto found = std::lower_bound(set.nodes().begin(), set.nodes().end(), n);
@@ -176,7 +178,7 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, const std::vector<
     for (const Contact::ActedOn& on : contact->acted_on(stages.left())) {
       const int n = on.node;
       pressed_on[n] = pressed_on[n] || on.others;
-      for (std::size_t b = 0; b < model.bodies.size(); ++b) pressed_by_others[b] = pressed_by_others[b] || (on.others && n >= model.bodies[b].first_node && n < model.bodies[b].first_node + model.bodies[b].node_count);
+      pressed_by_others[n] = on.others;
       if (!on.asked || !pressed_on[n]) continue;
       held_by[n] = free_part(boundaries, n, on.others ? Node(on.impulse / previous_kick) : Node(-f[n]));
       pressed_area[n] = contact->nodal_area()[n];
@@ -219,7 +221,6 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, const std::vector<
     }
     if (!forces.empty()) slowest = std::max(slowest, slowness(body));
   }
-  const Together with = together();
   const std::vector<char> borne = borne_by_leaving_tools();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];

@@ -87,12 +87,9 @@ Pose StageRunner::pushed(int tool, double t, double way, double speed, double an
     pose.translation += way * by->guide();
     pose.velocity += speed * by->guide();
   }
-  return axle(tool) ? turned_about(axle(tool)->axle(), angle, spin - told_spin(tool, t), pose) : pose;
-}
-
-double StageRunner::told_spin(int tool, double t) const {
-  const Pose told = this->told(tool, t);
-  return told.spin.dot(told.rotation * axles_[tool]->axle());
+  if (!axle(tool)) return pose;
+  const Vec3& a = axle(tool)->axle();
+  return turned_about(a, angle, spin - pose.spin.dot(pose.rotation * a), pose);
 }
 
 // The twist about the axle a of R(t)^T R(t + dt), in the tool's own frame: of its quaternion (w, q) the angle 2 atan2(q.a, w).

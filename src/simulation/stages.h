@@ -48,8 +48,7 @@ class StageRunner {
   Line axle_now(int tool, double t) const;
   /// Where a tool is told to be, what pushes it left out.
   Pose told(int tool, double t) const { return motions_[tool].at(t); }
-  /// Spin of what is told about the axle of a tool that has one, rad/s, and the angle by which it turns about that from t to t + dt, rad.
-  double told_spin(int tool, double t) const;
+  /// By which what is told turns about the axle of a tool that has one from t to t + dt, rad.
   double told_turn(int tool, double t, double dt) const;
   /// When what has this `since` began; infinity: it has not.
   double began(const std::string& since) const;

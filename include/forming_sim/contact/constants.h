@@ -2,7 +2,6 @@
 // What a pair is given before it can act: its stiffness E A h0, the inverse mass
 // that it feels, its friction.
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "forming_sim/contact/features.h"
@@ -33,19 +32,19 @@ struct PairConstants {
     pair.held = held != 0;
   }
   void finish(ContactPair& pair, std::vector<Rub>& rubs) const {
-    const double any = pair.w, friction = features.relation(pair.own, pair.surface).friction;
-    const bool rubs_here = friction > 0;
+    const Features::Relation& relation = features.relation(pair.own, pair.surface);
+    const double any = pair.w;
     if (pair.held) pair.w = held_w(pair);
-    if (pair.held && rubs_here && features.relation(pair.own, pair.surface).sticks_by >= 0 && pair.w < (1 - 1e-12) * any) {
+    if (pair.held && relation.sticks_by >= 0 && pair.w < (1 - 1e-12) * any) {
       straighten(work, pair);
       pair.w = held_w(pair);
     }
     // Held against the normal up to rounding is held.
     if (pair.w <= 1e-12 * any) pair.w = pair.stiffness = 0;
     pair.rub = -1;
-    if (!rubs_here) return;
+    if (!(relation.friction > 0)) return;
     pair.rub = static_cast<int>(rubs.size());
-    rubs.push_back({Node::Zero(), friction, any});
+    rubs.push_back({Node::Zero(), relation.friction, any});
     if (!work.steady.empty()) let_waves_leave(pair, rubs.back());
   }
   void let_waves_leave(const ContactPair& pair, Rub& rub) const;

@@ -102,7 +102,7 @@ class BoundarySet {
   /// Throws where the boundaries of a group prescribe different velocities of a node.
   void check(const Group& group, const std::vector<int>& members, const std::vector<ResolvedBoundary>& boundaries, int node, const Vec3& place) const;
   Vec3 prescribed(const Group& group, const std::vector<RigidVelocity::Step>& motions, const Vec3& x) const;
-  std::vector<RigidVelocity::Step> motions_in(double t, double dt) const;
+  void find_motions(double t, double dt, std::vector<RigidVelocity::Step>& motions) const;
 
   Prescription step_;
   std::vector<RigidVelocity> motions_;  ///< one per boundary; at rest where it holds
