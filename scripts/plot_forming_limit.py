@@ -2,7 +2,7 @@
 """Draws the forming limit diagram of a run, from its result.h5: the principal strains of every surface
 facet of the sheets, the larger over the smaller, true strains.
 
-The sheet is the facets whose nodes are all in the set `top` or all in `bottom` of their body; --set
+The sheet is the facets whose nodes are all in the set `top` or all in `bottom` of their body (of a tube `outside` and `inside`); --set
 chooses others. A limit curve, given as a CSV of rows "minor,major" in true strain, is drawn with it, and
 what share of the sheet lies beyond it is printed: of its area at the start, of its facets where the section of a ring or strip is the model.
 """
@@ -27,17 +27,21 @@ def sides_of_the_sheets(result, wanted):
     body = result["topology/body"][:][result["topology/surface_element"][:]]
     sides, known = {}, set()
     for index in result["bodies"]:
-        for group in result["bodies"][index]["sets"].values():
+        sets = result["bodies"][index]["sets"].values()
+        names = {group.attrs["name"] for group in sets}
+        known |= names
+        of_body = wanted or (["outside", "inside"] if {"outside", "inside"} <= names else ["top", "bottom"])
+        for group in sets:
             name = group.attrs["name"]
-            known.add(name)
-            if name not in wanted:
+            if name not in of_body:
                 continue
             inside = np.zeros(len(result["topology/initial_positions"]), bool)
             inside[group["nodes"][:]] = True
             sides[name] = sides.get(name, False) | (inside[facets].all(axis=1) & (body == int(index)))
     sides = {name: chosen for name, chosen in sides.items() if chosen.any()}
     if not sides:
-        sys.exit(f"--set: no surface facet lies in {' or '.join(wanted)}; the bodies have the sets {', '.join(sorted(known)) or 'none'}")
+        sought = " or ".join(wanted or ["top", "bottom"])
+        sys.exit(f"--set: no surface facet lies in {sought}; the bodies have the sets {', '.join(sorted(known)) or 'none'}")
     return sides
 
 
@@ -77,14 +81,14 @@ def is_number(text):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add_frame_options(parser)
-    parser.add_argument("--set", action="append", default=[], help="a set of the surface; can be given again; default: top and bottom")
+    parser.add_argument("--set", action="append", default=[], help="a set of the surface; can be given again; default: top and bottom, of a tube outside and inside")
     parser.add_argument("--limit", help="CSV of a limit curve: rows minor,major, true strains")
     options = parser.parse_args()
 
     with opened(options.result) as result:
         frame = pick_frame(result, options)
         major, minor = frame["surface_strain"][:], frame["surface_strain_minor"][:]
-        sides = sides_of_the_sheets(result, options.set or ["top", "bottom"])
+        sides = sides_of_the_sheets(result, options.set)
         weight = weight_of_facets(result)
         heading = title(result, frame)
 

@@ -1,5 +1,6 @@
 #include "forming_sim/loads/drive.h"
 
+#include <cmath>
 #include <string>
 
 #include "forming_sim/config/fault.h"
@@ -23,8 +24,8 @@ ScalarProfile profile_of(const MotionConfig& config, const std::vector<double>& 
 /// The forces along their line; checks that they and the initial velocity have one.
 ScalarProfile forces_along_guide(const MotionConfig& config) {
   const Vec3 guide = guide_of(config);
-  if (guide.isZero(0)) refuse("forces", "no force other than 0, and no initial_velocity", "give one entry for each time; a tool without either needs no motion");
-  if (!goes_along(config.initial_velocity, guide)) refuse("initial_velocity", given_text(config.initial_velocity), "a tool is guided along the line of its forces, and starts along it");
+  if (guide.isZero(0)) refuse("forces", "no force other than 0, no guide and no initial_velocity", "give one entry for each time; a tool without any needs no motion");
+  if (!goes_along(config.initial_velocity, guide)) refuse("initial_velocity", given_text(config.initial_velocity), "a tool starts along its guide");
   std::vector<double> along;
   for (std::size_t k = 0; k < config.forces.size(); ++k) {
     along.push_back(config.forces[k].dot(guide));
@@ -37,19 +38,22 @@ ScalarProfile forces_along_guide(const MotionConfig& config) {
 }  // namespace
 
 Vec3 guide_of(const MotionConfig& config) {
-  Vec3 largest = Vec3::Zero();
-  for (const Vec3& force : config.forces)
-    if (force.norm() > largest.norm()) largest = force;
+  Vec3 largest = config.guide;
+  if (largest.isZero(0))
+    for (const Vec3& force : config.forces)
+      if (force.norm() > largest.norm()) largest = force;
   if (largest.isZero(0)) largest = config.initial_velocity;
   return largest.isZero(0) ? largest : Vec3(largest.stableNormalized());
 }
 bool goes_along(const Vec3& given, const Vec3& guide) { return (given - given.dot(guide) * guide).norm() <= 1e-12 * given.norm(); }
 
 double Drive::free_speed(double t, double kick) const {
-  return inverse_mass(kick) * (kept(kick) * mass_ * momentum_ + kick * force(t));
+  return inverse_mass(kick) * (kept(kick) * mass_ * momentum_ + kick * (force(t) + damping_ * mass_ * spring_.end_speed(t - began_)));
 }
 
 double Drive::inverse_mass(double kick) const { return 1 / (mass_ * (kept(kick) + 2 * braking(kick))); }
+
+double Drive::stable_step() const { return spring_.stiffness > 0 ? 2 / std::sqrt(spring_.stiffness / mass_) : std::numeric_limits<double>::infinity(); }
 
 void Drive::take_step(double t, double kick, double dt, double push, double answer) {
   const double free = free_speed(t, kick);
@@ -59,7 +63,15 @@ void Drive::take_step(double t, double kick, double dt, double push, double answ
 }
 
 ForceDrive::ForceDrive(const MotionConfig& config)
-    : Drive(forces_along_guide(config), config.mass, config.damping, config.initial_velocity.dot(guide_of(config))), guide_(guide_of(config)) {}
+    : Drive(forces_along_guide(config), config.mass, config.damping, config.initial_velocity.dot(guide_of(config))), guide_(guide_of(config)) {
+  if (config.stiffness > 0) tie_to({config.stiffness, RigidMotion(config, 3), guide_});
+}
+
+Pose ForceDrive::placed(Pose told, double way, double speed) const {
+  told.translation += (way - told.translation.dot(guide_)) * guide_;
+  told.velocity += (speed - told.velocity.dot(guide_)) * guide_;
+  return told;
+}
 
 void ForceDrive::take(double t, double kick, double dt, double push, double answer) {
   take_step(t, kick, dt, push, answer);

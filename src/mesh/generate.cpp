@@ -5,6 +5,7 @@
 #include "forming_sim/config/fault.h"
 #include "forming_sim/mesh/split.h"
 #include "generate_bar.h"
+#include "generate_tube.h"
 
 namespace forming_sim {
 namespace {
@@ -21,6 +22,10 @@ double length_of(const char* field, double value) {
 int count_of(const char* field, int value, int least = 1) {
   if (value < least) refuse(field, std::to_string(value), "at least " + std::to_string(least) + " is needed");
   return value;
+}
+
+void check_portion(const std::string& portion) {
+  if (portion != "full" && portion != "half" && portion != "quarter") refuse("portion", "\"" + portion + "\"", "full, half or quarter is needed");
 }
 
 // Corners of a grid of nx * ny * nz cells (nz = 0: flat), x fastest.
@@ -66,13 +71,6 @@ Mesh generate_strip(const BlankConfig& blank, CellKind kind) {
   return mesh;
 }
 
-/// By so many quarter turns about the third direction the corners of a cell of a plate are numbered on: 0, 1, 2, 3 in the quarters of its face, one after the other. A face that
-/// stays whole is divided as the tetrahedra of hex6 are, from its first corner on, and diagonals that all run one way let what is symmetric drift in contact: these mirror about both middles of the plate.
-int quarter_of(int i, int j, int nx, int ny) {
-  const bool right = 2 * i >= nx, behind = 2 * j >= ny;
-  return behind ? (right ? 2 : 3) : (right ? 1 : 0);
-}
-
 Mesh generate_plate(const BlankConfig& blank, CellKind kind) {
   const Vec3 extent(length_of("length", blank.length), length_of("width", blank.width),
                     length_of("thickness", blank.thickness));
@@ -85,7 +83,7 @@ Mesh generate_plate(const BlankConfig& blank, CellKind kind) {
     for (int j = 0; j < grid.ny; ++j)
       for (int i = 0; i < grid.nx; ++i) {
         Hex hex;
-        const int turn = kind == CellKind::hex1 ? quarter_of(i, j, grid.nx, grid.ny) : 0;
+        const int turn = kind == CellKind::hex1 ? quarter_of(2 * i >= grid.nx, 2 * j >= grid.ny) : 0;
         for (int up = 0; up < 2; ++up) {
           const int corners[4] = {grid.node(i, j, k + up), grid.node(i + 1, j, k + up), grid.node(i + 1, j + 1, k + up), grid.node(i, j + 1, k + up)};
           for (int a = 0; a < 4; ++a) hex[4 * up + a] = corners[(a + turn) % 4];
@@ -118,11 +116,22 @@ Mesh generate_blank(const BlankConfig& blank) {
     length_of("radius", blank.radius);
     count_of("cells_along", blank.cells_along);
     count_of("cells_radius", blank.cells_radius, 2);
-    if (blank.portion != "full" && blank.portion != "half" && blank.portion != "quarter")
-      refuse("portion", "\"" + blank.portion + "\"", "full, half or quarter is needed");
+    check_portion(blank.portion);
     mesh = generate_bar(blank, solid);
+  } else if (blank.shape == "tube") {
+    length_of("length", blank.length);
+    if (!(length_of("thickness", blank.thickness) < length_of("radius", blank.radius)))
+      refuse("thickness", std::to_string(blank.thickness), "a wall thinner than the radius, " + std::to_string(blank.radius) + " m, is needed");
+    count_of("cells_along", blank.cells_along);
+    count_of("cells_through", blank.cells_through);
+    count_of("cells_around", blank.cells_around, 3);
+    check_portion(blank.portion);
+    const int parts = blank.portion == "full" ? 1 : blank.portion == "half" ? 2 : 4;
+    if (blank.cells_around % parts != 0)
+      refuse("cells_around", std::to_string(blank.cells_around), "so many go around the whole circle: a multiple of " + std::to_string(parts) + " is needed for portion " + blank.portion);
+    mesh = generate_tube(blank, solid);
   } else {
-    refuse("shape", "\"" + blank.shape + "\"", "strip, plate or bar is needed");
+    refuse("shape", "\"" + blank.shape + "\"", "strip, plate, bar or tube is needed");
   }
   find_surface(mesh);
   check_volumes(mesh);

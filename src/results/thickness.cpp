@@ -44,6 +44,14 @@ int nearest_node(const NodeTree& tree, const Vec3& point) {
   return nearest.index;
 }
 
+using Side = std::map<std::string, std::vector<int>>::const_iterator;
+/// The two sides that its thickness is between.
+std::pair<Side, Side> sides_of_sheet(const Mesh& mesh) {
+  const Side inside = mesh.sets.find("inside"), outside = mesh.sets.find("outside");
+  if (inside != mesh.sets.end() && outside != mesh.sets.end()) return {inside, outside};
+  return {mesh.sets.find("bottom"), mesh.sets.find("top")};
+}
+
 }  // namespace
 
 /// The bottom of a sheet at these positions.
@@ -81,7 +89,7 @@ Thickness::Thickness(const Model& model) {
     const Mesh& mesh = body.mesh;
     const std::vector<Vec3>& reference = body.reference();
     for (const Vec3& X : reference) start.push_back(node(X));
-    const auto top = mesh.sets.find("top"), bottom = mesh.sets.find("bottom");
+    const auto [bottom, top] = sides_of_sheet(mesh);
     if (top == mesh.sets.end() || bottom == mesh.sets.end() || top->second.empty()) continue;
     Sheet sheet;
     sheet.body = static_cast<int>(&body - model.bodies.data());
@@ -130,7 +138,7 @@ Thickness::Thickness(const Model& model) {
 bool Thickness::find_overhangs(const Model& model, const NodeField& start, Sheet& sheet) const {
   constexpr double kNearBelow = 0.5;  // thicknesses
   const BodyModel& body = model.bodies[sheet.body];
-  const std::vector<int>& top = body.mesh.sets.at("top");
+  const std::vector<int>& top = sides_of_sheet(body.mesh).second->second;
   const auto place = [&](int n) -> const Node& { return start[sheet.first_node + n]; };
   NodeField outward(body.mesh.nodes.size(), Node::Zero());
   for (const Facet& facet : body.mesh.surface) {

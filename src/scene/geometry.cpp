@@ -19,6 +19,7 @@
 #include "forming_sim/mesh/sweep.h"
 #include "forming_sim/mesh/trim.h"
 #include "forming_sim/parallel/interrupt.h"
+#include "approach.h"
 #include "formed_body.h"
 #include "rules.h"
 
@@ -346,6 +347,7 @@ Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known) {
   if (known.empty()) tell_odd_values(scene, geometry.model.notes);
   for (std::size_t i = 0; i < bodies.size(); ++i) add_body(scene.bodies[i], std::move(bodies[i]), std::move(formed[i]), geometry.model);
   for (std::size_t i = 0; i < tools.size(); ++i) geometry.model.tools.push_back(tool_model(scene.tools[i], std::move(tools[i])));
+  if (known.empty() && geometry.faults.empty()) approach_tools(scene, geometry.model, geometry.faults);
   return geometry;
 }
 

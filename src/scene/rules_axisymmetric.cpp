@@ -24,6 +24,7 @@ class Rules {
     faults_.each(motion.velocities, [&](std::size_t i) { along_axis(motion.velocities[i], join_path(path + ".velocities", i), remedy); });
     faults_.each(motion.forces, [&](std::size_t i) { along_axis(motion.forces[i], join_path(path + ".forces", i), remedy); });
     along_axis(motion.initial_velocity, path + ".initial_velocity", remedy);
+    along_axis(motion.guide, path + ".guide", remedy);
     no_turn(motion.axle, path + ".axle");
     faults_.each(motion.rotations_deg, [&](std::size_t i) { no_turn(motion.rotations_deg[i], join_path(path + ".rotations_deg", i)); });
     faults_.each(motion.spins_deg_s, [&](std::size_t i) { no_turn(motion.spins_deg_s[i], join_path(path + ".spins_deg_s", i)); });
@@ -56,6 +57,8 @@ void check_axisymmetric(const Scene& scene, FaultList& faults) {
       no_turns(body.boundaries[k].rotations_deg, ".rotations_deg");
     }
   }
+  for (std::size_t i = 0; i < scene.tools.size(); ++i)
+    if (scene.tools[i].approach) rules.along_axis(scene.tools[i].approach->along, tool_path(i) + ".approach.along", "give [0, y, 0]: a rigid ring moves along the axis y only");
   for (std::size_t i = 0; i < scene.tools.size(); ++i)
     if (scene.tools[i].motion) rules.motion(*scene.tools[i].motion, tool_path(i) + ".motion");
   for (std::size_t i = 0; i < scene.stages.size(); ++i)

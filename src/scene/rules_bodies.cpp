@@ -11,7 +11,9 @@ namespace forming_sim {
 std::vector<std::string> predefined_sets(const BlankConfig& blank) {
   if (blank.shape == "strip") return {"left", "right", "bottom", "top"};
   if (blank.shape == "plate") return {"left", "right", "front", "back", "bottom", "top"};
-  std::vector<std::string> sets{"bottom", "top", "side"};
+  std::vector<std::string> sets{"bottom", "top"};
+  if (blank.shape == "tube") sets.insert(sets.end(), {"inside", "outside"});
+  else sets.push_back("side");
   if (blank.portion != "full") sets.push_back("symmetry_x");
   if (blank.portion == "quarter") sets.push_back("symmetry_y");
   return sets;
@@ -51,9 +53,14 @@ void check_source(const BodyConfig& body, const std::string& path, int dimension
   if (!body.blank) return;
   const BlankConfig& blank = *body.blank;
   const bool flat = blank.shape == "strip";
-  const bool known = flat || blank.shape == "plate" || blank.shape == "bar";
+  const bool known = flat || blank.shape == "plate" || blank.shape == "bar" || blank.shape == "tube";
   if (known && dimension == 2 && !flat) faults.add(path + ".blank.shape", given_text(blank.shape), "give strip, the blank of dimension 2, or set dimension to 3");
-  if (known && dimension == 3 && flat) faults.add(path + ".blank.shape", given_text(blank.shape), "give plate or bar, the blanks of dimension 3, or set dimension to 2");
+  if (known && dimension == 3 && flat) faults.add(path + ".blank.shape", given_text(blank.shape), "give plate, bar or tube, the blanks of dimension 3, or set dimension to 2");
+  if (blank.shape == "tube") {
+    if (blank.radius > 0 && blank.thickness >= blank.radius) faults.add(path + ".blank.thickness", given_text(blank.thickness), "give less than the radius, " + number_text(blank.radius) + " m: it is the wall's");
+    const int parts = blank.portion == "half" ? 2 : blank.portion == "quarter" ? 4 : 1;
+    if (blank.cells_around % parts != 0) faults.add(path + ".blank.cells_around", std::to_string(blank.cells_around), "give a multiple of " + std::to_string(parts) + " with portion " + blank.portion + ": so many go around the whole circle");
+  }
   constexpr double most = 2e7;  // about 10 GB of state
   if (known && simplices_of(blank) > most) {
     faults.add(path + ".blank", number_text(simplices_of(blank)) + " elements", "give fewer cells: at most " + number_text(most) + " elements to a body");

@@ -76,6 +76,7 @@ double simplices_of(const BlankConfig& blank) {
   const double along = blank.cells_along, radius = blank.cells_radius;
   if (blank.shape == "strip") return along * blank.cells_through * (fine ? 4 : 2);
   if (blank.shape == "plate") return along * blank.cells_across * blank.cells_through * (fine ? 24 : 6);
+  if (blank.shape == "tube") return along * blank.cells_around * blank.cells_through * (fine ? 24 : 6);  // at most: of the whole circle
   const double share = blank.portion == "quarter" ? 1 : blank.portion == "half" ? 2 : 4;
   return along * radius * radius * share * (fine ? 24 : 6);  // at most: a quarter has radius^2 cells or fewer
 }

@@ -80,17 +80,19 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
   }
   const Vec3 guide = guide_of(motion);
   if (!motion.forces.empty() && guide.isZero(0))
-    faults.add(path + ".forces", "no force other than 0, and no initial_velocity", "give one of them; a tool without either rests, and needs no motion");
+    faults.add(path + ".forces", "no force other than 0, no guide and no initial_velocity", "give one of them; a tool without any rests, and needs no motion");
   if (guide.allFinite() && motion.initial_velocity.allFinite() && !goes_along(motion.initial_velocity, guide))
-    faults.add(path + ".initial_velocity", given_text(motion.initial_velocity), "give it along the line of the forces: on that the tool is guided");
-  if (motion.by_force() && guide.allFinite() && !guide.isZero(0)) {
+    faults.add(path + ".initial_velocity", given_text(motion.initial_velocity), "give it along the guide, which goes along the forces where none is given");
+  if (motion.stiffness > 0 && guide.allFinite() && !motion.positions.empty() && motion.positions.front().dot(guide) != 0)
+    faults.add(path + ".positions[0]", given_text(motion.positions.front()) + ", in part along the guide", "give 0 along the guide at first, where the tool stands and its spring is slack: what it is pressed with there is told in forces");
+  if (motion.by_force() && motion.stiffness == 0 && guide.allFinite() && !guide.isZero(0)) {
     constexpr double kAlong = 1e-6;  // of the longest: paths of robots are rounded
     const auto across = [&](const std::vector<Vec3>& values, const char* field) {
       double longest = 0;
       for (const Vec3& value : values) longest = std::max(longest, value.norm());
       faults.each(values, [&](std::size_t i) {
         if (std::abs(values[i].dot(guide)) > kAlong * longest)
-          faults.add(join_path(path + "." + field, i), given_text(values[i]) + ", in part along the line of the forces", "give what goes across that line alone: along it the tool goes where its forces and the bodies push it");
+          faults.add(join_path(path + "." + field, i), given_text(values[i]) + ", in part along the guide of the tool", "give what goes across that alone, or a stiffness: along it the tool goes where its forces and the bodies push it");
       });
     };
     across(motion.positions, "positions");
@@ -98,7 +100,22 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
   }
   faults.each(motion.forces, [&](std::size_t i) {
     if (motion.forces[i].allFinite() && guide.allFinite() && !goes_along(motion.forces[i], guide))
-      faults.add(join_path(path + ".forces", i), given_text(motion.forces[i]), "give all forces along one line: on that the tool is guided");
+      faults.add(join_path(path + ".forces", i), given_text(motion.forces[i]), "give all forces along one line, the guide, if one is given");
+  });
+}
+
+}  // namespace
+
+namespace {
+
+void check_approach(const Scene& scene, std::size_t i, FaultList& faults) {
+  const ApproachConfig& approach = *scene.tools[i].approach;
+  std::vector<std::string> names;
+  for (const BodyConfig& body : scene.bodies) names.push_back(body.name);
+  for (std::size_t k = 0; k < i; ++k) names.push_back(scene.tools[k].name);
+  faults.each(approach.to, [&](std::size_t k) {
+    if (std::find(names.begin(), names.end(), approach.to[k]) == names.end())
+      faults.add(join_path(tool_path(i) + ".approach.to", k), given_text(approach.to[k]), "give a body, or a tool before this one in the list: " + one_of(names, ", ") + did_you_mean(approach.to[k], names));
   });
 }
 
@@ -111,6 +128,7 @@ void check_tools(const Scene& scene, FaultList& faults) {
     check_source(tool, tool_path(i), scene.dimension, faults);
     if (tool.motion && tool.motion->by_force() && scene.contact.method != "implicit")
       faults.add(tool_path(i) + ".motion.kind", "force, with contact.method " + given_text(scene.contact.method), "set contact.method to implicit: only that finds how fast the tool goes together with what presses on it");
+    if (tool.approach) check_approach(scene, i, faults);
     if (!tool.motion) continue;
     const std::string axle = tool_path(i) + ".motion.axle";
     const Vec3& along = tool.motion->axle;

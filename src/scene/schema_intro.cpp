@@ -49,6 +49,7 @@ pressures, loads and probes name sets of its nodes:
 | `strip` (dimension 2) | `left`, `right` (least and greatest x), `bottom`, `top` (least and greatest y) |
 | `plate` | `left`, `right` (x), `front`, `back` (y), `bottom`, `top` (z) |
 | `bar` | `bottom`, `top` (least and greatest z), `side`; `symmetry_x` (x = 0; half and quarter), `symmetry_y` (y = 0; quarter) |
+| `tube` | `bottom`, `top` (least and greatest z), `inside`, `outside`; `symmetry_x`, `symmetry_y` as a bar |
 | `.msh` file | its physical groups by their names |
 
 A rolled sheet yields by the direction: `anisotropy` takes its r values (Hill's yield stress of 1948), the rolling direction and the normal of the sheet,
@@ -62,7 +63,7 @@ through all operations; with the `critical` value of the metal a run says when a
 A fast flow raises the yield stress with `rate_dependence`: after Cowper and Symonds, Johnson and Cook, or a power of the plastic strain rate. A scene whose tools
 move faster than in the press, to take fewer steps, says how many times with `speed_up`.
 
-More sets are chosen by a plane, a box, a cylinder or a sphere under `sets`. In a mesh file, name two sets `bottom` and `top` to have the
+More sets are chosen by a plane, a box, a cylinder or a sphere under `sets`. In a mesh file, name two sets `bottom` and `top`, or of a tube `inside` and `outside`, to have the
 thickness of the sheet and its thinning in the results.
 
 A boundary of kind `velocity` moves a set as a rigid body would: with `velocities`, about a `centre` with `spins_deg_s`, or
@@ -104,17 +105,21 @@ In dimension 3 a profile lies in the x-z plane, looked at along y with z upwards
 ```
 
 A tool that touches a body at the start is backed off by what the contact layer needs, and the run says by how much; a
-body that starts inside a tool is refused. The motion of a tool is a trajectory (where it is at given times, from
+body that starts inside a tool is refused. A tool with an `approach` is put where it first touches the bodies (or a `gap` before that) when it comes from
+far away along a line, wherever its position is on that: `approach: {along: [0, 0, -1]}` lays a holder or a punch on a sheet, or on a formed part whose height nobody knows, and strokes count from there.
+A tool that is needed again when it has been withdrawn is listed twice, the second time under another name, out of the way and with `since` in its motion. The motion of a tool is a trajectory (where it is at given times, from
 where it stands at the start), a velocity, or a force, and with an `axle` it turns freely beside that. Without a motion it rests. A press
 that stops under its force has a way and a `stop_force`.
 
-A tool of kind `force` is a blank holder: guided along the line of its force, it goes where the force and the bodies push it,
+A tool of kind `force` is a blank holder: guided along the line of its force (or a `guide`), it goes where the force and the bodies push it,
 and yields as a flange thickens. Its force is all that acts on it: gravity does not. How fast it goes is found together with the forces of
 contact, so that it may be light, down to a thousandth of the mass of the bodies (what is lighter is refused);
 a light one follows at once, a heavy one takes time to start and to stop, and on a sheet that slides it may begin to swing (the run tells it, and the `damping` that ends it). Let the force rise smoothly, and lay the holder on the blank:
 what falls on it rattles. A set that is held rigidly does not stop it, but ends the run: keep it off what is clamped.
 With an `initial_velocity` and its own `mass` it is a hammer: what it has lost when it flies back went into the bodies, as `work`. Its weight is one of its forces.
 Its place is in `history.csv`. A `withdraw` stage takes it away like any other tool, from rest where it has come to.
+On a spring (`stiffness`) it pushes the more the farther it is pushed back, as a gas spring does: `{kind: force, times: [0], forces: [[0, 0, 2e3]], stiffness: 5e4}` is 2 kN
+at the start and 50 N more a millimetre. `positions` or `velocities` along the guide take the other end of the spring along: a tool that is driven, but yields.
 A robot that presses a roll on an edge and drives it along is one too: its `forces` go along one line, and its `positions` and `rotations_deg`, or `velocities` and
 `spins_deg_s`, take it across that:
 
@@ -206,7 +211,7 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | `plastic_strain` | the largest equivalent plastic strain and where it is |
 | `damage` | of each body whose material has it the criterion, its unit, the largest of its elements at the end with its place, and the `critical` value |
 | `surface_strain` | the largest principal logarithmic strain on the surface; faces in planes of symmetry are none |
-| `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom` |
+| `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom`, where a body has them of `outside` from `inside` |
 | `thinning` | the largest 1 - t/t0 of a node of `top`, t its thickness, t0 that of the start, of a formed part that of its blank; where and when it is |
 | `bodies` | for each body: name, mass (that of the solver, with what `mass_scaling` and `raise_to` add), centre, momentum, angular momentum about the origin, `bounding_box` (`min`, `max`) |
 | `tools` | for each tool: name and the vector of its peak force (axisymmetric: along the axis, and `peak_radial_force` outward, summed around the circle), of means over some 50 steps: shorter peaks are in `history.csv`, as means from row to row; their `unit`; `peak_moment` likewise, about the place of the tool at that time (in its `moment_unit`; null in an axisymmetric scene); `turned_deg`, of a tool with an axle, about that; `position` and `orientation_xyzw` (a quaternion) at the end, whether it is `present` then, and `stopped_s`, when it stopped under its `stop_force` |

@@ -48,7 +48,7 @@ void StageRunner::begin(double t) {
     if (!present_[k] || !leaves(stages_[index_], static_cast<int>(k))) continue;
     const Vec3& displacement = stages_[index_].displacement;
     Pose from = motions_[k].at(t);
-    if (const ForceDrive* by = drive(static_cast<int>(k))) from.translation += by->way();
+    if (const ForceDrive* by = drive(static_cast<int>(k))) from = by->placed(from, by->gone(), by->speed());
     if (state_[k] == begun) state_[k] = withdrawn;
     stop_force_[k] = 0;
     present_[k] = !displacement.isZero();
@@ -83,10 +83,7 @@ double StageRunner::progress(double t) const {
 
 Pose StageRunner::pushed(int tool, double t, double way, double speed, double angle, double spin) const {
   Pose pose = motions_[tool].at(t);
-  if (const ForceDrive* by = drive(tool)) {
-    pose.translation += way * by->guide();
-    pose.velocity += speed * by->guide();
-  }
+  if (const ForceDrive* by = drive(tool)) pose = by->placed(pose, way, speed);
   if (!axle(tool)) return pose;
   const Vec3& a = axle(tool)->axle();
   return turned_about(a, angle, spin - pose.spin.dot(pose.rotation * a), pose);

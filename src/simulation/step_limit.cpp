@@ -34,6 +34,9 @@ void Simulation::Impl::choose_dt() {
   limit.node = control.node;
   limit.reason = control.element < 0 && control.node < 0 ? "the whole mesh" : "";
   if (config.maximum > 0 && config.maximum < dt) dt = config.maximum, limit = {dt, -1, -1, "time_step.maximum"};
+  for (int k = 0; k < static_cast<int>(tools.size()); ++k)
+    if (const ForceDrive* drive = stages.drive(k); drive && config.safety * drive->stable_step() < dt)
+      dt = config.safety * drive->stable_step(), limit = {dt, -1, -1, "the stiffness of tool " + model.tools[k].name};
   if (steps == 0) first_dt = dt;
   if (smallest.dt == 0 || limit.dt < smallest.dt) smallest = limit;
   const double left = stages.remaining(time), count = std::ceil(left / dt * (1 - 1e-9));

@@ -29,6 +29,8 @@ template <class Answer> void steps(ForceDrive& drive, double dt, int count, cons
   }
 }
 
+Vec3 velocity(const ForceDrive& drive) { return drive.speed() * drive.guide(); }
+
 const auto nothing = [](double) { return 0.0; };
 
 }  // namespace
@@ -39,21 +41,21 @@ TEST(LoadsForceDrive, AloneItFallsAsItsForceSays) {
   EXPECT_LT((drive.guide() - Vec3(-0.6, 0.8, 0)).norm(), 1e-15);
   steps(drive, 1e-5, 400, nothing);
   EXPECT_LT((drive.way() - 0.5 * force / 2.5 * std::pow(400e-5, 2)).norm(), 1e-12 * drive.way().norm());
-  EXPECT_LT((drive.velocity() - force / 2.5 * 399.5e-5).norm(), 1e-12 * drive.velocity().norm());
+  EXPECT_LT((velocity(drive) - force / 2.5 * 399.5e-5).norm(), 1e-12 * velocity(drive).norm());
 }
 
 TEST(LoadsForceDrive, AHammerFliesWithWhatItStartsWith) {
   MotionConfig config = pushing({Vec3::Zero()}, 2.5);
   config.initial_velocity = Vec3(0, -6, 0);
   ForceDrive flies(config);
-  EXPECT_EQ(flies.velocity(), Vec3(0, -6, 0));
+  EXPECT_EQ(velocity(flies), Vec3(0, -6, 0));
   steps(flies, 1e-5, 400, nothing);
   EXPECT_LT((flies.way() - Vec3(0, -6 * 400e-5, 0)).norm(), 1e-15);
   config.forces = {Vec3(0, 2.5 * 9.81, 0)};  // it is thrown up against its weight, seen along the weight
   config.initial_velocity = Vec3(0, -6, 0);
   ForceDrive braked(config);
   steps(braked, 1e-5, 400, nothing);
-  EXPECT_NEAR(braked.velocity().y(), -6 + 9.81 * 399.5e-5, 1e-12);
+  EXPECT_NEAR(velocity(braked).y(), -6 + 9.81 * 399.5e-5, 1e-12);
   config.initial_velocity = Vec3(1, -6, 0);
   EXPECT_THROW(ForceDrive{config}, Error);
   config = pushing({Vec3::Zero()}, 2.5);
@@ -65,7 +67,7 @@ TEST(LoadsForceDrive, ItsGuideTakesSpeed) {
   config.damping = 500;
   ForceDrive drive(config);
   steps(drive, 1e-4, 1000, nothing);
-  EXPECT_NEAR(drive.velocity().x(), 8 / (500. * 2), 1e-14);
+  EXPECT_NEAR(velocity(drive).x(), 8 / (500. * 2), 1e-14);
 }
 
 // What holds it still bears its force, whatever its guide takes.
@@ -97,7 +99,7 @@ TEST(LoadsForceDrive, NoImpulseIsLost) {
     t += dt;
   }
   EXPECT_GT(std::abs(sum), 1e-5);
-  EXPECT_NEAR(drive.velocity().x() * mass, sum, 1e-14);
+  EXPECT_NEAR(velocity(drive).x() * mass, sum, 1e-14);
 }
 
 namespace {
@@ -134,6 +136,49 @@ TEST(LoadsForceDrive, OneAfterTheOtherItFeedsTheSwing) {
     EXPECT_NEAR(together, 1, 0.05) << mass;
     EXPECT_FALSE(staggered < 100) << mass;
   }
+}
+
+// Let go where its spring is not slack it swings about where that bears its force: x = F/K (1 - cos(omega t)).
+TEST(LoadsForceDrive, ASpringHoldsItWhereItBearsItsForce) {
+  MotionConfig config = pushing({Vec3(0, 0, -600)}, 2);
+  config.stiffness = 8e4;  // omega = 200/s
+  ForceDrive drive(config);
+  EXPECT_DOUBLE_EQ(drive.stable_step(), 2 / 200.);
+  double farthest = 0;
+  for (int n = 0; n < 4000; ++n) {
+    const double dt = 1e-5, t = n * dt, kick = n == 0 ? dt / 2 : dt;
+    drive.take(t, kick, dt, 0, 0);
+    EXPECT_NEAR(drive.gone(), 600 / 8e4 * (1 - std::cos(200 * (t + dt))), 1e-5 * 600 / 8e4);  // of second order in omega dt = .002
+    farthest = std::max(farthest, drive.gone());
+  }
+  EXPECT_NEAR(farthest, 2 * 600 / 8e4, 1e-8);
+  config.damping = 400;  // critical
+  ForceDrive rests(config);
+  steps(rests, 1e-5, 20000, nothing);
+  EXPECT_NEAR(rests.gone(), 600 / 8e4, 1e-12);
+  EXPECT_NEAR(rests.force(0.2), 0, 1e-6);
+}
+
+TEST(LoadsForceDrive, TheOtherEndOfItsSpringTakesItAlong) {
+  MotionConfig config = pushing({Vec3::Zero(), Vec3::Zero()}, 2);
+  config.guide = Vec3(0, 0, -3);
+  config.stiffness = 8e4;
+  config.damping = 400;
+  config.profile = "linear";
+  config.times = {0, 1};
+  config.velocities = {Vec3(0.5, 0, -0.25), Vec3(0.5, 0, -0.25)};
+  ForceDrive drive(config);
+  EXPECT_EQ(drive.guide(), Vec3(0, 0, -1));
+  steps(drive, 1e-5, 20000, nothing);
+  // A damping against the end's speed lets the spring be slack once both go alike.
+  EXPECT_NEAR(drive.gone(), 0.25 * 0.2, 1e-9);
+  EXPECT_NEAR(drive.speed(), 0.25, 1e-9);
+  Pose told;
+  told.translation = Vec3(0.1, 0, -0.05);
+  told.velocity = Vec3(0.5, 0, -0.25);
+  const Pose placed = drive.placed(told, 0.04, 0.2);
+  EXPECT_LT((placed.translation - Vec3(0.1, 0, -0.04)).norm(), 1e-16);
+  EXPECT_LT((placed.velocity - Vec3(0.5, 0, -0.2)).norm(), 1e-15);
 }
 
 TEST(LoadsForceDrive, RefusesWhatIsNoForceAlongALine) {

@@ -1,5 +1,7 @@
 // Generated blanks: volumes, conforming cells, sets.
+#include <array>
 #include <cmath>
+#include <set>
 
 #include "forming_sim/mesh/generate.h"
 #include "mesh/mesh_test_tools.h"
@@ -151,6 +153,82 @@ TEST(MeshGenerate, CellsOfABarAreWellShaped) {
       }
 }
 
+BlankConfig tube(const std::string& portion, int around) {
+  BlankConfig b;
+  b.shape = "tube";
+  b.origin = {1, 2, 3};
+  b.radius = .1, b.thickness = .02, b.length = .5, b.portion = portion, b.cells_around = around, b.cells_along = 3, b.cells_through = 2;
+  return b;
+}
+
+class Tube : public testing::TestWithParam<std::tuple<const char*, const char*, int>> {};
+
+TEST_P(Tube, FillsItsWallAndItsSetsAreItsSides) {
+  const auto [portion, pattern, around] = GetParam();
+  BlankConfig b = tube(portion, around);
+  b.pattern = pattern;
+  const bool full = b.portion == "full", quarter = b.portion == "quarter";
+  const double share = full ? 1 : quarter ? .25 : .5;
+  if (std::fmod(around * share, 1) != 0) {
+    EXPECT_TRUE(has(error_of([&] { generate_blank(b); }, Code::invalid_scene), "blank.cells_around: given"));
+    return;
+  }
+  const Mesh mesh = generate_blank(b);
+  const double turn = 2 * M_PI / around, sides = around * share, r = b.radius, i = b.radius - b.thickness;
+  const double section = sides * (r * r - i * i) * std::sin(turn) / 2, outline = sides * 2 * (r + i) * std::sin(turn / 2) + (full ? 0 : 2 * b.thickness);
+  EXPECT_NEAR(volume(mesh), section * b.length, 1e-12 * b.length);
+  const double whole = 2 * section + outline * b.length;
+  EXPECT_LT(sum_of_areas(mesh).norm(), 1e-12 * whole);
+  if (full || b.pattern != "fine") { EXPECT_NEAR(area(mesh), whole, 1e-9 * whole); }
+  EXPECT_NEAR(enclosed(mesh), volume(mesh), 1e-9 * volume(mesh));
+  EXPECT_EQ(euler_characteristic(mesh), full ? 0 : 2);
+  EXPECT_EQ(mesh.sets.size(), full ? 4u : quarter ? 6u : 5u);
+  const auto expect_set = [&](const char* name, auto&& there) {
+    std::vector<int> expected;
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+      if (there(Vec3(mesh.nodes[n] - b.origin))) expected.push_back(int(n));
+    EXPECT_EQ(mesh.sets.at(name), expected) << name;
+    EXPECT_FALSE(expected.empty());
+  };
+  const double chord = std::cos(turn / 2) * (1 - 1e-9);
+  expect_set("bottom", [](const Vec3& x) { return std::abs(x.z()) < 1e-12; });
+  expect_set("top", [&](const Vec3& x) { return std::abs(x.z() - b.length) < 1e-12; });
+  if (around > 8) {  // where chords do not cut into the layer below
+    expect_set("outside", [&](const Vec3& x) { return x.head<2>().norm() > r * chord; });
+    expect_set("inside", [&](const Vec3& x) { return x.head<2>().norm() < i * (1 + 1e-9); });
+  }
+  if (!full) expect_set("symmetry_x", [](const Vec3& x) { return x.x() == 0; });
+  if (quarter) expect_set("symmetry_y", [](const Vec3& x) { return x.y() == 0; });
+}
+
+INSTANTIATE_TEST_SUITE_P(MeshGenerate, Tube,
+                         testing::Combine(testing::Values("full", "half", "quarter"), testing::Values("fine", "coarse", "one_point"), testing::Values(3, 8, 14, 20)));
+
+TEST(MeshGenerate, WholeFacesOfATubeMirrorAboutItsPlanesOfSymmetry) {
+  BlankConfig b = tube("full", 16);
+  b.origin.setZero();
+  b.cells_along = 4;
+  b.pattern = "one_point";
+  const Mesh mesh = generate_blank(b);
+  std::set<std::array<long, 9>> facets;
+  const auto key = [](const Mesh& m, const Facet& facet, const Vec3& flip, double shift) {
+    std::array<std::array<long, 3>, 3> corners;
+    for (int c = 0; c < 3; ++c)
+      for (int k = 0; k < 3; ++k) corners[c][k] = std::lround(1e9 * (flip[k] * m.nodes[facet.nodes[c]][k] + (k == 2 ? shift : 0)));
+    std::sort(corners.begin(), corners.end());
+    std::array<long, 9> all;
+    for (int c = 0; c < 3; ++c) std::copy(corners[c].begin(), corners[c].end(), all.begin() + 3 * c);
+    return all;
+  };
+  for (const Facet& facet : mesh.surface) facets.insert(key(mesh, facet, {1, 1, 1}, 0));
+  for (const Facet& facet : mesh.surface) {
+    EXPECT_EQ(facets.count(key(mesh, facet, {-1, 1, 1}, 0)), 1u);
+    EXPECT_EQ(facets.count(key(mesh, facet, {1, -1, 1}, 0)), 1u);
+    // The ends have no mirrored diagonals of their own: they lie on the mirrored ones.
+    EXPECT_EQ(facets.count(key(mesh, facet, {1, 1, -1}, b.length)), 1u);
+  }
+}
+
 TEST(MeshGenerate, NonsenseIsRefusedByItsField) {
   const auto refused = [](BlankConfig b) { return error_of([&] { generate_blank(b); }, Code::invalid_scene); };
   BlankConfig b = strip();
@@ -172,6 +250,11 @@ TEST(MeshGenerate, NonsenseIsRefusedByItsField) {
   EXPECT_TRUE(has(refused(b), "\"third\""));
   b = bar("full", 1);
   EXPECT_TRUE(has(refused(b), "blank.cells_radius: given 1"));
+  b = tube("full", 2);
+  EXPECT_TRUE(has(refused(b), "blank.cells_around: given 2"));
+  b = tube("full", 8);
+  b.thickness = b.radius;
+  EXPECT_TRUE(has(refused(b), "blank.thickness: given 0.1"));
   b.shape = "cone";
   EXPECT_TRUE(has(refused(b), "\"cone\""));
 }

@@ -17,6 +17,30 @@ from scene_run import ALUMINIUM, OFFLINE, SceneRun, body, scene
 
 
 class Features(SceneRun):
+    def test_a_tube_under_pressure_widens_as_lame_says(self):
+        inner, outer, pressure, modulus = 9e-3, 10e-3, 1e7, 70.5e9
+        for portion, pattern in (('quarter', 'fine'), ('half', 'one_point')):
+            tube = {'name': 'tube', 'blank': {'shape': 'tube', 'radius': outer, 'thickness': outer - inner, 'length': 4e-3, 'portion': portion, 'pattern': pattern,
+                                              'cells_around': 64, 'cells_along': 4, 'cells_through': 2},
+                    'material': dict(ALUMINIUM, youngs_modulus=modulus, poissons_ratio=0.3),
+                    'boundaries': [{'set': 'symmetry_x', 'kind': 'symmetric', 'normal': [1, 0, 0]}, {'set': 'bottom', 'kind': 'symmetric', 'normal': [0, 0, 1]}],
+                    'pressures': [{'set': 'inside', 'times': [0, 1e-4], 'values': [0, pressure], 'profile': 'smooth'}]}
+            if portion == 'quarter':
+                tube['boundaries'].append({'set': 'symmetry_y', 'kind': 'symmetric', 'normal': [0, 1, 0]})
+            else:
+                tube['sets'] = [{'name': 'line', 'choose': 'plane', 'point': [0, 0, 0], 'normal': [0, 1, 0]}]
+                tube['boundaries'].append({'set': 'line', 'kind': 'fixed', 'axes': ['y']})
+            data = scene(tube, dimension=3, duration=1e-4, output={'frames': 1, 'probes': [{'name': 'out', 'point': [outer, 0, 2e-3]}]})
+            data['stages'].append({'kind': 'settle', 'limit': 2e-3, 'kinetic_fraction': 1e-8})
+            summary = self.run_scene(data)
+            widened = float(self.history()[-1]['probe_out_position_x_m']) - outer
+            exact = 2 * pressure * inner ** 2 * outer / (modulus * (outer ** 2 - inner ** 2))
+            self.assertAlmostEqual(widened / exact, 1, delta=0.006, msg=portion)
+            # Its wall thins by the radial strain: from inside u_a - u_b.
+            inside = pressure * inner / (modulus * (outer ** 2 - inner ** 2)) * (0.7 * inner ** 2 + 1.3 * outer ** 2)
+            thinned = 1 - summary['thickness_m']['min'] / summary['thickness_m']['initial']
+            self.assertAlmostEqual(thinned * (outer - inner) / (inside - exact), 1, delta=0.05, msg=portion)
+
     def test_gravity(self):
         fall = self.run_scene(scene(body('plate'), dimension=3, gravity=[1.0, 2.0, -10.0]))['bodies'][0]
         self.assertAlmostEqual(fall['mass'], 2710 * 2e-7, delta=1e-12)

@@ -77,6 +77,51 @@ class Tools(SceneRun):
         for name in found:
             numpy.testing.assert_allclose(found[name], found['cube.stl'], rtol=1e-9, err_msg=name)
 
+    def test_tools_approach_what_they_will_touch(self):
+        """A holder with a rounded edge comes down on a wavy sheet, a die comes up from far below, a stop comes against the holder."""
+        wave = '2e-4*cos(2*pi*x/0.010)'
+        sheet = {'name': 'sheet', 'blank': {'shape': 'plate', 'length': 0.010, 'width': 0.004, 'thickness': 0.001, 'cells_along': 20, 'cells_across': 8, 'cells_through': 1},
+                 'imperfection': ['0', '0', wave], 'material': dict(ALUMINIUM)}
+        holder = {'name': 'holder', 'profile': {'sweep': 'turned', 'start': [0, 0, 0], 'pieces': [{'to': [2e-3, 0, 0]}, {'to': [2.5e-3, 0, 5e-4], 'radius': 5e-4}, {'to': [2.5e-3, 0, 2e-3]}, {'to': [0, 0, 2e-3]}]},
+                  'position': [0.005, 0.002, 0.5], 'approach': {'along': [0, 0, -2], 'gap': 3e-5},
+                  'motion': {'kind': 'trajectory', 'times': [0, 2e-5], 'rotations_deg': [[0, 0, 0], [0, 0, 10]], 'centre': [0.005, 0.002, 0.5]}}
+        die = {'name': 'die', 'normal': [0, 0, 1], 'point': [0, 0, -3], 'approach': {'along': [0, 0, 1]}}
+        stop = {'name': 'stop', 'normal': [0, 0, -1], 'position': [0, 0, 7], 'approach': {'along': [0, 0, -1], 'to': ['holder'], 'gap': 1e-3}}
+        data = scene(sheet, dimension=3, tools=[holder, die, stop], output={'frames': 1})
+        self.run_scene(data)
+        row = self.history()[0]
+        # Under the flat of 2 mm in radius the wave is highest at its rim, of the bottom the lowest lies in the middle.
+        rim = 0.001 + 2e-4 * math.cos(2 * math.pi * 3e-3 / 0.010)
+        edge = max(0.001 + 2e-4 * math.cos(2 * math.pi * x / 0.010) - (5e-4 - math.sqrt(max(0, 25e-8 - (3e-3 - x) ** 2))) for x in numpy.linspace(2.5e-3, 3e-3, 51))
+        self.assertGreater(edge, rim)
+        self.assertAlmostEqual(float(row['tool_holder_position_z_m']), edge + 3e-5, delta=4e-6)
+        self.assertAlmostEqual(float(row['tool_die_position_z_m']), 3 - 2e-4, delta=2e-6)
+        self.assertAlmostEqual(float(row['tool_stop_position_z_m']), float(row['tool_holder_position_z_m']) + 2e-3 + 1e-3, delta=1e-9)
+        with h5py.File(self.path('out/result.h5')) as result:
+            self.assertEqual(len(result['frames']), 2)
+
+    def test_an_approach_that_goes_by_is_refused(self):
+        punch = {'name': 'punch', 'profile': {'start': [0, 0], 'pieces': [{'to': [1e-3, 0]}, {'to': [1e-3, 1e-3]}, {'to': [0, 1e-3]}]}, 'position': [0.5, 0], 'approach': {'along': [0, -1]}}
+        told = self.refused(scene(body(), tools=[punch]))
+        self.assertIn('tools[0].approach.along', told)
+        self.assertIn('goes by', told)
+        punch['approach'] = {'along': [0, -1], 'to': ['bod']}
+        self.assertIn('did you mean body', self.refused(scene(body(), tools=[punch])))
+
+    def test_a_gas_spring_pushes_the_more_the_farther_it_is_pushed_back(self):
+        """A punch drives a block onto a pad that stands on a spring of preload P and stiffness K: it bears P + K s where it has gone back by s."""
+        preload, stiffness = 2e4, 5e7
+        block = {'name': 'block', 'blank': {'shape': 'strip', 'length': 0.004, 'thickness': 0.002, 'cells_along': 4, 'cells_through': 2}, 'material': dict(ALUMINIUM)}
+        punch = {'name': 'punch', 'normal': [0, -1], 'position': [0, 0.002], 'motion': {'kind': 'trajectory', 'times': [0, 1e-3], 'positions': [[0, 0], [0, -1e-3]]}}
+        pad = {'name': 'pad', 'normal': [0, 1], 'motion': {'kind': 'force', 'times': [0], 'forces': [[0, preload]], 'stiffness': stiffness, 'mass': 0.02, 'damping': 2e4}}
+        data = scene(block, tools=[punch, pad], duration=1e-3, output={'frames': 1, 'history_interval': 1e-6})
+        data['stages'].append({'kind': 'settle', 'limit': 2e-3, 'kinetic_fraction': 1e-8})
+        self.run_scene(data)
+        last = self.history()[-1]
+        back = -float(last['tool_pad_position_y_m'])
+        self.assertAlmostEqual(back, 1e-3, delta=2e-5)  # the block itself gives way by the rest
+        self.assertAlmostEqual(-float(last['tool_pad_force_y_N_per_m']) / (preload + stiffness * back), 1, delta=2e-3)
+
     def test_an_idle_roll_rolls(self):
         """Laid on a strip that is drawn along under it, friction turns it until it rolls; then it holds the strip back no more."""
         speed, radius, force, friction = 2.0, 5e-3, 2e4, 0.2

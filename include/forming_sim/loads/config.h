@@ -97,6 +97,8 @@ struct MotionConfig {
   std::vector<Vec3> velocities;     ///< velocity
   std::vector<Vec3> spins_deg_s;    ///< velocity, force: angular velocity
   std::vector<Vec3> forces;         ///< force
+  Vec3 guide = Vec3::Zero();        ///< force; zero: along the forces
+  double stiffness = 0;             ///< force: of a spring between the tool and its guide
   Vec3 initial_velocity = Vec3::Zero();  ///< force
   double mass = 0;                  ///< force; 0: that of the bodies
   Vec3 axle = Vec3::Zero();         ///< about which it turns freely; zero: it does not
@@ -115,24 +117,39 @@ struct MotionConfig {
   bool by_places() const { return kind == "trajectory" || (by_force() && (!positions.empty() || !rotations_deg.empty())); }
 
   template <class Visitor> static void declare(Visitor&& visit) {
-    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"trajectory", "velocity", "force"}).doc("trajectory: displacements and rotations at given times; velocity: velocities and spins at given times; force: forces at given times, and the tool goes where they and the bodies push it, along their line; across that, and how it turns, as a trajectory (positions, rotations_deg) or a velocity (velocities, spins_deg_s) says, or not at all: a blank holder, a hammer, a roll that is pressed on a sheet and driven along it"));
+    visit(FORMING_SIM_FIELD(kind), Field().required().choices({"trajectory", "velocity", "force"}).doc("trajectory: displacements and rotations at given times; velocity: velocities and spins at given times; force: forces at given times, and the tool goes where they and the bodies push it, along a guide; across that, and how it turns, as a trajectory (positions, rotations_deg) or a velocity (velocities, spins_deg_s) says, or not at all: a blank holder, a hammer, a roll that is pressed on a sheet and driven along it"));
     visit(FORMING_SIM_FIELD(times), Field().unit("s").at_least(0).required().doc("times of the knots, increasing; a trajectory rests before the first and after the last, a velocity or a force stays as at the nearest knot"));
-    visit(FORMING_SIM_FIELD(positions), Field().unit("m").when("kind", {"trajectory", "force"}).doc("displacement from the initial place at each knot; of kind force across the line of the forces"));
+    visit(FORMING_SIM_FIELD(positions), Field().unit("m").when("kind", {"trajectory", "force"}).doc("displacement from the initial place at each knot; of kind force across the guide, with a stiffness along it too"));
     visit(FORMING_SIM_FIELD(rotations_deg), Field().unit("deg").when("kind", {"trajectory", "force"}).doc("rotation vector (axis times angle) about the centre at each knot, taken from one to the next component by component: angles count on beyond 180; in dimension 2 [0, 0, angle]"));
-    visit(FORMING_SIM_FIELD(velocities), Field().unit("m/s").when("kind", {"velocity", "force"}).doc("velocity at each knot; of kind force across the line of the forces"));
+    visit(FORMING_SIM_FIELD(velocities), Field().unit("m/s").when("kind", {"velocity", "force"}).doc("velocity at each knot; of kind force across the guide, with a stiffness along it too"));
     visit(FORMING_SIM_FIELD(spins_deg_s), Field().unit("deg/s").when("kind", {"velocity", "force"}).doc("angular velocity about the centre at each knot"));
-    visit(FORMING_SIM_FIELD(forces), Field().unit("N").required().when("kind", {"force"}).doc("force on the tool at each knot, all along one line; plane strain: N/m; axisymmetric: of the whole circle; the weight of the tool is one of them, gravity acts on bodies only"));
-    visit(FORMING_SIM_FIELD(initial_velocity), Field().unit("m/s").when("kind", {"force"}).doc("velocity that the tool starts with, along the line of its forces: a hammer. Where all forces are 0 it is guided along this"));
+    visit(FORMING_SIM_FIELD(forces), Field().unit("N").required().when("kind", {"force"}).doc("force on the tool at each knot, all along one line, the guide; plane strain: N/m; axisymmetric: of the whole circle; the weight of the tool is one of them, gravity acts on bodies only"));
+    visit(FORMING_SIM_FIELD(guide), Field().above(0).when("kind", {"force"}).computed("along the forces; where all are 0 along initial_velocity").doc("direction of the line along which the tool is guided"));
+    visit(FORMING_SIM_FIELD(stiffness), Field().unit("N/m").at_least(0).when("kind", {"force"}).doc("spring between the tool and its guide, beside the forces: it pulls the tool back by so much for each metre along the guide that it is away from its place at the start, or from where positions or velocities take the other end of the spring: a gas spring under a holder, which pushes the more the farther it is pushed back (its force at the start is in forces); a robot that yields. Plane strain: N/m per metre of width"));
+    visit(FORMING_SIM_FIELD(initial_velocity), Field().unit("m/s").when("kind", {"force"}).doc("velocity that the tool starts with, along its guide: a hammer"));
     visit(FORMING_SIM_FIELD(mass), Field().unit("kg").at_least(0).computed("that of all bodies").when("kind", {"force"}).doc("mass of the tool, kg/m in plane strain; at least a thousandth of that of all bodies, mass scaling included"));
     visit(FORMING_SIM_FIELD(axle), Field().above(0).computed("none").doc("direction at the start of an axle through the centre, about which the tool turns freely, as what touches it makes it: an idle roll, whose centre of mass is on the axle. It goes and turns with what the motion says, without what that turns about the axle, and turns on while it is withdrawn (a velocity without velocities and spins_deg_s stays where it is). In dimension 2 [0, 0, 1]"));
     visit(FORMING_SIM_FIELD(torques), Field().unit("N m").doc("torque about the axle at each knot, in its right-hand sense; plane strain: N m per m"));
     visit(FORMING_SIM_FIELD(initial_spin_deg_s), Field().unit("deg/s").doc("how fast it turns about the axle at the start"));
     visit(FORMING_SIM_FIELD(inertia), Field().unit("kg m2").at_least(0).computed("the mass of all bodies times the square of the farthest that the tool reaches from the axle").doc("moment of inertia about the axle, plane strain: kg m; at least a thousandth of the default, with what mass scaling adds"));
-    visit(FORMING_SIM_FIELD(damping), Field().unit("1/s").at_least(0).doc("of a tool that a force drives, or that turns about an axle: rate at which it loses speed to its guide, a force of damping times mass times velocity, and spin to its bearing, a torque of damping times inertia times spin"));
+    visit(FORMING_SIM_FIELD(damping), Field().unit("1/s").at_least(0).doc("of a tool that a force drives, or that turns about an axle: rate at which it loses speed to its guide, a force of damping times mass times velocity (against that of the other end of its spring), and spin to its bearing, a torque of damping times inertia times spin"));
     visit(FORMING_SIM_FIELD(stop_force), Field().unit("N").at_least(0).when("kind", {"trajectory", "velocity"}).computed("it goes its whole way").doc("the tool stops for good where it is when the force against its way (of a tool that only turns: the whole force), the mean over some 50 steps, has reached this; plane strain: N/m; axisymmetric: along the axis, of the whole circle. stages[].until_stopped ends a stage with it. About an axle it turns on"));
     visit(FORMING_SIM_FIELD(centre), Field().unit("m").doc("centre of rotation at the start; it moves with the tool"));
     visit(FORMING_SIM_FIELD(profile), Field().choices({"smooth", "linear", "spline"}).doc("smooth: from rest to rest between knots (quintic trajectory, cubic velocity and force); linear: straight lines; spline: a trajectory that passes the inner knots without stopping"));
     visit(FORMING_SIM_FIELD(since), Field().computed("the start of the run").doc("name of a stage: the tool stands still until that begins, at its first position, and its times count from there"));
+  }
+};
+
+/// Up to where a tool is put before the run.
+struct ApproachConfig {
+  Vec3 along = Vec3::Zero();
+  std::vector<std::string> to;  ///< bodies and tools; empty: all bodies
+  double gap = 0;
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(along), Field().required().above(0).doc("direction in which the tool comes from far away, of any length"));
+    visit(FORMING_SIM_FIELD(to), Field().computed("all bodies").doc("names of the bodies, and of tools before it in the list, that it is laid against: it stops at the first of them that it would touch"));
+    visit(FORMING_SIM_FIELD(gap), Field().unit("m").at_least(0).doc("how far along its way it stops before that"));
   }
 };
 
@@ -143,6 +160,7 @@ struct ToolConfig {
   std::optional<ProfileConfig> profile;
   Vec3 point = Vec3::Zero(), normal = Vec3::Zero();  ///< plane without a mesh
   Vec3 position = Vec3::Zero(), rotation_deg = Vec3::Zero();
+  std::optional<ApproachConfig> approach;
   std::optional<MotionConfig> motion;
   double friction = 0;
   double friction_limit = 0;
@@ -155,6 +173,7 @@ struct ToolConfig {
     visit(FORMING_SIM_FIELD(normal), Field().doc("rigid plane: its normal, towards the side of the blank; no mesh is needed. Axisymmetric: turned about the axis y a normal along y stays a plane, one along x makes a cylinder, others make cones"));
     visit(FORMING_SIM_FIELD(position), Field().unit("m").doc("where the origin of the tool's mesh or profile is put at the start"));
     visit(FORMING_SIM_FIELD(rotation_deg), Field().unit("deg").doc("rotation vector of the tool's mesh or profile about its origin at the start"));
+    visit(FORMING_SIM_FIELD(approach), Field().doc("moves the tool, with the centre of its motion, from its position along a line to where it first touches the bodies as they lie at the start: on a formed part, say, whose height nobody knows"));
     visit(FORMING_SIM_FIELD(motion), Field().doc("how the tool moves; absent: it rests"));
     visit(FORMING_SIM_FIELD(friction), Field().at_least(0).at_most(10).doc("Coulomb friction of every body against this tool; 0: frictionless"));
     visit(FORMING_SIM_FIELD(friction_limit), Field().unit("Pa").at_least(0).computed("no limit").doc("largest shear stress of that friction: min(friction p, friction_limit) where the pressure is p; in bulk forming m Y/sqrt(3), with a friction factor m above 0, at most 1, and the yield stress Y; 0 is no limit"));

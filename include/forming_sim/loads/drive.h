@@ -4,6 +4,8 @@
 //
 //   M dV/dt = F(t) + R - alpha M V,   R: what the bodies press on it; alpha: its damping, and in settle stages theirs,
 //
+// with a spring to its guide, whose other end goes by g(t), s the way of the tool: K (g - s) + alpha M dg/dt more,
+//
 // V at the half step, as the velocities of nodes; k = (dt_previous + dt)/2 the kick, a = alpha k/2:
 //
 //   V* = ((1 - a) V + k F/M)/(1 + a),   V = V* + J/(M (1 + a)),   J = k R,
@@ -16,19 +18,30 @@
 #include <limits>
 
 #include "forming_sim/loads/config.h"
+#include "forming_sim/loads/motion.h"
 #include "forming_sim/loads/profile.h"
 
 namespace forming_sim {
 
-/// Unit vector along the largest of the forces, where all are zero along the initial velocity; zero where that is, too.
+/// Unit vector along the guide; where none is given along the largest of the forces, where all are zero along the initial velocity; zero where that is, too.
 Vec3 guide_of(const MotionConfig& config);
 /// Whether a force or velocity lies along it, to round-off.
 bool goes_along(const Vec3& given, const Vec3& guide);
+
+/// Between a tool and its guide.
+struct Spring {
+  double stiffness = 0;  ///< K, N/m; 0: there is none
+  RigidMotion end;       ///< g(t) along the guide
+  Vec3 guide = Vec3::Zero();
+  double force(double t, double gone) const { return stiffness > 0 ? stiffness * (guide.dot(end.at(t).translation) - gone) : 0; }  ///< on the tool, N
+  double end_speed(double t) const { return stiffness > 0 ? guide.dot(end.at(t).velocity) : 0; }                                ///< dg/dt, m/s
+};
 
 class Drive {
  public:
   /// force: over the time of its own; mass above 0; speed: at the start.
   Drive(const ScalarProfile& force, double mass, double damping, double speed) : force_(force), mass_(mass), damping_(damping), speed_(speed), momentum_(speed) {}
+  void tie_to(const Spring& spring) { spring_ = spring; }
 
   /// Its times count from the time t of the run on.
   void begin(double t) { began_ = t; }
@@ -37,10 +50,12 @@ class Drive {
   double free_speed(double t, double kick) const;
   /// By so much an impulse changes V: 1/(M (1 + a)), braked hard 1/(2 a M).
   double inverse_mass(double kick) const;
-  double force(double t) const { return force_.at(t - began_); }  ///< F, N; N m
+  double force(double t) const { return force_.at(t - began_) + spring_.force(t - began_, gone_); }  ///< F and what its spring gives, N; N m
   double mass() const { return mass_; }    ///< M, kg; kg m2
   double gone() const { return gone_; }    ///< from the start, m; rad
   double speed() const { return speed_; }  ///< V of the last step, m/s; rad/s
+  /// The longest step that its spring bears, 2/omega, s; infinite without one.
+  double stable_step() const;
   /// Adds `rate` to alpha, 1/s, until it is told another: in settle stages.
   void slow_down(double rate) { settling_ = rate; }
 
@@ -56,22 +71,24 @@ class Drive {
   double braking(double kick) const { return 0.5 * (damping_ + settling_) * kick; }  ///< a
 
   ScalarProfile force_;
+  Spring spring_;
   double mass_, damping_, settling_ = 0;
   double began_ = 0;  ///< s
   double gone_ = 0, speed_ = 0;
   double momentum_ = 0;  ///< over M: V as J says; speed_ is as near to it as contact searches, and no impulse is lost
 };
 
-/// Along the line of its forces.
+/// Along its guide.
 class ForceDrive : public Drive {
  public:
   /// Of a motion of kind force, its mass above 0, kg (kg/m in plane strain). Throws Error(invalid_scene) where forces and initial velocity are not
-  /// along one line or all zero, and as ScalarProfile does.
+  /// along one line or all zero without a guide, and as ScalarProfile does.
   explicit ForceDrive(const MotionConfig& config);
 
   const Vec3& guide() const { return guide_; }
   Vec3 way() const { return gone() * guide_; }         ///< from the start, m
-  Vec3 velocity() const { return speed() * guide_; }   ///< V of the last step, m/s
+  /// A told pose with its way along the guide replaced by that of the tool, `way` at `speed`.
+  Pose placed(Pose told, double way, double speed) const;
   /// The step has been done, dt long, with V = V* + push; answer: J, along the guide, N s.
   void take(double t, double kick, double dt, double push, double answer);
   /// How far it has gone on along its force since it last pressed on anything, m; 0: it has not pressed yet.

@@ -12,29 +12,30 @@ namespace forming_sim {
 
 /// A blank that the package meshes itself.
 struct BlankConfig {
-  std::string shape;            ///< strip (2D) | plate (3D) | bar (3D)
-  Vec3 origin = Vec3::Zero();   ///< strip, plate: least corner; bar: centre of the end face
-  double length = 0;            ///< along x (strip, plate) or along z (bar)
+  std::string shape;            ///< strip (2D) | plate (3D) | bar (3D) | tube (3D)
+  Vec3 origin = Vec3::Zero();   ///< strip, plate: least corner; bar, tube: centre of the end face
+  double length = 0;            ///< along x (strip, plate) or along z (bar, tube)
   double width = 0;             ///< plate: along y
-  double thickness = 0;         ///< strip: along y; plate: along z
-  double radius = 0;            ///< bar
-  std::string portion = "full"; ///< bar: full | half (x >= 0) | quarter (x, y >= 0)
-  int cells_along = 0, cells_across = 0, cells_through = 0, cells_radius = 0;
+  double thickness = 0;         ///< strip: along y; plate: along z; tube: of its wall
+  double radius = 0;            ///< bar, tube: outside
+  std::string portion = "full"; ///< bar, tube: full | half (x >= 0) | quarter (x, y >= 0)
+  int cells_along = 0, cells_across = 0, cells_through = 0, cells_radius = 0, cells_around = 0;
   std::string pattern = "fine"; ///< fine: 4 crossed triangles | 24 tetrahedra; coarse: 2 triangles | 6 tetrahedra; one_point
 
   template <class Visitor> static void declare(Visitor&& visit) {
-    visit(FORMING_SIM_FIELD(shape), Field().required().choices({"strip", "plate", "bar"})
-          .doc("strip: rectangle in dimension 2, length along x, thickness along y; plate: box, length along x, width along y, thickness along z; bar: round bar along z from its end face, O-grid"));
-    visit(FORMING_SIM_FIELD(origin), Field().unit("m").doc("least corner of a strip or plate; centre of the lower end face of a bar"));
-    visit(FORMING_SIM_FIELD(length), Field().unit("m").above(0).required().doc("length along x (strip, plate) or z (bar)"));
+    visit(FORMING_SIM_FIELD(shape), Field().required().choices({"strip", "plate", "bar", "tube"})
+          .doc("strip: rectangle in dimension 2, length along x, thickness along y; plate: box, length along x, width along y, thickness along z; bar: round bar along z from its end face, O-grid; tube: round tube along z from its end face"));
+    visit(FORMING_SIM_FIELD(origin), Field().unit("m").doc("least corner of a strip or plate; centre of the lower end face of a bar or tube"));
+    visit(FORMING_SIM_FIELD(length), Field().unit("m").above(0).required().doc("length along x (strip, plate) or z (bar, tube)"));
     visit(FORMING_SIM_FIELD(width), Field().unit("m").above(0).required().when("shape", {"plate"}).doc("width along y"));
-    visit(FORMING_SIM_FIELD(thickness), Field().unit("m").above(0).required().when("shape", {"strip", "plate"}).doc("thickness along y (strip) or z (plate)"));
-    visit(FORMING_SIM_FIELD(radius), Field().unit("m").above(0).required().when("shape", {"bar"}).doc("radius of the bar"));
-    visit(FORMING_SIM_FIELD(portion), Field().choices({"full", "half", "quarter"}).when("shape", {"bar"}).doc("full bar, half (x >= 0) or quarter (x >= 0, y >= 0); cut faces are the sets symmetry_x and symmetry_y"));
+    visit(FORMING_SIM_FIELD(thickness), Field().unit("m").above(0).required().when("shape", {"strip", "plate", "tube"}).doc("thickness along y (strip) or z (plate), or of the wall (tube)"));
+    visit(FORMING_SIM_FIELD(radius), Field().unit("m").above(0).required().when("shape", {"bar", "tube"}).doc("radius of the bar, or of the tube outside"));
+    visit(FORMING_SIM_FIELD(portion), Field().choices({"full", "half", "quarter"}).when("shape", {"bar", "tube"}).doc("full bar or tube, half (x >= 0) or quarter (x >= 0, y >= 0); cut faces are the sets symmetry_x and symmetry_y"));
     visit(FORMING_SIM_FIELD(cells_along), Field().at_least(1).at_most(1e6).required().doc("cells along the length"));
     visit(FORMING_SIM_FIELD(cells_across), Field().at_least(1).at_most(1e6).required().when("shape", {"plate"}).doc("cells along the width"));
-    visit(FORMING_SIM_FIELD(cells_through), Field().at_least(1).at_most(1e6).required().when("shape", {"strip", "plate"}).doc("cells through the thickness"));
+    visit(FORMING_SIM_FIELD(cells_through), Field().at_least(1).at_most(1e6).required().when("shape", {"strip", "plate", "tube"}).doc("cells through the thickness"));
     visit(FORMING_SIM_FIELD(cells_radius), Field().at_least(2).at_most(1e4).required().when("shape", {"bar"}).doc("cells along a radius; the section is a polygon with its corners on the circle: 2.6 % less area at 4, .6 % at 8, .2 % at 12"));
+    visit(FORMING_SIM_FIELD(cells_around), Field().at_least(3).at_most(1e6).required().when("shape", {"tube"}).doc("cells around the whole circle, also of a half (then a multiple of 2) or quarter (of 4); nodes lie on the circles: .6 % less area at 32, .16 % at 64"));
     visit(FORMING_SIM_FIELD(pattern), Field().choices({"fine", "coarse", "one_point"}).doc("how a cell is split: fine: 4 crossed triangles or 24 tetrahedra; coarse: 2 triangles or 6 tetrahedra; the pressure is one per cell; one_point: not at all, one quadrilateral or hexahedron with one point, the cheapest for sheets, also of cells several times longer than thick"));
   }
 };
