@@ -14,12 +14,17 @@ double stable_step(double omega2, double damping) {
   return 2 / omega * (std::sqrt(1 + xi * xi) - xi);
 }
 
+namespace {
+/// The first that is no number wins, and stays.
+bool lowers(double dt, double least) { return !std::isnan(least) && !(dt >= least); }
+}  // namespace
+
 NodeLimit slowest_node(const NodalRates& rates, const std::vector<double>& mass) {
   NodeLimit limit;
   for (std::size_t n = 0; n < mass.size(); ++n) {
     if (rates.stiffness[n] == 0) continue;  // a node of no cell
     const double dt = stable_step(rates.stiffness[n] / mass[n], rates.damping[n] / mass[n]);
-    if (!(dt >= limit.dt)) limit = {dt, static_cast<int>(n)};  // a NaN wins
+    if (lowers(dt, limit.dt)) limit = {dt, static_cast<int>(n)};
   }
   return limit;
 }
@@ -67,7 +72,7 @@ CellLimit Elements::slowest_cell(const CellRates& rates, const BodyModel* of) co
     for (int cell = 0; cell < g.cells; ++cell) {
       const BlockRates& block = rates[k][cell / kLanes];
       const double dt = forming_sim::stable_step(block.omega2[cell % kLanes], block.damping[cell % kLanes]);
-      if (!(dt >= limit.dt)) limit = {dt, g.element(cell, 0)};  // a NaN wins
+      if (lowers(dt, limit.dt)) limit = {dt, g.element(cell, 0)};
     }
   }
   return limit;

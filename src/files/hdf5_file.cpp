@@ -63,9 +63,12 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path) {
   silence_hdf5();
   const Hdf5Handle access = access_list();
   switch (mode) {
-    case Mode::create:
-      handle_ = Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
+    case Mode::create: {
+      const Hdf5Handle root(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+      H5Pset_obj_track_times(root.id(), false);
+      handle_ = Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, root.id(), access.id()), H5Fclose);
       break;
+    }
     case Mode::read: handle_ = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose); break;
     case Mode::append: handle_ = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose); break;
   }
@@ -90,7 +93,7 @@ void Hdf5File::forget() {
 
 void Hdf5File::close() {
   flush();
-  handle_ = Hdf5Handle();
+  if (!handle_.close()) throw_hdf5_error("close", path_);
 }
 
 void write_whole_file(const std::string& path, const std::function<void(Hdf5Group& root)>& fill) {

@@ -21,7 +21,7 @@ constexpr std::uint64_t kChunkBytes = 1u << 20;
 constexpr std::uint64_t kCompactBytes = 1024;     ///< what is no longer lies in the header of its dataset
 constexpr std::uint64_t kPackedBytes = 1u << 16;  ///< of less the index of a chunk is as large as what packing saves, and packing most of the time that writing takes
 
-/// What creates a dataset; it keeps no times, so that the same run gives the same file.
+/// What creates a dataset; like groups it keeps no times, so that the same run gives the same file.
 Hdf5Handle dataset_list() {
   Hdf5Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(list.id(), false);
@@ -65,6 +65,7 @@ Hdf5Handle creation_list(const std::vector<std::uint64_t>& shape, std::uint64_t 
 Hdf5Handle links_in_header(std::size_t links) {
   constexpr unsigned kMost = 65535, kLength = 12;
   Hdf5Handle list(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_obj_track_times(list.id(), false);
   H5Pset_link_phase_change(list.id(), kMost, 0);
   H5Pset_est_link_info(list.id(), static_cast<unsigned>(std::min<std::size_t>(links, kMost)), kLength);
   return list;
@@ -129,14 +130,10 @@ void Hdf5Group::write(const std::string& name, const T* data, const std::vector<
 }
 
 template <class T>
-std::vector<T> Hdf5Group::read(const std::string& name, std::vector<std::uint64_t>* shape) const {
+std::vector<T> Hdf5Group::read(const std::string& name) const {
   const Hdf5Handle set(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
   if (!set.valid()) fail("open dataset", name);
   const Hdf5Handle space(H5Dget_space(set.id()), H5Sclose);
-  const int axes = H5Sget_simple_extent_ndims(space.id());
-  std::vector<hsize_t> size(std::max(axes, 0));
-  H5Sget_simple_extent_dims(space.id(), size.data(), nullptr);
-  if (shape) shape->assign(size.begin(), size.end());
   std::vector<T> data(static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.id()), 0)));
   if (!data.empty() && H5Dread(set.id(), native<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()) < 0)
     fail("read dataset", name);
@@ -146,7 +143,7 @@ std::vector<T> Hdf5Group::read(const std::string& name, std::vector<std::uint64_
 #define FORMING_SIM_HDF5_TYPE(T)                                                                                 \
   template void Hdf5Group::write<T>(const std::string&, const T*, const std::vector<std::uint64_t>&,              \
                                     const std::string&, Storage);                                                \
-  template std::vector<T> Hdf5Group::read<T>(const std::string&, std::vector<std::uint64_t>*) const;
+  template std::vector<T> Hdf5Group::read<T>(const std::string&) const;
 FORMING_SIM_HDF5_TYPE(double)
 FORMING_SIM_HDF5_TYPE(float)
 FORMING_SIM_HDF5_TYPE(std::int32_t)
@@ -157,7 +154,7 @@ void Hdf5Group::write_text(const std::string& name, const std::string& text) {
   const Hdf5Handle type = text_type(text.size());
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Hdf5Handle set(
-      H5Dcreate2(handle_.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+      H5Dcreate2(handle_.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, dataset_list().id(), H5P_DEFAULT), H5Dclose);
   if (!set.valid()) fail("create dataset", name);
   const std::string value = text.empty() ? std::string(1, '\0') : text;
   if (H5Dwrite(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data()) < 0) fail("write dataset", name);

@@ -221,29 +221,22 @@ Vec3 BoundarySet::prescribed(int k, double t, double dt, const Vec3& x) const {
 const BoundarySet::Prescription& BoundarySet::prescription(double t, double dt) {
   find_motions(t, dt, step_.motions);
   step_.u.clear();
-  step_.speed.clear();
-  for (const Group& group : groups_) {
-    step_.u.push_back(group.turns ? Vec3(Vec3::Zero()) : prescribed(group, step_.motions, Vec3::Zero()));
-    step_.speed.push_back(step_.u.back().norm());
-  }
+  for (const Group& group : groups_) step_.u.push_back(group.turns ? Vec3(Vec3::Zero()) : prescribed(group, step_.motions, Vec3::Zero()));
   return step_;
 }
 
-double BoundarySet::apply_velocity(const Prescription& step, const NodeField& x, long first, long last, NodeField& v) const {
-  double fastest = 0;
+void BoundarySet::apply_velocity(const Prescription& step, const NodeField& x, long first, long last, NodeField& v) const {
   for (auto at = std::lower_bound(nodes_.begin(), nodes_.end(), first); at != nodes_.end() && *at < last; ++at) {
     const int g = group_[at - nodes_.begin()];
     const Group& group = groups_[g];
     const Vec3 u = group.turns ? prescribed(group, step.motions, vec3(x[*at])) : step.u[g];
-    fastest = std::max(fastest, group.turns ? u.norm() : step.speed[g]);
     Node& velocity = v[*at];
     velocity = node(group.whole ? u : Vec3(group.projector * vec3(velocity) + u));
   }
-  return fastest;
 }
 
-double BoundarySet::apply_velocity(double t, double dt, const NodeField& x, NodeField& v) {
-  return apply_velocity(prescription(t, dt), x, 0, static_cast<long>(v.size()), v);
+void BoundarySet::apply_velocity(double t, double dt, const NodeField& x, NodeField& v) {
+  apply_velocity(prescription(t, dt), x, 0, static_cast<long>(v.size()), v);
 }
 
 }  // namespace forming_sim

@@ -62,6 +62,7 @@ void Fields::write(const Simulation& simulation, bool interrupted) {
   Frame frame = take_frame(simulation, gauge_.at(simulation));
   frame.interrupted = interrupted;
   file_->write(frame);
+  if (interrupted) return;  // a run that is resumed takes no such frame, and goes on with what the checkpoint knows of this record
   record_.pressed.rise_to(greatest_pressure(simulation, frame.stress));
   record_.spanned.rise_to(farthest_spanned_corner(simulation, frame.contact_gap));
   record_.pressed_cells.rise_to(number_of_pressed_cells(simulation));

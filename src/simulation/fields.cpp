@@ -121,7 +121,7 @@ const Energies& Simulation::energies() const {
 }
 
 // What positions cannot tell: the energy of a strain of 1e-11, and far from the origin of what rounding of the places is for the smallest cell, c dt high, a thousand times:
-// it gathers over the steps.
+// it gathers over the steps. mass: scaled as that of which c is, so that mass c^2 is E V whatever the scaling.
 double Simulation::Impl::least_energy(double mass) const {
   const double c = elements.slowest_wave();
   const double rounding = 0.5 * std::numeric_limits<double>::epsilon() * farthest / (c * first_element_dt), strain = 1e-11 + 1e3 * rounding;
@@ -131,7 +131,7 @@ double Simulation::Impl::least_energy(double mass) const {
 // Where nothing happens there is no other energy to refer to.
 double Simulation::balance_error() const {
   const Impl& s = *impl_;
-  return std::fabs(energies().residual()) / std::max(s.most, s.least_energy(std::accumulate(s.physical_mass.begin(), s.physical_mass.end(), 0.0)));
+  return std::fabs(energies().residual()) / std::max(s.most, s.least_energy(s.mass_of_bodies()));
 }
 
 ContactStatus Simulation::contact_status() const {

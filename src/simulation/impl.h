@@ -27,7 +27,7 @@ struct Simulation::Impl {
   NodeField X;                      ///< initial positions
   NodeField reference;              ///< where the elements were free of stress: X, but of formed parts
   NodeField x, v, v_before;         ///< v at the half step
-  NodeField external;               ///< pressure, dead loads and gravity at x, N; empty where there is none
+  NodeField external;               ///< pressure, dead loads, gravity and what holds on fading at x, N; empty where there is none
   Elements elements;
   Damage damage;
   std::vector<Facet> surface;       ///< joined
@@ -145,7 +145,7 @@ struct Simulation::Impl {
   /// kick: time in which its impulses act as forces do, s.
   void mean_contact_force(double kick);
   double least_press() const { return 1e-12 * contact->stiffness(); }  ///< Pa: no pressure is less
-  /// Work of prescribed motion, pressure, dead loads, gravity and damping over the kick.
+  /// Work of prescribed motion, of `external` and of damping over the kick.
   void book_loads();
   void tell_fall(int tool);
   void tell_landing(int tool);

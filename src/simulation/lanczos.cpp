@@ -66,7 +66,7 @@ SpectrumBound bound_spectrum(std::size_t nodes, int dimension, std::uint64_t see
     for (int i = 0; i < dimension; ++i) n[i] = normal.next();
   project(v);
   const double length = std::sqrt(dot(v, v));
-  if (!(length > 0)) return {0, 0, 0};  // nothing is free to move
+  if (!(length > 0)) return {0, cap, 0};  // nothing is free to move: what is known of it is all there is
   for (Node& n : v) n /= length;
   const double level = -std::log(kDoubt * std::sqrt(M_PI / (2.0 * static_cast<double>(nodes) * dimension)));
 

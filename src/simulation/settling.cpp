@@ -139,11 +139,12 @@ std::string Simulation::Impl::what_flies() const {
 }
 
 std::string Simulation::Impl::why_unsettled() const {
+  const char* unit = model.per_width() ? " J/m" : " J";
   std::ostringstream text;
   text << "stage " << stages.stage().title() << " reached its limit ";
   if (settle.restless() > settle.quiet()) {
     text << "before the bodies rested: at its end the kinetic energy of the one farthest from rest, and what the forces out of balance could still set free in it, were " << settle.restless()
-         << " J, and should stay below stages[].kinetic_fraction of its elastic energy, " << settle.quiet() << " J; ";
+         << unit << ", and should stay below stages[].kinetic_fraction of its elastic energy, " << settle.quiet() << unit << "; ";
     NodeField loads(x.size(), Node::Zero());
     pressures.add(time, x, loads);
     dead_loads.add(time, loads);

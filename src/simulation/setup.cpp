@@ -96,9 +96,7 @@ Simulation::Impl::Impl(const RunPlan& p, Model m, int n)
   give_tools_inertia();
   check_interrupt();
   set_up_contact();
-  double kinetic = 0;
-  for (std::size_t i = 0; i < v.size(); ++i) kinetic += 0.5 * elements.nodal_mass()[i] * v[i].squaredNorm();
-  initial = most = kinetic + elements.stored_energy(x);  // of a formed part, which is under stress
+  initial = most = kinetic() + elements.stored_energy(x);  // of a formed part, which is under stress
   check_interrupt();
   elements.find_rates(x, v, rates);
   first_element_dt = elements.slowest_cell(rates).dt;

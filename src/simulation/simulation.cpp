@@ -36,7 +36,7 @@ void Simulation::Impl::begin_stage() {
   std::vector<double> slowest, least;
   for (const BodyModel& body : model.bodies) {
     slowest.push_back(slowness(body));
-    const auto first = physical_mass.begin() + body.first_node;
+    const auto first = elements.nodal_mass().begin() + body.first_node;
     least.push_back(least_energy(std::accumulate(first, first + body.node_count, 0.0)));
   }
   settle = Settle(time, std::move(slowest), std::move(least), 2 * tools.size(), stages.stage().kinetic_fraction);

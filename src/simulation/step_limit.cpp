@@ -90,8 +90,7 @@ void Simulation::Impl::raise_step() {
   elements.find_rates(x, v, rates);
   const NodalRates nodal = elements.sum_rates(rates);
   const std::vector<double>& mass = elements.nodal_mass();
-  double all = 0;
-  for (double m : mass) all += m;
+  const double all = mass_of_bodies();
   const auto needed = [&](std::size_t n, double step) { return std::max(0.0, nodal.mass_for(n, step / config.safety) - mass[n]); };
   const auto share = [&](double step) {
     double sum = 0;

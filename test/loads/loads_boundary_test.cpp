@@ -82,7 +82,7 @@ TEST(BoundarySet, merges_skew_planes_of_symmetry) {
 TEST(BoundarySet, prescribes_velocity_along_its_axes_only) {
   BoundarySet set({driven({2, 7, 0}, {4, 7, 0}, {"x"}, {0, 2})}, 3);
   NodeField v(3, Node(1, 1, 1, 0));
-  EXPECT_DOUBLE_EQ(set.apply_velocity(1, 0, v, v), 3);
+  set.apply_velocity(1, 0, v, v);
   EXPECT_EQ(v[0], Node(3, 1, 1, 0));
   EXPECT_EQ(v[1], Node(1, 1, 1, 0));
   EXPECT_EQ(set.prescribed(1, 5, 0, Vec3::Zero()), Vec3(4, 0, 0));
@@ -147,11 +147,9 @@ TEST(BoundarySet, a_part_of_the_nodes_at_a_time_is_all_of_them) {
   BoundarySet set({driven({2, 7, 0}, {4, 7, 0}, {"x"}, {0, 2, 3, 7}), symmetric(Vec3(1, 1, 0), {4, 8})}, 3);
   const NodeField at_random{{1, 2, 3, 0}, {4, 5, 6, 0}, {7, 8, 9, 0}, {1, 4, 7, 0}, {2, 5, 8, 0}, {3, 6, 9, 0}, {9, 7, 5, 0}, {8, 6, 4, 0}, {7, 5, 3, 0}};
   NodeField whole = at_random, parts = at_random;
-  const double fastest = set.apply_velocity(1, 0, whole, whole);
-  double of_parts = 0;
-  for (long first : {0, 3, 6}) of_parts = std::max(of_parts, set.apply_velocity(set.prescription(1, 0), parts, first, first + 3, parts));
+  set.apply_velocity(1, 0, whole, whole);
+  for (long first : {0, 3, 6}) set.apply_velocity(set.prescription(1, 0), parts, first, first + 3, parts);
   EXPECT_EQ(parts, whole);
-  EXPECT_EQ(of_parts, fastest);
   for (long n : {0, 2, 3, 4, 7, 8}) EXPECT_NE(parts[n], at_random[n]) << n;
   for (long n : {1, 5, 6}) EXPECT_EQ(parts[n], at_random[n]) << n;
 }
@@ -309,7 +307,7 @@ TEST(BoundarySet, a_turning_set_leaves_other_axes_free) {
   BoundarySet set({turning({0, 0, 180}, {0, 0, 0}, {"x", "y"}, {{2, 0, 1}})}, 3);
   NodeField v{Node(5, 5, 5, 0)};
   const NodeField x{Node(2, 0, 1, 0)};
-  EXPECT_NEAR(set.apply_velocity(0, 0, x, v), 2 * M_PI, 1e-12);  // dt = 0: w x r
+  set.apply_velocity(0, 0, x, v);  // dt = 0: w x r
   EXPECT_LT((v[0] - Node(0, 2 * M_PI, 5, 0)).norm(), 1e-12);
 }
 

@@ -7,6 +7,7 @@ import math
 import shutil
 import subprocess
 import sys
+import time
 import unittest
 
 import h5py
@@ -40,6 +41,15 @@ class Features(SceneRun):
             inside = pressure * inner / (modulus * (outer ** 2 - inner ** 2)) * (0.7 * inner ** 2 + 1.3 * outer ** 2)
             thinned = 1 - summary['thickness_m']['min'] / summary['thickness_m']['initial']
             self.assertAlmostEqual(thinned * (outer - inner) / (inside - exact), 1, delta=0.05, msg=portion)
+
+    def test_the_same_run_gives_the_same_files(self):
+        data = scene(body('plate', initial_velocity=[1, 0, 0]), dimension=3, output={'frames': 2, 'formed': True})
+        for name in ('first', 'second'):
+            self.run_scene(data, name)
+            time.sleep(1.1)  # HDF5 would keep seconds
+        for file in ('result.h5', 'formed.h5', 'history.csv', 'result.xdmf'):
+            with open(self.path('first/' + file), 'rb') as one, open(self.path('second/' + file), 'rb') as other:
+                self.assertEqual(one.read(), other.read(), file)
 
     def test_gravity(self):
         fall = self.run_scene(scene(body('plate'), dimension=3, gravity=[1.0, 2.0, -10.0]))['bodies'][0]

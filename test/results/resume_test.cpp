@@ -94,6 +94,43 @@ TEST(ResumedRun, KeepsItsWarnings) {
   EXPECT_EQ(comparable(read_json(parts.file("summary.json"))), comparable(expected));
 }
 
+// A frame that an unbroken run does not write tells of a pressure that its warnings do not know.
+TEST(ResumedRun, KnowsNothingOfTheFrameAtWhichItWasCancelled) {
+  Scene scene = small_scene();
+  scene.tools.clear();
+  scene.stages.resize(1);
+  scene.output.interval = 0;
+  scene.output.frames = 1;
+  scene.output.checkpoint_interval = 0;
+  scene.bodies[0].material.hardening.reset();
+  scene.bodies[0].material.damage.reset();
+  scene.bodies[0].boundaries = {};
+  for (const char* side : {"left", "right", "bottom"}) {
+    BoundaryConfig held;
+    held.set = side;
+    held.kind = "fixed";
+    held.axes = {std::string(side) == "bottom" ? "y" : "x"};
+    scene.bodies[0].boundaries.push_back(held);
+  }
+  PressureConfig pulse;
+  pulse.set = "top";
+  pulse.profile = "smooth";
+  pulse.times = {0, 1e-4, 2e-4};
+  pulse.values = {0, 0.15 * scene.bodies[0].material.K(), 0};
+  scene.bodies[0].pressures = {pulse};
+  const TemporaryDirectory whole, parts;
+  run_scene(scene, whole.path(), 1, "", kNever);
+  const json expected = read_json(whole.file("summary.json"));
+  const auto pressed = [](const json& summary) {
+    return std::count_if(summary["warnings"].begin(), summary["warnings"].end(), [](const json& w) { return w.get<std::string>().find("of its bulk modulus") != std::string::npos; });
+  };
+  ASSERT_EQ(pressed(expected), 0);
+  CancelAfter canceller(expected["steps"].get<long>() / 2);
+  ASSERT_EQ(run_scene(scene, parts.path(), 1, "", canceller.cancel, {&canceller}).code, Code::cancelled);
+  run_scene(scene, parts.path(), 1, parts.file("checkpoint.h5"), kNever);
+  EXPECT_EQ(comparable(read_json(parts.file("summary.json"))), comparable(expected));
+}
+
 TEST_F(Resume, ARunFromItsStartTakesAwayTheCheckpointOfAnother) {
   const TemporaryDirectory directory;
   std::filesystem::copy_file(whole_.file("checkpoint.h5"), directory.file("checkpoint.h5"));

@@ -51,9 +51,8 @@ class Hdf5Group {
   void write_text(const std::string& name, const std::string& text);
   /// Bytes beside their hash, which is verified on reading; what describes them lies in headers with checksums.
   void write_checked(const std::string& name, const std::string& bytes);
-  /// shape: receives the dimensions where not null.
   template <class T>
-  std::vector<T> read(const std::string& name, std::vector<std::uint64_t>* shape = nullptr) const;
+  std::vector<T> read(const std::string& name) const;
   std::string read_text(const std::string& name) const;
   std::string read_checked(const std::string& name) const;
 
@@ -101,7 +100,6 @@ class Hdf5File {
   void forget();
   /// Flushes and closes; groups must have been released. The destructor closes silently.
   void close();
-  const std::string& path() const { return path_; }
 
  private:
   std::string path_;

@@ -55,13 +55,12 @@ class BoundarySet {
   struct Prescription {
     std::vector<RigidVelocity::Step> motions;  ///< of each boundary
     std::vector<Vec3> u;  ///< of each group that does not turn
-    std::vector<double> speed;  ///< |u|
   };
   const Prescription& prescription(double t, double dt);
-  /// v <- P v + u of those of the nodes [first, last) that are held or driven. Returns the largest prescribed speed, m/s.
-  double apply_velocity(const Prescription& step, const NodeField& x, long first, long last, NodeField& v) const;
+  /// v <- P v + u of those of the nodes [first, last) that are held or driven.
+  void apply_velocity(const Prescription& step, const NodeField& x, long first, long last, NodeField& v) const;
   /// Of all nodes.
-  double apply_velocity(double t, double dt, const NodeField& x, NodeField& v);
+  void apply_velocity(double t, double dt, const NodeField& x, NodeField& v);
 
   /// What the prescription pushed on nodes()[k] in a step, N s:
   /// R = (I - P) [m (v_after - v_before) - dt f], f all other forces, before projection.

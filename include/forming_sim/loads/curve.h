@@ -33,7 +33,6 @@ class Curve {
   /// Throws Error(internal_error) for pieces of degree 5.
   Curve integral(double zero_at) const;
 
-  bool empty() const { return times_.empty(); }
   const std::vector<double>& times() const { return times_; }
 
  private:

@@ -34,7 +34,6 @@ class VelocityProfile {
   Vec3 at(double t) const { return velocity_.at(t); }
   /// Over a step from t to t + dt: that in the middle of it, which is the mean but for the curvature of a smooth one; where a knot lies within, which may be as steep as it likes, the mean.
   Vec3 of_step(double t, double dt) const;
-  Vec3 acceleration(double t) const { return velocity_.slope(t); }
   /// Exact integral of the velocity, m.
   Vec3 displacement(double from, double to) const { return path_.at(to) - path_.at(from); }
   const std::vector<double>& times() const { return velocity_.times(); }

@@ -126,7 +126,7 @@ template <class T> struct Flow {
   T q;     ///< q_S'; of what does not yield sigma_s, so that its correction is none
   T k;     ///< plastic strain per u = 1 - a: q(B'^-1)/3
   T u;     ///< u to second order
-  T work;  ///< D : dev(B'^-1)
+  T work;  ///< -D : dev(B'^-1)
 };
 template <class T> [[gnu::always_inline]] inline Flow<T> find_flow(const Trial<T>& trial, const T& factor, const YieldStress<T>& yield) {
   const T &s = trial.s, &m = trial.m, &d = trial.d;

@@ -13,7 +13,7 @@
 namespace forming_sim {
 
 /// Columns: time_s, step, dt_s, stage, energies *_J (*_J_per_m in plane strain),
-/// balance_error, per tool force (mean since the row before) and position,
+/// balance_error, per tool force (mean since the row before), position, moment about that, axisymmetric the radial force, and of those with an axle how far they have turned,
 /// max_plastic_strain, max_surface_strain, min_thickness_m, max_thinning, min_gap_over_h0,
 /// max_damage_BODY of bodies that have it (material/damage.h), and per probe position, velocity and mean stress, and where boundaries hold or drive it
 /// what they push with: force, and moment about its place (means since the row before).

@@ -11,9 +11,9 @@
 //   /tools/<index>          attribute name; points (m), facets, or plane_point and plane_normal
 //   /frames/NNNNNN          attributes time, step, stage, interrupted; positions, velocities, plastic_strain,
 //                           contact_pressure, contact_gap where anything can meet, contact_slip
-//                           where anything rubs, stress (xx yy zz xy yz zx), mises, volume_ratio, surface_strain, surface_strain_minor,
+//                           where anything rubs, stress (xx yy zz xy yz zx), mises, volume_ratio, surface_strain, surface_strain_minor, damage where a body has it,
 //                           thickness and thinning where a body is a sheet;
-//                           tools/<index>: points (m, as they stand), position, rotation, force,
+//                           tools/<index>: points (m, as they stand), position, rotation, force, moment,
 //                           attribute present
 //
 // Every dataset has the attribute "unit". A frame is listed in /frames only

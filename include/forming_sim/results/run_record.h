@@ -1,6 +1,7 @@
 #pragma once
 // What the files of a run must remember from its earlier parts: it goes into
 // the checkpoint, so that a resumed run ends with the same summary.
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -18,9 +19,9 @@ struct Peak {
   int element = -1;                 ///< -1: nothing found yet
   Vec3 position = Vec3::Zero();     ///< centre of the element or facet, m
   double time = 0;                  ///< s
-  /// The greater of this and another, of two that are equal the one that was there.
+  /// The greater of this and another, of two that are equal the one that was there; what is no number is none.
   void rise_to(const Peak& other) {
-    if (other.element >= 0 && (element < 0 || other.value > value)) *this = other;
+    if (other.element >= 0 && !std::isnan(other.value) && (element < 0 || other.value > value)) *this = other;
   }
 };
 

@@ -2,7 +2,7 @@
 // summary.json: what came of a run. Written at its end, whatever the end was.
 //
 //   status {code, name, message}, version, scene, dimension, axisymmetric, resumed_at_s, warnings
-//   nodes, cells, elements, steps, sim_time_s, wall_time_s, ns_per_element_step
+//   nodes, cells, elements, steps, sim_time_s, wall_time_s, output_time_s, ns_per_element_step
 //                   elements: the triangles or tetrahedra of result.h5; speed: of a one-point cell as one element
 //   time_step_s {first, min, limited_by}
 //   energy_J {kinetic, elastic, plastic, contact, friction, damping, work, initial,
@@ -24,11 +24,11 @@
 //   thickness_m {initial, min}                       smallest at the start, smallest over the history
 //   thinning {max, where, at_end {max, where}}       1 - thickness over that of the start; max: over the history
 //   bodies [{name, mass, centre, momentum, angular_momentum, bounding_box {min, max}}]
-//   tools [{name, peak_force, peak_radial_force, unit, position, present, stopped_s}]
+//   tools [{name, peak_force, peak_radial_force, unit, peak_moment, moment_unit, position, orientation_xyzw, turned_deg, present, stopped_s}]
 //                   peak_radial_force: of an axisymmetric run, else null: outward, summed around the circle;
 //                   stopped_s: when it stopped under its stop_force, else null
-//   springback {angle_deg_formed, angle_deg_released, change_deg, probe {from, to}, kinetic_over_internal}
-//   stages [{name, kind, end_time_s, kinetic_J, internal_J, kinetic_over_internal,
+//   springback {angle_deg_formed, angle_deg_released, change_deg, probe {from, to, reference_from, reference_to}, kinetic_over_internal}
+//   stages [{name, kind, end_time_s, kinetic_J, internal_J, elastic_J, plastic_J, kinetic_over_internal,
 //            kinetic_over_internal_peak}]
 //                   peak: of the rows of the history at which the internal energy was at least 1 %
 //                   of what it was at the end of the stage

@@ -1,5 +1,5 @@
 #pragma once
-// Motions and loads that stages cut off which ended sooner than planned: their times count from the start of the run.
+// Motions and loads that stages cut off which ended sooner than planned: their times count from the start of the run, or of the stage that their since names.
 #include <string>
 #include <vector>
 

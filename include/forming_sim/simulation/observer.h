@@ -22,7 +22,7 @@ struct Energies {
   double damping = 0;   ///< dissipated by viscosity, damping and settling
   double viscosity = 0; ///< the part of damping that bulk viscosity took
   double settling = 0;  ///< the part of damping that the settle stage took
-  double work = 0;      ///< of tools, prescribed motion, pressure, dead loads and gravity
+  double work = 0;      ///< of tools, prescribed motion, pressure, dead loads, gravity and what holds on fading when tools and boundaries let go
   double initial = 0;   ///< kinetic + elastic at the start, as the leapfrog has it: of a formed part that is let go at rest less by dt^2/8 f.M^-1 f
   double residual() const { return kinetic + elastic + contact + plastic + friction + damping - work - initial; }
 };

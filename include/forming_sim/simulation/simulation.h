@@ -24,7 +24,7 @@ struct Outcome {
 
 class Simulation {
  public:
-  /// Builds the state of a scene at rest at its start.
+  /// Builds the state of a scene at its start.
   /// Throws Error (mesh_error, initial_penetration).
   /// threads: 1 or more; results do not depend on it.
   Simulation(const RunPlan& plan, Model model, int threads);
@@ -69,9 +69,10 @@ class Simulation {
   const AddedMass& added_mass() const;
   StepLimitCost step_limit_cost() const;
   /// The ledger at the half step before time(), where every term of it is known to
-  /// second order; evaluated when asked, at the cost of about one pass over the elements.
+  /// second order, but for the work of bulk viscosity over the last kick, which the forces of the next step book;
+  /// evaluated when asked, at the cost of about one pass over the elements.
   const Energies& energies() const;
-  double balance_error() const;      ///< |residual| now over the largest of what was put in so far (work + initial, and what contact has given if it gave), and no less than the energy of a strain of 1e-12
+  double balance_error() const;      ///< |residual| now over the largest of what was put in so far (work + initial, and what contact has given if it gave), and no less than the energy of a strain of 1e-11, far from the origin of what rounding of the places makes
   ContactStatus contact_status() const;
   const std::vector<ToolStatus>& tools() const;
   std::vector<Contact::PressedInside> pressed_inside() const;  ///< where edges and corners of tools pressed on the inside of faces in the last step
