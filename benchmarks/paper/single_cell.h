@@ -44,7 +44,12 @@ inline Mesh square(int cells, const std::string& pattern = "fine") {
 class VibratingCell {
  public:
   VibratingCell(const MaterialConfig& material, double dt, const ElementOptions& options = {})
-      : body(square(1), material, "cell", options), dt_(dt) {}
+      : body(square(1), material, "cell", options), dt_(dt) {
+    const Vec3 places[4] = {{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}};
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t n = 0; n < body.X.size(); ++n)
+        if ((vec3(body.X[n]) - places[k]).norm() < 1e-9) corners_[k] = n;
+  }
 
   /// stress: on the sides x = -1/2 and 1/2, Pa; it grows smoothly until .01 s and is then
   /// taken away, so that the vibration does not depend on where a step finds the load.
@@ -79,7 +84,7 @@ class VibratingCell {
   double dt() const { return dt_; }
 
   /// Corners counter-clockwise from the least x and y.
-  std::size_t corner(std::size_t k) const { return static_cast<std::size_t>(body.elements().simplices()[k][0]); }
+  std::size_t corner(std::size_t k) const { return corners_[k]; }
   Vec3 at(std::size_t k) const { return vec3(body.x[corner(k)]); }
   /// Angle of the left side from the y axis, degrees.
   double angle() const {
@@ -93,6 +98,7 @@ class VibratingCell {
     for (std::size_t k = 0; k < 4; ++k) body.load[corner(k)][0] = body.X[corner(k)][0] > 0 ? stress / 2 : -stress / 2;
   }
 
+  std::size_t corners_[4] = {};
   double dt_, stress_ = 0, gamma_ = 0, driving_ = 0, pulse_ = 0;
   long steps_ = 0;
 };
