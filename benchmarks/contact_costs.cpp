@@ -77,7 +77,7 @@ class PlateOverTool {
     NodeField x = x_, v = v_;
     for (Node& node : x) node[2] += gap * kLayer;
     return contact_->advance(0, 1e-7, x, v, v_before_, [&](double, NodeField& v_star) { v_star = v; },
-                             [&](double dt, const NodeField& with, NodeField& at) { move_nodes(team_, dt, with, nullptr, at); }, [](double, std::vector<ToolMotion>& motion) { motion.assign(1, ToolMotion()); });
+                             [&](double dt, const NodeField& with, NodeField& at) { move_nodes(NodeTeam(team_, static_cast<long>(at.size())), dt, with, nullptr, at); }, [](double, std::vector<ToolMotion>& motion) { motion.assign(1, ToolMotion()); });
   }
   const Contact& contact() const { return *contact_; }
   const ContactTimes& times() const { return times_; }

@@ -67,7 +67,7 @@ StepTimes SteppedBlock::turn(long steps) {
     engine_->find_forces(x_, v_, kDt, kDt);
     StageClock clock(&times_);
     v_.swap(v_before_);
-    kick_and_move_nodes(engine_->team(), Kick(kDt, 0), v_before_, engine_->nodal_forces(), mass_, [](long, long) {}, kDt, nullptr, v_, x_);
+    kick_and_move_nodes(engine_->node_team(), Kick(kDt, 0), v_before_, engine_->nodal_forces(), mass_, [](long, long) {}, kDt, nullptr, v_, x_);
     clock.ends(&StepTimes::nodes);
   }
   const double share = 1 / static_cast<double>(steps);

@@ -109,6 +109,23 @@ class Start {
     return Node::Zero();
   }
 
+  /// How deep the corners of a body's facet lie behind both facets of a tool's edge that pierces it, m; of other crossings how far the nearer end of the edge has come through.
+  template <class At> double depth_of(const Crossing& c, At&& at) const {
+    const auto& corner = f_.facets[c.facet];
+    const Node n = facet_normal(f_.dimension, at(corner[0]), at(corner[1]), at(corner[f_.corners() - 1]));
+    const double through = std::min(std::abs(dot3(at(c.edge[0]) - at(corner[0]), n)), std::abs(dot3(at(c.edge[1]) - at(corner[0]), n)));
+    const int edge = f_.dimension == 3 && f_.rigid(c.edge[0]) ? edge_between(c.edge[0], c.edge[1]) : -1;
+    if (edge < 0) return through;
+    double deepest = 0;
+    const Features::Edge& e = f_.edges[edge];
+    for (int k = 0; k < 3; ++k) {
+      double behind = std::numeric_limits<double>::infinity();
+      for (int i = 0; i < std::min(e.facets, 2); ++i) behind = std::min(behind, -dot3(at(corner[k]) - at(e.node[0]), outward_normal(e, i, at)));
+      deepest = std::max(deepest, behind);
+    }
+    return deepest > 0 && std::isfinite(deepest) ? std::min(deepest, through) : through;
+  }
+
   std::string surface_name(int surface) const {
     return surface < f_.bodies ? "body " + setup_.bodies[surface].name : "tool " + setup_.tools[surface - f_.bodies].name;
   }
@@ -123,6 +140,13 @@ class Start {
   }
 
  private:
+  int edge_between(int a, int b) const {
+    if (edges_.empty())
+      for (std::size_t i = 0; i < f_.edges.size(); ++i) edges_[std::minmax(f_.edges[i].node[0], f_.edges[i].node[1])] = static_cast<int>(i);
+    const auto found = edges_.find(std::minmax(a, b));
+    return found == edges_.end() ? -1 : found->second;
+  }
+
   // Of a vertex to the facets near it: to the nearest, or, where it lies inside, to the one by which it comes out.
   template <class At> std::optional<StartGap> gap_of(const NearList::VertexGroup& g, const NearList& list, At&& at) const {
     const Node& p = at(g.vertex);
@@ -221,6 +245,7 @@ class Start {
   const NodeField& x_;
   const Features& f_;
   const ToolSet& tools_;
+  mutable std::map<std::pair<int, int>, int> edges_;  ///< by their ends, once they are asked for
 };
 
 }  // namespace
@@ -322,9 +347,7 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
       text << " lies inside " << start.surface_name(pierced);
       if (pierced >= f.bodies) text << " (a container is given with the outside of its walls too, or open)";
     } else {
-      const auto& corner = f.facets[c.facet];
-      const Node n = facet_normal(f.dimension, at(corner[0]), at(corner[1]), at(corner[f.corners() - 1]));
-      const double depth = std::min(std::abs(dot3(at(c.edge[0]) - at(corner[0]), n)), std::abs(dot3(at(c.edge[1]) - at(corner[0]), n)));
+      const double depth = start.depth_of(c, at);
       text << " and " << start.vertex_name(c.edge[1], at(c.edge[1])) << " are joined by an edge that pierces a facet of "
            << start.surface_name(pierced) << " by " << depth + layer << " m";
       deep = depth + layer;

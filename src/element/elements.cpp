@@ -251,7 +251,6 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   }
 }
 
-constexpr long kEightsOfAThread = 400;  ///< eight simplices each: fewer are not worth another thread
 long Elements::eights_of_a_block(const Group& g) const {
   if (g.at_edges) return std::max(1L, g.first_node(g.blocks) / kLanes / (g.blocks * (dimension_ + 1)));  // a point costs what its nodes do
   if (is_one_point(static_cast<CellKind>(g.kind))) return dimension_ == 2 ? 2 : 4;  // a cell costs what so many simplices do, or more
@@ -294,7 +293,7 @@ void Elements::nodal_pressure(const NodalView& view, double* slots) const {
     clear_slots(own, t, g.sums);
     kernels_.nodal.volumes(g, view, own.first_block(t), own.last_block(t));
   });
-  team_->share(static_cast<long>(mass_.size()), kNodesOfAThread, [&](long first, long last) {
+  node_team_->share([&](long first, long last) {
     for (long n = first; n < last; ++n) {
       double V = 0;
       for (int k = slot_start_[n]; k < nodal_slots_[n]; ++k) V += slots[static_cast<long>(slot_index_[k]) * record_size_];
@@ -340,7 +339,7 @@ void Elements::find_forces(const NodeField& x, const NodeField& v, double last_d
   NodalView view{x.data()->data(), v.data()->data(), nullptr, pressure_.data(), last_kick, last_dt};
   if (any_nodal_) nodal_pressure(view, slots_);
   clock.ends(&StepTimes::pressure);
-  if (may_sleep_) stillness_.look(x, *team_);
+  if (may_sleep_) stillness_.look(x, *node_team_);
   if (stillness_.any()) {
     bool any_rests = false;
     for (Group& g : groups_) any_rests = forces_of_moved(g, view) || any_rests;
@@ -358,7 +357,7 @@ void Elements::find_forces(const NodeField& x, const NodeField& v, double last_d
 
 void Elements::forces(const NodeField& x, const NodeField& v, double last_dt, double last_kick, NodeField& f) {
   find_forces(x, v, last_dt, last_kick);
-  sum_nodes(*team_, nodal_forces(), f);
+  sum_nodes(*node_team_, nodal_forces(), f);
 }
 
 Elements::Location Elements::locate(int element) const {

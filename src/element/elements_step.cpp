@@ -163,7 +163,7 @@ void Elements::elastic_forces(const NodeField& x, NodeField& f) {
     });
   }
   stillness_.forget();  // the slots hold the forces at x now
-  sum_nodes(*team_, nodal_forces(), f);
+  sum_nodes(*node_team_, nodal_forces(), f);
 }
 
 }  // namespace forming_sim

@@ -91,6 +91,7 @@ struct Elements::Group : CellGroup {
   int last_block(long t) const { return blocks < first_block(t + 1) ? blocks : first_block(t + 1); }
 };
 
+constexpr long kEightsOfAThread = 250;  ///< eight simplices each: fewer are not worth another thread
 /// Blocks that make a tile of so many.
 int blocks_of_a_tile(int blocks, int simplices_of_a_cell);
 

@@ -13,8 +13,6 @@ const NodeKernels& node_kernels_of(Isa isa) {
 }
 
 namespace {
-constexpr long kPart = 128;  ///< nodes of which v before and after the kick and x are 12 kB
-
 /// Of this processor, asked for once.
 const NodeKernels& kernels() {
   static const NodeKernels& widest = node_kernels_of(choose_isa());
@@ -37,8 +35,8 @@ long kick_part(const Kick& kick, const NodeField& v, const NodalForces& forces, 
 }
 }  // namespace
 
-void sum_nodes(Team& team, const NodalForces& forces, NodeField& f) {
-  team.share(static_cast<long>(f.size()), kNodesOfAThread, [&](long first, long last) { kernels().sum(forces, first, last, numbers(f)); });
+void sum_nodes(const NodeTeam& team, const NodalForces& forces, NodeField& f) {
+  team.share([&](long first, long last) { kernels().sum(forces, first, last, numbers(f)); });
 }
 
 Node force_on(long node, const NodalForces& forces) {
@@ -54,40 +52,32 @@ Node force_on(long node, const NodalForces& forces) {
   return f;
 }
 
-long kick_nodes(Team& team, const Kick& kick, const NodeField& v, const NodalForces& forces, const std::vector<double>& mass, NodeField& to) {
+long kick_nodes(const NodeTeam& team, const Kick& kick, const NodeField& v, const NodalForces& forces, const std::vector<double>& mass, NodeField& to) {
   std::atomic<long> resting{0};
-  team.share(static_cast<long>(v.size()), kNodesOfAThread, [&](long first, long last) {
-    resting += kick_part(kick, v, forces, mass, first, last, to);
+  team.share([&](long first, long last) {
+    if (const long here = kick_part(kick, v, forces, mass, first, last, to); here > 0) resting += here;
   });
   return resting;
 }
 
-double move_nodes(Team& team, double dt, const NodeField& v, const NodeField* then, NodeField& x) {
-  return team.largest(static_cast<long>(x.size()), kNodesOfAThread,
-                      [&](long first, long last) { return kernels().move(dt, numbers(v), numbers(then), first, last, numbers(x)); });
+double move_nodes(const NodeTeam& team, double dt, const NodeField& v, const NodeField* then, NodeField& x) {
+  return team.largest([&](long first, long last) { return kernels().move(dt, numbers(v), numbers(then), first, last, numbers(x)); });
 }
 
-KickedAndMoved kick_and_move_nodes(Team& team, const Kick& kick, const NodeField& v_before, const NodalForces& forces, const std::vector<double>& mass,
+KickedAndMoved kick_and_move_nodes(const NodeTeam& team, const Kick& kick, const NodeField& v_before, const NodalForces& forces, const std::vector<double>& mass,
                                    const std::function<void(long first, long last)>& hold, double dt, const NodeField* then, NodeField& v, NodeField& x) {
   std::atomic<long> resting{0};
-  const double apart = team.largest(static_cast<long>(x.size()), kNodesOfAThread, [&](long first, long last) {
-    double most = 0;
-    long here = 0;
-    for (long begin = first; begin < last; begin += kPart) {
-      const long end = std::min(last, begin + kPart);
-      here += kick_part(kick, v_before, forces, mass, begin, end, v);
-      hold(begin, end);
-      most = std::max(most, kernels().move(dt, numbers(v), numbers(then), begin, end, numbers(x)));
-    }
-    resting += here;
-    return most;
+  const double apart = team.largest([&](long first, long last) {
+    if (const long here = kick_part(kick, v_before, forces, mass, first, last, v); here > 0) resting += here;
+    hold(first, last);
+    return kernels().move(dt, numbers(v), numbers(then), first, last, numbers(x));
   });
   return {apart, resting};
 }
 
-long compare_nodes(Team& team, const NodeField& x, NodeField& seen, std::vector<char>& moved) {
+long compare_nodes(const NodeTeam& team, const NodeField& x, NodeField& seen, std::vector<char>& moved) {
   std::atomic<long> count{0};
-  team.share(static_cast<long>(x.size()), kNodesOfAThread, [&](long first, long last) { count += kernels().compare(numbers(x), first, last, numbers(seen), moved.data()); });
+  team.share([&](long first, long last) { count += kernels().compare(numbers(x), first, last, numbers(seen), moved.data()); });
   return count;
 }
 

@@ -12,7 +12,7 @@ void Stillness::forget() {
   calls_ = 0;
 }
 
-void Stillness::look(const NodeField& x, Team& team) {
+void Stillness::look(const NodeField& x, const NodeTeam& team) {
   const bool compare = seen_last_, keep = compare || calls_++ % kLook == 0;
   any_ = seen_last_ = false;
   if (!keep) return;

@@ -54,6 +54,12 @@ void Elements::lay_tiles(int nodes) {
   slot_index_.assign(count[nodes] + kSlotsFetched, 0);
   for (std::size_t s = 0; s < node_of_slot.size(); ++s)
     if (node_of_slot[s] >= 0) slot_index_[count[node_of_slot[s]]++] = static_cast<int>(s);
+  std::vector<long> place(nodes, 0);
+  for (int n = 0; n < nodes; ++n)
+    if (slot_start_[n] < slot_start_[n + 1]) place[n] = slot_index_[slot_start_[n]];
+  long eights = 0;
+  for (const Group& g : groups_) eights += g.blocks * eights_of_a_block(g);
+  node_team_ = std::make_unique<NodeTeam>(*team_, place, eights >= 2 * kEightsOfAThread);
   slot_storage_.resize((node_of_slot.size() * record_size_ + kLanes - 1) / kLanes);
   slots_ = slot_storage_.empty() ? nullptr : slot_storage_.data()->value;
 }

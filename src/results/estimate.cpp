@@ -18,7 +18,13 @@ constexpr double kBytesOfTriangle = 450;  ///< of a tool: its mesh, features, in
 
 Estimate estimate_run(Simulation& simulation) {
   Estimate estimate;
-  for (const StageConfig& stage : simulation.plan().stages) estimate.settles = estimate.settles || stage.kind == "settle";
+  double settling = 0, whole = 0;  // s, longest
+  for (const StageConfig& stage : simulation.plan().stages) {
+    whole += longest_time(stage);
+    if (stage.kind != "settle") continue;
+    estimate.settles = true;
+    settling += longest_time(stage);
+  }
   estimate.nodes = simulation.model().node_count();
   estimate.elements = simulation.model().element_count();
   // The state and its copy in a checkpoint, with what settle stages know of each node, and per element what is kept besides:
@@ -45,27 +51,34 @@ Estimate estimate_run(Simulation& simulation) {
   };
   while (more && !enough()) step();
 
+  const auto share_out = [&] { estimate.settling_steps = std::lround(settling / whole * static_cast<double>(estimate.steps)); };
   const long measured = simulation.steps() - first;
   if (measured == 0) {  // the whole run is shorter than the warm-up, or broke in it
     const double taken = static_cast<double>(first);
     estimate.time_step_s = first > 0 ? time / taken : simulation.dt();
     estimate.steps = estimate.broken.empty() ? first : static_cast<long>(std::ceil(longest_time(simulation.plan().stages) / estimate.time_step_s));
     estimate.wall_time_s = first > 0 ? wall / taken * static_cast<double>(estimate.steps) : 0;
+    share_out();
     return estimate;
   }
   estimate.time_step_s = (simulation.time() - time) / static_cast<double>(measured);
   estimate.steps = static_cast<long>(std::ceil(longest_time(simulation.plan().stages) / estimate.time_step_s));
   estimate.wall_time_s = (simulation.wall_time() - wall) / static_cast<double>(measured) * static_cast<double>(estimate.steps);
+  share_out();
   return estimate;
 }
 
 std::string estimate_text(const Estimate& estimate) {
-  char text[512];
+  const double part = estimate.steps > 0 ? static_cast<double>(estimate.settling_steps) / static_cast<double>(estimate.steps) : 0;
+  char text[768], settling[128] = "";
+  if (estimate.settles) std::snprintf(settling, sizeof settling, ", of these at most %ld to settle", estimate.settling_steps);
+  char seconds[128] = "";
+  if (estimate.settles) std::snprintf(seconds, sizeof seconds, "%.3g s until it settles, at most ", (1 - part) * estimate.wall_time_s);
   std::snprintf(text, sizeof text,
                 "nodes        %ld\nelements     %ld\ntime step    %.3g s in the first steps; it falls where cells are squeezed\nsteps        about %ld%s\n"
-                "wall time    about %.3g s on this machine (of the solver, without contact that comes later)\nmemory       about %.3g MB for the solver's data\n",
-                estimate.nodes, estimate.elements, estimate.time_step_s, estimate.steps, estimate.settles ? " (settling by its limit)" : "",
-                estimate.wall_time_s, estimate.memory_bytes / 1e6);
+                "wall time    about %s%.3g s on this machine (of the solver, without contact that comes later, which can take several times as much)\n"
+                "memory       about %.3g MB for the solver's data\n",
+                estimate.nodes, estimate.elements, estimate.time_step_s, estimate.steps, settling, seconds, estimate.wall_time_s, estimate.memory_bytes / 1e6);
   return estimate.broken.empty() ? text : text + ("note: the run breaks in its first steps: " + estimate.broken + "\n");
 }
 

@@ -45,10 +45,22 @@ int nearest_node(const NodeTree& tree, const Vec3& point) {
 }
 
 using Side = std::map<std::string, std::vector<int>>::const_iterator;
+/// A strip that stands, as the section of a tube does: twice as high as long at the start, and no solid bar about the axis.
+bool stands(const BodyModel& body, bool axisymmetric) {
+  constexpr double kStands = 2;
+  const auto& sets = body.mesh.sets;
+  if (body.mesh.dimension != 2 || sets.count("left") == 0 || sets.count("right") == 0) return false;
+  Eigen::AlignedBox3d box;
+  for (const Vec3& X : body.reference()) box.extend(X);
+  return box.sizes().y() > kStands * box.sizes().x() && !(axisymmetric && box.min().x() == 0);
+}
+
 /// The two sides that its thickness is between.
-std::pair<Side, Side> sides_of_sheet(const Mesh& mesh) {
+std::pair<Side, Side> sides_of_sheet(const BodyModel& body, bool axisymmetric) {
+  const Mesh& mesh = body.mesh;
   const Side inside = mesh.sets.find("inside"), outside = mesh.sets.find("outside");
   if (inside != mesh.sets.end() && outside != mesh.sets.end()) return {inside, outside};
+  if (stands(body, axisymmetric)) return {mesh.sets.find("left"), mesh.sets.find("right")};
   return {mesh.sets.find("bottom"), mesh.sets.find("top")};
 }
 
@@ -89,7 +101,7 @@ Thickness::Thickness(const Model& model) {
     const Mesh& mesh = body.mesh;
     const std::vector<Vec3>& reference = body.reference();
     for (const Vec3& X : reference) start.push_back(node(X));
-    const auto [bottom, top] = sides_of_sheet(mesh);
+    const auto [bottom, top] = sides_of_sheet(body, model.axisymmetric);
     if (top == mesh.sets.end() || bottom == mesh.sets.end() || top->second.empty()) continue;
     Sheet sheet;
     sheet.body = static_cast<int>(&body - model.bodies.data());
@@ -138,7 +150,7 @@ Thickness::Thickness(const Model& model) {
 bool Thickness::find_overhangs(const Model& model, const NodeField& start, Sheet& sheet) const {
   constexpr double kNearBelow = 0.5;  // thicknesses
   const BodyModel& body = model.bodies[sheet.body];
-  const std::vector<int>& top = sides_of_sheet(body.mesh).second->second;
+  const std::vector<int>& top = sides_of_sheet(body, model.axisymmetric).second->second;
   const auto place = [&](int n) -> const Node& { return start[sheet.first_node + n]; };
   NodeField outward(body.mesh.nodes.size(), Node::Zero());
   for (const Facet& facet : body.mesh.surface) {

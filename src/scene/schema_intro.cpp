@@ -31,7 +31,7 @@ leave a field out: there 0, "" and [] mean "not given", and the default holds.
   energies are then per metre of width (N/m, kg/m, J/m). Vectors have z = 0, and things turn about z only.
 - `dimension: 2` with `axisymmetric: true` turns that section about the axis y: x is the radius, so that bodies and
   profiles lie at x >= 0. Forces, masses and energies are those of the whole circle (N, kg, J). What lies on the axis
-  stays on it without being told; a set of nodes on the axis carries no pressure and no traction. Tools, gravity and initial velocities
+  stays on it without being told; a set of nodes on the axis carries no pressure and no traction. Tools, gravity and a uniform initial velocity
   go along y. Of the force on a tool what goes along the axis is its force; what presses outward holds itself in balance, and is told as its `radial_force`, summed around the circle.
 - `dimension: 3` is a solid of hexahedra (each of 24 or 6 tetrahedra, or of one point), of wedges (of 14 tetrahedra), pyramids (of 8) or free tetrahedra, also side by side.
 - Relative file names refer to the directory of the scene file; `package://NAME/PATH` and `file://` URLs are understood.
@@ -201,7 +201,8 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 
 | key | meaning |
 |---|---|
-| `status` | `code`, its `name` and `message`: how the run ended; of a scene that was refused `faults` lists all of them: `field`, `given`, `remedy` |
+| `status` | `code`, its `name` and `message`: how the run ended |
+| `faults` | of a scene that was refused: all of them, `field`, `given`, `remedy`; `status` has the code of the first |
 | `version`, `scene`, `dimension`, `axisymmetric`, `per_metre_of_width`, `nodes`, `cells`, `elements`, `steps` | what was run; elements are the triangles or tetrahedra of `result.h5`, also those that a one-point cell is shown as |
 | `sim_time_s`, `wall_time_s`, `output_time_s`, `ns_per_element_step` | simulated time (`resumed_at_s`: where the last part of a resumed run began), time that the solver took, time that measuring and writing took beside it, speed; a one-point cell counts as one element there |
 | `time_step_s` | `first`, `min`, `limited_by` |
@@ -211,7 +212,7 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | `plastic_strain` | the largest equivalent plastic strain and where it is |
 | `damage` | of each body whose material has it the criterion, its unit, the largest of its elements at the end with its place, and the `critical` value |
 | `surface_strain` | the largest principal logarithmic strain on the surface; faces in planes of symmetry are none |
-| `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom`, where a body has them of `outside` from `inside` |
+| `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom`, where a body has them of `outside` from `inside`, of a strip that is twice as high as long of `right` from `left` |
 | `thinning` | the largest 1 - t/t0 of a node of `top`, t its thickness, t0 that of the start, of a formed part that of its blank; where and when it is |
 | `bodies` | for each body: name, mass (that of the solver, with what `mass_scaling` and `raise_to` add), centre, momentum, angular momentum about the origin, `bounding_box` (`min`, `max`) |
 | `tools` | for each tool: name and the vector of its peak force (axisymmetric: along the axis, and `peak_radial_force` outward, summed around the circle), of means over some 50 steps: shorter peaks are in `history.csv`, as means from row to row; their `unit`; `peak_moment` likewise, about the place of the tool at that time (in its `moment_unit`; null in an axisymmetric scene); `turned_deg`, of a tool with an axle, about that; `position` and `orientation_xyzw` (a quaternion) at the end, whether it is `present` then, and `stopped_s`, when it stopped under its `stop_force` |

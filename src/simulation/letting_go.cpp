@@ -150,7 +150,7 @@ void Simulation::Impl::let_go(const BoundarySet& held_before, const std::vector<
   if (!any(stages.left()) && !boundaries_ended) return;
   if (!lets_go_slowly()) return;
   NodeField f(x.size());
-  sum_nodes(elements.team(), forces(), f);
+  sum_nodes(elements.node_team(), forces(), f);
   NodeField held_by(x.size(), Node::Zero());
   const Together with = together();
   std::vector<char> pressed_by_others(x.size(), 0);

@@ -220,6 +220,7 @@ void Simulation::Impl::set_up_contact() {
     setup.bodies.push_back(std::move(s));
     setup.softest_modulus = std::min(setup.softest_modulus, m.E());
     setup.thinnest = std::min(setup.thinnest, body.thickness);
+    setup.soft = setup.soft || body.material.law == "hyperelastic";
     setup.wave_speed = std::min(
         setup.wave_speed, std::sqrt((m.K() + 4. / 3 * m.mu()) / density));
   }

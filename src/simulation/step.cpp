@@ -26,7 +26,7 @@ NodalForces Simulation::Impl::forces() const {
 Kick Simulation::Impl::kick_of(double step_dt) const { return Kick(0.5 * (previous_dt + step_dt), damping_rate(), resting > 0 ? &resting_bodies : nullptr); }
 
 void Simulation::Impl::predict(double step_dt, NodeField& v_star) {
-  resting = kick_nodes(elements.team(), kick_of(step_dt), v, forces(), elements.nodal_mass(), v_star);
+  resting = kick_nodes(elements.node_team(), kick_of(step_dt), v, forces(), elements.nodal_mass(), v_star);
   boundaries.apply_velocity(time, step_dt, x, v_star);
 }
 
@@ -58,7 +58,7 @@ void Simulation::Impl::take_step() {
     // Each asks for no more than two pointers, which a std::function has room for.
     const ContactStep& done = contact->advance(
         time, dt, x, v, v_before, [this](double step_dt, NodeField& v_star) { predict(step_dt, v_star); },
-        [this, &way](double step_dt, const NodeField& with, NodeField& at) { way.departed = move_nodes(elements.team(), step_dt, with, way.then, at); },
+        [this, &way](double step_dt, const NodeField& with, NodeField& at) { way.departed = move_nodes(elements.node_team(), step_dt, with, way.then, at); },
         [this](double step_dt, std::vector<ToolMotion>& motion) { tool_motions(step_dt, motion); }, full_dt(), damping_rate());
     dt = done.dt;
     book(done);
@@ -66,7 +66,7 @@ void Simulation::Impl::take_step() {
     v.swap(v_before);
     const BoundarySet::Prescription& prescribed = boundaries.prescription(time, dt);
     const auto hold = [&](long first, long last) { boundaries.apply_velocity(prescribed, x, first, last, v); };
-    const KickedAndMoved moved = kick_and_move_nodes(elements.team(), kick_of(dt), v_before, forces(), elements.nodal_mass(), hold, dt, way.then, v, x);
+    const KickedAndMoved moved = kick_and_move_nodes(elements.node_team(), kick_of(dt), v_before, forces(), elements.nodal_mass(), hold, dt, way.then, v, x);
     way.departed = moved.apart;
     resting = moved.resting;
   }
@@ -93,7 +93,7 @@ void Simulation::Impl::take_step() {
 double Simulation::Impl::first_kick_energy() const {
   if (std::none_of(model.bodies.begin(), model.bodies.end(), [](const BodyModel& body) { return body.formed.has_value(); })) return 0;
   NodeField f(x.size());
-  sum_nodes(elements.team(), elements.nodal_forces(), f);
+  sum_nodes(elements.node_team(), elements.nodal_forces(), f);
   double sum = 0;
   for (std::size_t i = 0; i < f.size(); ++i) {
     const double m = elements.nodal_mass()[i];

@@ -116,7 +116,7 @@ struct World {
         },
         [](double h, const NodeField& with, NodeField& at) {
           static Team alone(1);
-          move_nodes(alone, h, with, nullptr, at);
+          move_nodes(NodeTeam(alone, static_cast<long>(at.size())), h, with, nullptr, at);
         },
         [&](double h, std::vector<ToolMotion>& now) { now = motion(time, time + h); });
     for (size_t i = 0; i < x.size(); ++i) {

@@ -42,7 +42,7 @@ TEST_P(Nodes, forces_are_those_of_the_elements_and_the_loads) {
   NodeField internal(nodes), f(nodes);
   again.elements.forces(block.x, block.v, 1e-8, 1e-8, internal);
   for (bool loaded : {false, true}) {
-    sum_nodes(block.elements.team(), block.forces(loaded), f);
+    sum_nodes(block.elements.node_team(), block.forces(loaded), f);
     for (std::size_t n = 0; n < nodes; ++n) {
       const Node whole = loaded ? Node(internal[n] + block.load[n]) : internal[n];
       ASSERT_EQ(f[n], whole) << n;
@@ -58,7 +58,7 @@ TEST_P(Nodes, a_kick_is_that_of_the_force) {
   EXPECT_DOUBLE_EQ(kick.keep, 0.97 / 1.03);  // a = .03
   EXPECT_DOUBLE_EQ(kick.push, 3e-8 / 1.03);
   NodeField to(block.x.size());
-  kick_nodes(block.elements.team(), kick, block.v, block.forces(true), block.elements.nodal_mass(), to);
+  kick_nodes(block.elements.node_team(), kick, block.v, block.forces(true), block.elements.nodal_mass(), to);
   double least = 1e300;
   for (std::size_t n = 0; n < to.size(); ++n) {
     const Node push = kick.push / block.elements.nodal_mass()[n] * force_on(static_cast<long>(n), block.forces(true));
@@ -71,7 +71,7 @@ TEST_P(Nodes, a_kick_is_that_of_the_force) {
 TEST_P(Nodes, kick_and_move_in_one_pass_are_both_one_after_the_other) {
   for (int threads : {1, 2}) {
     Moved block(GetParam(), threads);
-    Team& team = block.elements.team();
+    const NodeTeam& team = block.elements.node_team();
     const std::vector<double>& mass = block.elements.nodal_mass();
     const Kick kick(1e-8, 1e6);
     const double dt = 2e-8;

@@ -50,9 +50,10 @@ void same_bits(CellKind kind, int cells, int threads) {
 
 // Every second node is held, and yet no cell rests: looks that gain nothing are as rare as where all move.
 TEST(Stillness, LooksThatGainNothingAreRare) {
-  Team team(1);
+  Team alone(1);
   Stillness stillness;
   NodeField x(100, Node::Zero());
+  const NodeTeam team(alone, static_cast<long>(x.size()));
   int looks = 0;
   for (int call = 0; call < 160; ++call) {
     for (std::size_t n = 0; n < x.size(); n += 2) x[n][0] += 1;

@@ -82,6 +82,7 @@ struct ContactSetup {
   std::vector<const Mesh*> tool_meshes;  ///< one per tool, positions in the tool's frame (not looked at for a plane); read in the constructor only
   double softest_modulus = 0;            ///< E of the softest body, Pa
   double thinnest = 0;                   ///< thickness of the thinnest body, m
+  bool soft = false;                     ///< a body bears pressures as large as its modulus: rubber
   double wave_speed = 0;                 ///< of the slowest body, m/s
   Team* team = nullptr;                  ///< the threads, for as long as the contact lasts; null: one of its own. They change no result
 };

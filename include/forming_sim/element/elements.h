@@ -11,6 +11,7 @@
 #include "forming_sim/config/fault.h"
 #include "forming_sim/element/body.h"
 #include "forming_sim/element/nodal_forces.h"
+#include "forming_sim/element/node_team.h"
 #include "forming_sim/element/step_bounds.h"
 #include "forming_sim/element/step_times.h"
 #include "forming_sim/element/stillness.h"
@@ -122,6 +123,7 @@ class Elements {
   const double* read_state(const double* from);
   const char* kernel_name() const;
   Team& team() const { return *team_; }  ///< the threads of the run
+  const NodeTeam& node_team() const { return *node_team_; }  ///< they, where they go through the nodes
 
  private:
   struct Group;
@@ -174,6 +176,7 @@ class Elements {
   int dimension_;
   bool axisymmetric_;
   std::unique_ptr<Team> team_;
+  std::unique_ptr<NodeTeam> node_team_;
   std::vector<Group> groups_;
   std::vector<std::array<int, 4>> simplices_;
   std::vector<double> mass_;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "forming_sim/element/nodal_forces.h"
-#include "forming_sim/parallel/team.h"
+#include "forming_sim/element/node_team.h"
 #include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
@@ -31,15 +31,15 @@ struct Kick {
 };
 
 /// f of all nodes.
-void sum_nodes(Team& team, const NodalForces& forces, NodeField& f);
+void sum_nodes(const NodeTeam& team, const NodalForces& forces, NodeField& f);
 /// f of one node, the same to the last bit.
 Node force_on(long node, const NodalForces& forces);
 
 /// to = v after the kick; mass: kg. Returns how many nodes go on to rest.
-long kick_nodes(Team& team, const Kick& kick, const NodeField& v, const NodalForces& forces, const std::vector<double>& mass, NodeField& to);
+long kick_nodes(const NodeTeam& team, const Kick& kick, const NodeField& v, const NodalForces& forces, const std::vector<double>& mass, NodeField& to);
 
 /// x += dt v. Returns the largest |v - then|^2, 0 without `then`.
-double move_nodes(Team& team, double dt, const NodeField& v, const NodeField* then, NodeField& x);
+double move_nodes(const NodeTeam& team, double dt, const NodeField& v, const NodeField* then, NodeField& x);
 
 /// What move_nodes and kick_nodes return.
 struct KickedAndMoved {
@@ -48,10 +48,10 @@ struct KickedAndMoved {
 };
 /// Both, a part of the nodes at a time, which a core's cache holds meanwhile: v = v_before after the kick, then hold(first, last)
 /// for what else acts on the velocities of the nodes [first, last), then x += dt v.
-KickedAndMoved kick_and_move_nodes(Team& team, const Kick& kick, const NodeField& v_before, const NodalForces& forces, const std::vector<double>& mass,
+KickedAndMoved kick_and_move_nodes(const NodeTeam& team, const Kick& kick, const NodeField& v_before, const NodalForces& forces, const std::vector<double>& mass,
                                    const std::function<void(long first, long last)>& hold, double dt, const NodeField* then, NodeField& v, NodeField& x);
 
 /// moved = does x differ from seen, node by node; seen = x. Returns how many do.
-long compare_nodes(Team& team, const NodeField& x, NodeField& seen, std::vector<char>& moved);
+long compare_nodes(const NodeTeam& team, const NodeField& x, NodeField& seen, std::vector<char>& moved);
 
 }  // namespace forming_sim

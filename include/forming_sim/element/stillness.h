@@ -8,7 +8,7 @@
 // rounding does not count: Kick of element/nodes.h.)
 #include <vector>
 
-#include "forming_sim/parallel/team.h"
+#include "forming_sim/element/node_team.h"
 #include "forming_sim/tensor/vec.h"
 
 namespace forming_sim {
@@ -17,7 +17,7 @@ class Stillness {
  public:
   /// To be called before every evaluation of the forces at x. While nearly all
   /// nodes move, or those that do not let no cell rest, it compares in one of sixteen calls only.
-  void look(const NodeField& x, Team& team);
+  void look(const NodeField& x, const NodeTeam& team);
   /// Enough nodes stand still for a look at the cells to pay.
   bool any() const { return any_; }
   /// Node n has moved since the last evaluation; only where any().

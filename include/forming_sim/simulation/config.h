@@ -53,7 +53,7 @@ struct StageConfig {
   const std::string& title() const { return name.empty() ? kind : name; }
 
   template <class Visitor> static void declare(Visitor&& visit) {
-    visit(FORMING_SIM_FIELD(name), Field().computed("the kind").doc("name of the stage in feedback and files"));
+    visit(FORMING_SIM_FIELD(name), Field().computed("the kind; of the second of a kind with _2, and so on").doc("name of the stage in feedback and files, and by which since and until mean it"));
     visit(FORMING_SIM_FIELD(kind), Field().required().choices({"form", "withdraw", "settle"})
           .doc("form: run for a duration; withdraw: the tools move away from where they stand, then they are gone; settle: damping adapted to the body's own slowest swing until it rests"));
     visit(FORMING_SIM_FIELD(duration), Field().unit("s").above(0).required().when("kind", {"form", "withdraw"}).doc("length of the stage in simulated time"));
