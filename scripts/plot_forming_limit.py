@@ -2,7 +2,7 @@
 """Draws the forming limit diagram of a run, from its result.h5: the principal strains of every surface
 facet of the sheets, the larger over the smaller, true strains.
 
-The sheet is the facets whose nodes are all in the set `top` or all in `bottom` of their body (of a tube `outside` and `inside`); --set
+The sheet is the facets whose nodes are all in the set `top` or all in `bottom` of their body (or in the other two sides that its thickness is between, as `inside` and `outside` of a tube); --set
 chooses others. A limit curve, given as a CSV of rows "minor,major" in true strain, is drawn with it, and
 what share of the sheet lies beyond it is printed: of its area at the start, of its facets where the section of a ring or strip is the model.
 """
@@ -30,7 +30,7 @@ def sides_of_the_sheets(result, wanted):
         sets = result["bodies"][index]["sets"].values()
         names = {group.attrs["name"] for group in sets}
         known |= names
-        of_body = wanted or (["outside", "inside"] if {"outside", "inside"} <= names else ["top", "bottom"])
+        of_body = wanted or result["bodies"][index].attrs.get("thickness_between", "bottom top").split()
         for group in sets:
             name = group.attrs["name"]
             if name not in of_body:
@@ -81,7 +81,7 @@ def is_number(text):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add_frame_options(parser)
-    parser.add_argument("--set", action="append", default=[], help="a set of the surface; can be given again; default: top and bottom, of a tube outside and inside")
+    parser.add_argument("--set", action="append", default=[], help="a set of the surface; can be given again; default: the two sides that the thickness is between")
     parser.add_argument("--limit", help="CSV of a limit curve: rows minor,major, true strains")
     options = parser.parse_args()
 

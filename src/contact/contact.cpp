@@ -11,10 +11,10 @@
 namespace forming_sim {
 
 namespace {
-/// A layer is so much of the thickness of the thinnest body. Tools are set back by theirs. Bodies stand one apart where they meet, as if each were thicker by half of it: what is
-/// pressed into another is as much tighter, a fold as much wider. A tenth costs 4 to 7 % more time, a hundredth asks for more sweeps than there are; rubber, which is pressed
-/// by its modulus and more, goes far into its layer, where thin ones take many sweeps.
-double share_of_thickness(bool bodies_meet, bool soft) { return bodies_meet && !soft ? 1e-4 : 1e-3; }
+/// Bodies stand a layer apart where they meet, as if each were thicker by half of it: what is pressed into another is as much tighter, a fold as much wider. So the layer is
+/// thinner, by this, where some come together that were apart. What touches from the start on is set a layer apart there and loses nothing, and packs that are squeezed
+/// would take twice the sweeps. So would rubber, which is pressed by its modulus and more and goes far into its layer.
+constexpr double kWhereBodiesComeTogether = .1;
 constexpr double kOfClearance = .2;  ///< bodies that stand close are to meet where they meet, not a layer before
 }
 
@@ -28,10 +28,15 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
     const std::vector<int>& own = m.features.surfaces[b].vertices;
     m.body_vertices.insert(m.body_vertices.end(), own.begin(), own.end());
   }
-  m.layer = setup.config.layer > 0 ? setup.config.layer : std::min(0.05 * m.features.smallest_edge, share_of_thickness(m.features.bodies_meet(), setup.soft) * setup.thinnest);
-  if (const double clearance = setup.config.layer > 0 ? 0 : clearance_of_bodies(m.layer, setup, m.features, at); clearance > 0 && kOfClearance * clearance < m.layer) {
-    m.layer = kOfClearance * clearance;
-    m.warnings.push_back("two bodies stand " + three_digits(clearance) + " m apart: contact acts from a fifth of that on, contact.layer " + three_digits(m.layer) + " m; where the gap itself matters give a smaller one");
+  m.layer = setup.config.layer;
+  if (m.layer == 0) {
+    m.layer = std::min(0.05 * m.features.smallest_edge, 1e-3 * setup.thinnest);
+    const BodiesAtStart bodies = look_at_bodies(m.layer, setup, m.features, at);
+    if (m.method == Impl::Method::implicit && !setup.soft && m.features.bodies_meet() && !(bodies.in_one_pack && !m.features.any_meets_itself())) m.layer *= kWhereBodiesComeTogether;
+    if (bodies.clearance > 0 && kOfClearance * bodies.clearance < m.layer) {
+      m.layer = kOfClearance * bodies.clearance;
+      m.warnings.push_back("two bodies stand " + three_digits(bodies.clearance) + " m apart: contact acts from a fifth of that on, contact.layer " + three_digits(m.layer) + " m; where the gap itself matters give a smaller one");
+    }
   }
   m.thickest = m.layer;
   m.ceiling = std::max(m.layer, 0.05 * m.features.smallest_edge);

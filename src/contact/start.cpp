@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -250,9 +251,10 @@ class Start {
 
 }  // namespace
 
-double clearance_of_bodies(double layer, const ContactSetup& setup, const Features& f, const NodeField& x) {
+BodiesAtStart look_at_bodies(double layer, const ContactSetup& setup, const Features& f, const NodeField& x) {
   constexpr double kTouch = .05;  // of the layer
-  if (f.bodies < 2) return 0;
+  BodiesAtStart found;
+  if (f.bodies < 2) return found;
   const ToolSet none;
   const std::vector<int> sides;
   std::map<std::pair<int, int>, double> nearest;
@@ -261,10 +263,21 @@ double clearance_of_bodies(double layer, const ContactSetup& setup, const Featur
     double& gap = nearest.try_emplace({std::min(own, g.surface), std::max(own, g.surface)}, g.gap).first->second;
     gap = std::min(gap, g.gap);
   }
-  double clearance = 0;
-  for (const auto& [pair, gap] : nearest)
-    if (gap > kTouch * layer && (clearance == 0 || gap < clearance)) clearance = gap;
-  return clearance;
+  std::vector<int> pack(f.bodies);  // by the least number of a body that touches it, straight or through others
+  std::iota(pack.begin(), pack.end(), 0);
+  const auto join = [&](int a, int b) {
+    const int low = std::min(pack[a], pack[b]), high = std::max(pack[a], pack[b]);
+    std::replace(pack.begin(), pack.end(), high, low);
+  };
+  for (int a = 0; a < f.bodies; ++a)
+    for (int b = a + 1; b < f.bodies; ++b)
+      if (f.relation(a, b).tie >= 0) join(a, b);
+  for (const auto& [pair, gap] : nearest) {
+    if (gap <= kTouch * layer) join(pair.first, pair.second);
+    else if (found.clearance == 0 || gap < found.clearance) found.clearance = gap;
+  }
+  found.in_one_pack = std::all_of(pack.begin(), pack.end(), [](int first) { return first == 0; });
+  return found;
 }
 
 std::vector<Vec3> part_bodies(double layer, const ContactSetup& setup, const Features& f, NodeField& x, std::vector<std::string>& warnings) {

@@ -61,14 +61,12 @@ Hdf5Handle access_list() {
 
 Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path) {
   silence_hdf5();
-  const Hdf5Handle access = access_list();
+  const Hdf5Handle access = access_list(), root(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_obj_track_times(root.id(), false);
   switch (mode) {
-    case Mode::create: {
-      const Hdf5Handle root(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-      H5Pset_obj_track_times(root.id(), false);
+    case Mode::create:
       handle_ = Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, root.id(), access.id()), H5Fclose);
       break;
-    }
     case Mode::read: handle_ = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose); break;
     case Mode::append: handle_ = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose); break;
   }

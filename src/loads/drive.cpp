@@ -48,7 +48,7 @@ Vec3 guide_of(const MotionConfig& config) {
 bool goes_along(const Vec3& given, const Vec3& guide) { return (given - given.dot(guide) * guide).norm() <= 1e-12 * given.norm(); }
 
 double Drive::free_speed(double t, double kick) const {
-  return inverse_mass(kick) * (kept(kick) * mass_ * momentum_ + kick * (force(t) + damping_ * mass_ * spring_.end_speed(t - began_)));
+  return inverse_mass(kick) * (kept(kick) * mass_ * momentum_ + kick * (force(t) + (damping_ + settling_) * mass_ * spring_.end_speed(t - began_)));
 }
 
 double Drive::inverse_mass(double kick) const { return 1 / (mass_ * (kept(kick) + 2 * braking(kick))); }
@@ -79,6 +79,7 @@ void ForceDrive::take(double t, double kick, double dt, double push, double answ
 }
 
 double ForceDrive::fallen(double t) const {
+  if (springs_back()) return 0;  // its spring holds it, wherever the other end is
   const double F = force(t), along = F < 0 ? pressed_at_ - gone() : gone() - pressed_at_;
   return F != 0 && along > 0 ? along : 0;
 }

@@ -4,6 +4,7 @@
 
 #include "forming_sim/config/fault.h"
 #include "forming_sim/mesh/split.h"
+#include "face_quarters.h"
 #include "generate_bar.h"
 #include "generate_tube.h"
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "face_quarters.h"
 #include "forming_sim/mesh/split.h"
 
 namespace forming_sim {
@@ -34,7 +35,7 @@ Mesh generate_tube(const BlankConfig& blank, CellKind kind) {
   const TubeGrid grid{full ? steps : half ? steps / 2 : steps / 4, blank.cells_along, blank.cells_through, full};
   const int first = half ? -steps / 2 : 0;  // in half steps, from the axis x on
   Mesh mesh;
-  mesh.sets = {{"bottom", {}}, {"top", {}}, {"inside", {}}, {"outside", {}}};
+  mesh.sets = {{"start", {}}, {"end", {}}, {"inside", {}}, {"outside", {}}};
   if (!full) mesh.sets["symmetry_x"];
   if (!full && !half) mesh.sets["symmetry_y"];
   for (int k = 0; k <= grid.through; ++k)
@@ -44,8 +45,8 @@ Mesh generate_tube(const BlankConfig& blank, CellKind kind) {
         const double r = blank.radius - blank.thickness * (grid.through - k) / grid.through;
         const int node = static_cast<int>(mesh.nodes.size());
         mesh.nodes.push_back(blank.origin + r * round + Vec3(0, 0, blank.length * j / grid.along));
-        if (j == 0) mesh.sets["bottom"].push_back(node);
-        if (j == grid.along) mesh.sets["top"].push_back(node);
+        if (j == 0) mesh.sets["start"].push_back(node);
+        if (j == grid.along) mesh.sets["end"].push_back(node);
         if (k == 0) mesh.sets["inside"].push_back(node);
         if (k == grid.through) mesh.sets["outside"].push_back(node);
         if (!full && round.x() == 0) mesh.sets["symmetry_x"].push_back(node);

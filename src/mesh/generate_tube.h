@@ -5,10 +5,6 @@
 
 namespace forming_sim {
 
-/// By so many quarter turns about the third direction the corners of a cell of a sheet are numbered on: 0, 1, 2, 3 in the quarters of its face, one after the other. A face that
-/// stays whole is divided as the tetrahedra of hex6 are, from its first corner on, and diagonals that all run one way let what is symmetric drift in contact: these mirror about both middles of the sheet.
-inline int quarter_of(bool right, bool behind) { return behind ? (right ? 2 : 3) : (right ? 1 : 0); }
-
 /// Cells and sets of the tube; hex24, hex6 or hex1.
 Mesh generate_tube(const BlankConfig& blank, CellKind kind);
 

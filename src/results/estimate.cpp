@@ -73,7 +73,7 @@ std::string estimate_text(const Estimate& estimate) {
   char text[768], settling[128] = "";
   if (estimate.settles) std::snprintf(settling, sizeof settling, ", of these at most %ld to settle", estimate.settling_steps);
   char seconds[128] = "";
-  if (estimate.settles) std::snprintf(seconds, sizeof seconds, "%.3g s until it settles, at most ", (1 - part) * estimate.wall_time_s);
+  if (estimate.settles) std::snprintf(seconds, sizeof seconds, "%.3g s before it settles, with that at most ", (1 - part) * estimate.wall_time_s);
   std::snprintf(text, sizeof text,
                 "nodes        %ld\nelements     %ld\ntime step    %.3g s in the first steps; it falls where cells are squeezed\nsteps        about %ld%s\n"
                 "wall time    about %s%.3g s on this machine (of the solver, without contact that comes later, which can take several times as much)\n"

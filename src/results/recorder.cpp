@@ -62,7 +62,7 @@ void Recorder::tell_inertia(const Simulation& simulation, const StageConfig& sta
   constexpr double kMuch = 0.1;
   const Energies& e = simulation.energies();
   const double internal = e.elastic + e.plastic, most = record_.kinetic_peak.at_end(internal, kWellOnItsWay);
-  if (stage.kind != "form" || !(most > kMuch) || e.initial > e.work) return;
+  if (stage.kind != "form" || !(most > kMuch) || e.initial > e.work || e.plastic < e.elastic) return;
   record_.notes.push_back("in stage " + stage.title() + " the kinetic energy was up to " + three_digits(100 * most) +
                           " % of the internal one when a fifth of this was there or more: unless bodies travel as a whole, inertia takes part in forces and shapes. Slower tools or less time_step.mass_scaling show by how much");
 }

@@ -18,6 +18,7 @@ void write_bodies(Hdf5Group bodies, const ResultHeader& header) {
   for (std::size_t i = 0; i < header.bodies.size(); ++i) {
     Hdf5Group body = bodies.create(std::to_string(i));
     body.set("name", header.bodies[i]);
+    if (i < header.sheet_sides.size()) body.set("thickness_between", header.sheet_sides[i]);
     Hdf5Group sets = body.create("sets");
     const std::string prefix = header.bodies[i] + "/";
     int index = 0;

@@ -5,6 +5,7 @@
 #include "forming_sim/material/damage.h"
 #include "forming_sim/results/history.h"
 #include "forming_sim/results/version.h"
+#include "forming_sim/results/sheet_sides.h"
 #include "forming_sim/scene/yaml.h"
 
 namespace forming_sim {
@@ -26,6 +27,8 @@ ResultHeader take_header(const Simulation& simulation, const Scene& scene) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     header.bodies.push_back(body.name);
+    const auto [bottom, top] = sides_of_sheet(body, model.axisymmetric);
+    header.sheet_sides.push_back(top.empty() ? "" : bottom + " " + top);
     for (int e = 0; e < body.element_count; ++e) header.element_body[body.first_element + e] = static_cast<int>(b);
     for (const auto& [name, nodes] : body.mesh.sets) {
       std::vector<int>& joined = header.sets[body.name + "/" + name];

@@ -9,6 +9,7 @@
 #include "forming_sim/contact/closest.h"
 #include "forming_sim/contact/grid.h"
 #include "forming_sim/contact/tools.h"
+#include "forming_sim/results/sheet_sides.h"
 
 namespace forming_sim {
 namespace {
@@ -42,26 +43,6 @@ int nearest_node(const NodeTree& tree, const Vec3& point) {
   NearestNode nearest{point};
   Eigen::BVMinimize(tree, nearest);
   return nearest.index;
-}
-
-using Side = std::map<std::string, std::vector<int>>::const_iterator;
-/// A strip that stands, as the section of a tube does: twice as high as long at the start, and no solid bar about the axis.
-bool stands(const BodyModel& body, bool axisymmetric) {
-  constexpr double kStands = 2;
-  const auto& sets = body.mesh.sets;
-  if (body.mesh.dimension != 2 || sets.count("left") == 0 || sets.count("right") == 0) return false;
-  Eigen::AlignedBox3d box;
-  for (const Vec3& X : body.reference()) box.extend(X);
-  return box.sizes().y() > kStands * box.sizes().x() && !(axisymmetric && box.min().x() == 0);
-}
-
-/// The two sides that its thickness is between.
-std::pair<Side, Side> sides_of_sheet(const BodyModel& body, bool axisymmetric) {
-  const Mesh& mesh = body.mesh;
-  const Side inside = mesh.sets.find("inside"), outside = mesh.sets.find("outside");
-  if (inside != mesh.sets.end() && outside != mesh.sets.end()) return {inside, outside};
-  if (stands(body, axisymmetric)) return {mesh.sets.find("left"), mesh.sets.find("right")};
-  return {mesh.sets.find("bottom"), mesh.sets.find("top")};
 }
 
 }  // namespace
@@ -101,13 +82,14 @@ Thickness::Thickness(const Model& model) {
     const Mesh& mesh = body.mesh;
     const std::vector<Vec3>& reference = body.reference();
     for (const Vec3& X : reference) start.push_back(node(X));
-    const auto [bottom, top] = sides_of_sheet(body, model.axisymmetric);
-    if (top == mesh.sets.end() || bottom == mesh.sets.end() || top->second.empty()) continue;
+    const auto [bottom_name, top_name] = sides_of_sheet(body, model.axisymmetric);
+    if (top_name.empty()) continue;
+    const std::vector<int> &bottom = mesh.sets.at(bottom_name), &top = mesh.sets.at(top_name);
     Sheet sheet;
     sheet.body = static_cast<int>(&body - model.bodies.data());
     sheet.first_node = body.first_node;
     sheet.corners = mesh.dimension;
-    const auto in_bottom = [&](int node) { return std::binary_search(bottom->second.begin(), bottom->second.end(), node); };
+    const auto in_bottom = [&](int node) { return std::binary_search(bottom.begin(), bottom.end(), node); };
     for (const Facet& facet : mesh.surface) {
       std::array<int, 3> nodes = facet.nodes;
       if (nodes[2] < 0) nodes[2] = nodes[1];
@@ -117,7 +99,7 @@ Thickness::Thickness(const Model& model) {
     }
     if (sheet.bottom.empty()) continue;
     std::vector<PlacedNode> top_nodes, facets;  // these by their first nodes
-    for (int node : top->second) {
+    for (int node : top) {
       top_nodes.push_back({reference[node], static_cast<int>(sheet.top.size())});
       sheet.top.push_back(body.first_node + node);
     }
@@ -150,7 +132,8 @@ Thickness::Thickness(const Model& model) {
 bool Thickness::find_overhangs(const Model& model, const NodeField& start, Sheet& sheet) const {
   constexpr double kNearBelow = 0.5;  // thicknesses
   const BodyModel& body = model.bodies[sheet.body];
-  const std::vector<int>& top = sides_of_sheet(body, model.axisymmetric).second->second;
+  std::vector<int> top;
+  for (int node : sheet.top) top.push_back(node - sheet.first_node);
   const auto place = [&](int n) -> const Node& { return start[sheet.first_node + n]; };
   NodeField outward(body.mesh.nodes.size(), Node::Zero());
   for (const Facet& facet : body.mesh.surface) {

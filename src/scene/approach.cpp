@@ -1,7 +1,9 @@
 #include "approach.h"
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
+#include <string>
 
 #include "forming_sim/config/words.h"
 #include "forming_sim/loads/rotation.h"
@@ -59,7 +61,7 @@ void approach_tools(const Scene& scene, Model& model, std::vector<Fault>& faults
     for (std::size_t k = 0; k < i; ++k)
       if (wanted(model.tools[k].name)) meet("tool " + model.tools[k].name, placed(model.tools[k], scene.dimension));
     if (!way) {
-      faults.push_back({Code::invalid_scene, tool_path(i) + ".approach.along", given_text(approach.along), "give a direction along which the tool meets " + (approach.to.empty() ? "a body" : one_of(approach.to, " or ")) + ": on this one it goes by"});
+      faults.push_back({Code::invalid_scene, tool_path(i) + ".approach.along", given_text(approach.along), "give a direction along which the tool meets " + (approach.to.empty() ? "a body" : one_of(approach.to, " or ")) + ": on this one it goes by (of two planes none ever meets the other: they have no corners)"});
       continue;
     }
     const Vec3 shift = (*way - approach.gap) * along;

@@ -80,6 +80,15 @@ void note_long_cells(const BodyConfig& config, Model& model) {
                           number_text(blank.thickness) + " m; give both in metres, or more cells_along");
 }
 
+/// The wall of a tube, say. A solid bar about the axis has no wall.
+void note_standing_strip(const BodyConfig& config, Model& model) {
+  constexpr double kStands = 2;  // times as thick as long: results/sheet_sides.h
+  if (!config.blank || config.blank->shape != "strip" || !(config.blank->thickness > kStands * config.blank->length)) return;
+  if (model.axisymmetric && config.blank->origin.x() == 0) return;
+  model.notes.push_back("body " + config.name + " is a strip " + three_digits(config.blank->thickness / config.blank->length) +
+                        " times as thick as it is long: thickness and thinning of the results are those of its wall, between its sets left and right");
+}
+
 }  // namespace
 
 void tell_odd_body(const BodyConfig& config, const Mesh& mesh, Model& model) {
@@ -96,6 +105,7 @@ void tell_odd_body(const BodyConfig& config, const Mesh& mesh, Model& model) {
     model.notes.push_back("the cells of body " + config.name + " are " + three_digits(flat) +
                           " times as long and as wide as they are thick: split into tetrahedra they bend far too stiffly (docs/elements.md); take hexahedra with pattern one_point, or give cells about as thick as long");
   note_long_cells(config, model);
+  note_standing_strip(config, model);
 }
 
 }  // namespace forming_sim

@@ -57,10 +57,11 @@ void check_axisymmetric(const Scene& scene, FaultList& faults) {
       no_turns(body.boundaries[k].rotations_deg, ".rotations_deg");
     }
   }
-  for (std::size_t i = 0; i < scene.tools.size(); ++i)
-    if (scene.tools[i].approach) rules.along_axis(scene.tools[i].approach->along, tool_path(i) + ".approach.along", "give [0, y, 0]: a rigid ring moves along the axis y only");
-  for (std::size_t i = 0; i < scene.tools.size(); ++i)
-    if (scene.tools[i].motion) rules.motion(*scene.tools[i].motion, tool_path(i) + ".motion");
+  for (std::size_t i = 0; i < scene.tools.size(); ++i) {
+    const ToolConfig& tool = scene.tools[i];
+    if (tool.approach) rules.along_axis(tool.approach->along, tool_path(i) + ".approach.along", "give [0, y, 0]: a rigid ring moves along the axis y only");
+    if (tool.motion) rules.motion(*tool.motion, tool_path(i) + ".motion");
+  }
   for (std::size_t i = 0; i < scene.stages.size(); ++i)
     rules.along_axis(scene.stages[i].displacement, join_path("stages", i) + ".displacement");
   if (scene.contact.method == "geometric")

@@ -11,9 +11,7 @@ namespace forming_sim {
 std::vector<std::string> predefined_sets(const BlankConfig& blank) {
   if (blank.shape == "strip") return {"left", "right", "bottom", "top"};
   if (blank.shape == "plate") return {"left", "right", "front", "back", "bottom", "top"};
-  std::vector<std::string> sets{"bottom", "top"};
-  if (blank.shape == "tube") sets.insert(sets.end(), {"inside", "outside"});
-  else sets.push_back("side");
+  std::vector<std::string> sets = blank.shape == "tube" ? std::vector<std::string>{"start", "end", "inside", "outside"} : std::vector<std::string>{"bottom", "top", "side"};
   if (blank.portion != "full") sets.push_back("symmetry_x");
   if (blank.portion == "quarter") sets.push_back("symmetry_y");
   return sets;
@@ -122,6 +120,7 @@ void check_material(const BodyConfig& body, const std::string& path, int dimensi
     faults.add(path + ".pressure_average", given_text(body.pressure_average), "give cell or element: the classical law keeps a pressure in every element, none in nodes");
   }
   if (material.anisotropy) check_anisotropy(material, here, dimension, faults);
+  if (material.anisotropy && body.blank && body.blank->shape == "tube") faults.add(here + ".anisotropy", "r values of a tube", "leave them out: they have one sheet_normal, and that of a wall turns around");
   if (material.rate_dependence) check_rate(material, here, faults);
   if (material.damage && !material.yields()) faults.add(here + ".damage", "damage without hardening", "give hardening, or layers that have one: damage grows with plastic flow");
   if (material.layers.empty()) return;

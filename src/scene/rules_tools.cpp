@@ -83,10 +83,10 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
     faults.add(path + ".forces", "no force other than 0, no guide and no initial_velocity", "give one of them; a tool without any rests, and needs no motion");
   if (guide.allFinite() && motion.initial_velocity.allFinite() && !goes_along(motion.initial_velocity, guide))
     faults.add(path + ".initial_velocity", given_text(motion.initial_velocity), "give it along the guide, which goes along the forces where none is given");
-  if (motion.stiffness > 0 && guide.allFinite() && !motion.positions.empty() && motion.positions.front().dot(guide) != 0)
+  constexpr double kAlong = 1e-6;  // of the longest: paths of robots are rounded
+  if (motion.stiffness > 0 && guide.allFinite() && !motion.positions.empty() && std::abs(motion.positions.front().dot(guide)) > kAlong * motion.positions.front().norm())
     faults.add(path + ".positions[0]", given_text(motion.positions.front()) + ", in part along the guide", "give 0 along the guide at first, where the tool stands and its spring is slack: what it is pressed with there is told in forces");
   if (motion.by_force() && motion.stiffness == 0 && guide.allFinite() && !guide.isZero(0)) {
-    constexpr double kAlong = 1e-6;  // of the longest: paths of robots are rounded
     const auto across = [&](const std::vector<Vec3>& values, const char* field) {
       double longest = 0;
       for (const Vec3& value : values) longest = std::max(longest, value.norm());
@@ -103,10 +103,6 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
       faults.add(join_path(path + ".forces", i), given_text(motion.forces[i]), "give all forces along one line, the guide, if one is given");
   });
 }
-
-}  // namespace
-
-namespace {
 
 void check_approach(const Scene& scene, std::size_t i, FaultList& faults) {
   const ApproachConfig& approach = *scene.tools[i].approach;

@@ -49,7 +49,7 @@ pressures, loads and probes name sets of its nodes:
 | `strip` (dimension 2) | `left`, `right` (least and greatest x), `bottom`, `top` (least and greatest y) |
 | `plate` | `left`, `right` (x), `front`, `back` (y), `bottom`, `top` (z) |
 | `bar` | `bottom`, `top` (least and greatest z), `side`; `symmetry_x` (x = 0; half and quarter), `symmetry_y` (y = 0; quarter) |
-| `tube` | `bottom`, `top` (least and greatest z), `inside`, `outside`; `symmetry_x`, `symmetry_y` as a bar |
+| `tube` | `start`, `end` (least and greatest z), `inside`, `outside`; `symmetry_x`, `symmetry_y` as a bar |
 | `.msh` file | its physical groups by their names |
 
 A rolled sheet yields by the direction: `anisotropy` takes its r values (Hill's yield stress of 1948), the rolling direction and the normal of the sheet,
@@ -212,8 +212,8 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | `plastic_strain` | the largest equivalent plastic strain and where it is |
 | `damage` | of each body whose material has it the criterion, its unit, the largest of its elements at the end with its place, and the `critical` value |
 | `surface_strain` | the largest principal logarithmic strain on the surface; faces in planes of symmetry are none |
-| `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom`, where a body has them of `outside` from `inside`, of a strip that is twice as high as long of `right` from `left` |
-| `thinning` | the largest 1 - t/t0 of a node of `top`, t its thickness, t0 that of the start, of a formed part that of its blank; where and when it is |
+| `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom`, of a tube of `outside` from `inside`, of a strip that is twice as high as long (no bar about the axis) of `right` from `left` |
+| `thinning` | the largest 1 - t/t0 of a node of `top` (or of the other outer side, see `thickness_m`), t its thickness, t0 that of the start, of a formed part that of its blank; where and when it is |
 | `bodies` | for each body: name, mass (that of the solver, with what `mass_scaling` and `raise_to` add), centre, momentum, angular momentum about the origin, `bounding_box` (`min`, `max`) |
 | `tools` | for each tool: name and the vector of its peak force (axisymmetric: along the axis, and `peak_radial_force` outward, summed around the circle), of means over some 50 steps: shorter peaks are in `history.csv`, as means from row to row; their `unit`; `peak_moment` likewise, about the place of the tool at that time (in its `moment_unit`; null in an axisymmetric scene); `turned_deg`, of a tool with an axle, about that; `position` and `orientation_xyzw` (a quaternion) at the end, whether it is `present` then, and `stopped_s`, when it stopped under its `stop_force` |
 | `springback` | `angle_deg_formed`, `angle_deg_released`, `change_deg`, `probe`, `kinetic_over_internal` |

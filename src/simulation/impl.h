@@ -124,6 +124,7 @@ struct Simulation::Impl {
   /// dt of the coming step: what the mesh bears, the user's limit, the stage's end.
   void choose_dt();
   RestingBody resting_body(const BodyModel& body) const;
+  std::pair<double, int> spring_dt() const;  ///< longest step that the springs of tools bear, s, and whose is the stiffest
   double full_dt() const;           ///< what the coming step could be at most, whatever the steps before it were
   void find_stable_step();
   /// The step is the fastest cell's own: neither nodes nor the whole mesh bound it.

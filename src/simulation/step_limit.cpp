@@ -2,6 +2,7 @@
 // the mass that raises it.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "forming_sim/config/words.h"
@@ -34,18 +35,24 @@ void Simulation::Impl::choose_dt() {
   limit.node = control.node;
   limit.reason = control.element < 0 && control.node < 0 ? "the whole mesh" : "";
   if (config.maximum > 0 && config.maximum < dt) dt = config.maximum, limit = {dt, -1, -1, "time_step.maximum"};
-  for (int k = 0; k < static_cast<int>(tools.size()); ++k)
-    if (const ForceDrive* drive = stages.drive(k); drive && config.safety * drive->stable_step() < dt)
-      dt = config.safety * drive->stable_step(), limit = {dt, -1, -1, "the stiffness of tool " + model.tools[k].name};
+  if (const auto [most, tool] = spring_dt(); most < dt) dt = most, limit = {dt, -1, -1, "the stiffness of tool " + model.tools[tool].name};
   if (steps == 0) first_dt = dt;
   if (smallest.dt == 0 || limit.dt < smallest.dt) smallest = limit;
   const double left = stages.remaining(time), count = std::ceil(left / dt * (1 - 1e-9));
   if (count <= kToEnd) dt = left / std::max(1.0, count);
 }
 
+std::pair<double, int> Simulation::Impl::spring_dt() const {
+  std::pair<double, int> least{std::numeric_limits<double>::infinity(), -1};
+  for (int k = 0; k < static_cast<int>(tools.size()); ++k)
+    if (const ForceDrive* drive = stages.drive(k)) least = std::min(least, {plan.time_step.safety * drive->stable_step(), k});
+  return least;
+}
+
 double Simulation::Impl::full_dt() const {
   double stable = plan.time_step.safety * control.stable_dt;
   if (steps > 0) stable = std::min(stable, steady.dt());
+  stable = std::min(stable, spring_dt().first);
   return plan.time_step.maximum > 0 ? std::min(stable, plan.time_step.maximum) : stable;
 }
 

@@ -191,8 +191,8 @@ TEST_P(Tube, FillsItsWallAndItsSetsAreItsSides) {
     EXPECT_FALSE(expected.empty());
   };
   const double chord = std::cos(turn / 2) * (1 - 1e-9);
-  expect_set("bottom", [](const Vec3& x) { return std::abs(x.z()) < 1e-12; });
-  expect_set("top", [&](const Vec3& x) { return std::abs(x.z() - b.length) < 1e-12; });
+  expect_set("start", [](const Vec3& x) { return std::abs(x.z()) < 1e-12; });
+  expect_set("end", [&](const Vec3& x) { return std::abs(x.z() - b.length) < 1e-12; });
   if (around > 8) {  // where chords do not cut into the layer below
     expect_set("outside", [&](const Vec3& x) { return x.head<2>().norm() > r * chord; });
     expect_set("inside", [&](const Vec3& x) { return x.head<2>().norm() < i * (1 + 1e-9); });

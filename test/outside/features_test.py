@@ -24,7 +24,7 @@ class Features(SceneRun):
             tube = {'name': 'tube', 'blank': {'shape': 'tube', 'radius': outer, 'thickness': outer - inner, 'length': 4e-3, 'portion': portion, 'pattern': pattern,
                                               'cells_around': 64, 'cells_along': 4, 'cells_through': 2},
                     'material': dict(ALUMINIUM, youngs_modulus=modulus, poissons_ratio=0.3),
-                    'boundaries': [{'set': 'symmetry_x', 'kind': 'symmetric', 'normal': [1, 0, 0]}, {'set': 'bottom', 'kind': 'symmetric', 'normal': [0, 0, 1]}],
+                    'boundaries': [{'set': 'symmetry_x', 'kind': 'symmetric', 'normal': [1, 0, 0]}, {'set': 'start', 'kind': 'symmetric', 'normal': [0, 0, 1]}],
                     'pressures': [{'set': 'inside', 'times': [0, 1e-4], 'values': [0, pressure], 'profile': 'smooth'}]}
             if portion == 'quarter':
                 tube['boundaries'].append({'set': 'symmetry_y', 'kind': 'symmetric', 'normal': [0, 1, 0]})

@@ -122,6 +122,45 @@ class Tools(SceneRun):
         self.assertAlmostEqual(back, 1e-3, delta=2e-5)  # the block itself gives way by the rest
         self.assertAlmostEqual(-float(last['tool_pad_force_y_N_per_m']) / (preload + stiffness * back), 1, delta=2e-3)
 
+        # A spring that swings faster than the cells bounds the step.
+        pad['motion'] = dict(pad['motion'], stiffness=1e14, damping=0)
+        data['stages'] = [{'kind': 'form', 'duration': 1e-6}]
+        summary = self.run_scene(data, 'stiff')
+        self.assertAlmostEqual(summary['time_step_s']['first'] / (0.9 * 2 * math.sqrt(0.02 / 1e14)), 1, delta=1e-9)
+
+    def test_a_tool_on_a_spring_goes_back_with_its_other_end(self):
+        """It presses, is taken back and off the block again, and nothing warns of a tool that fell."""
+        block = {'name': 'block', 'blank': {'shape': 'strip', 'length': 0.004, 'thickness': 0.002, 'cells_along': 4, 'cells_through': 2}, 'material': dict(ALUMINIUM),
+                 'boundaries': [{'set': 'bottom', 'kind': 'fixed'}]}
+        press = {'name': 'press', 'normal': [0, -1], 'position': [0, 0.002],
+                 'motion': {'kind': 'force', 'times': [0, 3e-4, 8e-4], 'forces': [[0, 0]] * 3, 'guide': [0, 1], 'stiffness': 5e7, 'mass': 0.02, 'damping': 2e4,
+                            'positions': [[0, 0], [0, -1e-3], [0, 4e-3]]}}
+        summary = self.run_scene(scene(block, tools=[press], duration=1e-3, output={'frames': 1, 'history_interval': 1e-5}))
+        rows = self.history()
+        self.assertAlmostEqual(max(float(row['tool_press_force_y_N_per_m']) for row in rows) / 5e4, 1, delta=0.05)
+        self.assertAlmostEqual(float(rows[-1]['tool_press_position_y_m']), 0.006, delta=2e-5)
+        self.assertEqual([w for w in summary['warnings'] if 'pressed on the bodies no more' in w], [])
+
+    def test_a_press_fit(self):
+        """A hub is opened by pressure, a shaft that is too thick for it is put in, and the pressure goes: Lame's pressure, and so much more as the layer is of the interference."""
+        inner, outer, interference, modulus = 0.01, 0.02, 1e-5, 2.1e11
+        steel = {'density': 7850, 'youngs_modulus': modulus, 'poissons_ratio': 0.3}
+        shaft = {'name': 'shaft', 'blank': {'shape': 'strip', 'origin': [0, -0.011], 'length': inner, 'thickness': 0.01, 'cells_along': 8, 'cells_through': 8}, 'material': steel,
+                 'boundaries': [{'set': 'bottom', 'kind': 'trajectory', 'axes': ['y'], 'times': [0, 1e-3, 3e-3], 'positions': [[0, 0], [0, 0], [0, 0.011]], 'until': 'rest'}]}
+        hub = {'name': 'hub', 'blank': {'shape': 'strip', 'origin': [inner - interference, 0], 'length': outer - inner + interference, 'thickness': 0.01, 'cells_along': 8, 'cells_through': 8},
+               'material': steel, 'boundaries': [{'set': 'right', 'kind': 'fixed', 'axes': ['y'], 'until': 'rest'}],
+               'pressures': [{'set': 'left', 'times': [0, 1e-3, 3e-3, 4e-3], 'values': [0, 2e8, 2e8, 0], 'profile': 'smooth'}]}
+        lame = modulus * interference / inner * (outer ** 2 - inner ** 2) / (2 * outer ** 2)  # of one material, the shaft solid
+        for layer in (0, 5e-8):
+            data = scene(shaft, hub, axisymmetric=True, contact={'layer': layer} if layer else {}, output={'frames': 1, 'probes': [{'name': 'shaft', 'body': 'shaft', 'set': 'right'}]})
+            data['stages'] = [{'kind': 'form', 'duration': 4e-3}, {'kind': 'settle', 'name': 'rest', 'limit': 3e-3, 'kinetic_fraction': 1e-7}]
+            summary = self.run_scene(data)
+            h0 = summary['contact']['h0_m']
+            self.assertAlmostEqual(h0, layer or 5e-7, delta=1e-3 * h0)
+            pressure = -float(self.history()[-1]['probe_shaft_stress_xx_Pa'])
+            self.assertAlmostEqual(pressure / lame, 1 + h0 / interference, delta=0.01)
+            self.assertEqual(summary['contact']['crossings'], 0)
+
     def test_an_idle_roll_rolls(self):
         """Laid on a strip that is drawn along under it, friction turns it until it rolls; then it holds the strip back no more."""
         speed, radius, force, friction = 2.0, 5e-3, 2e4, 0.2
@@ -202,7 +241,7 @@ class Tools(SceneRun):
             self.assertEqual(summary['contact']['crossings'], 0)
             found.append(along.mean())
         self.assertAlmostEqual(found[0] / found[1], 1, delta=0.005)
-        for more, word in (({'velocities': [[0, 1], [0, 1]]}, 'in part along the line of the forces'), ({'positions': [[0, 0], [0, 1e-3]]}, 'in part along the line of the forces'),
+        for more, word in (({'velocities': [[0, 1], [0, 1]]}, 'in part along the guide'), ({'positions': [[0, 0], [0, 1e-3]]}, 'in part along the guide'),
                            ({'positions': [[0, 0], [1e-3, 0]], 'velocities': [[1, 0], [1, 0]]}, 'give one of both')):
             motion = dict({'kind': 'force', 'times': [0, time], 'forces': [[0, 0], [0, -force]]}, **more)
             self.assertIn(word, self.refused(scene(strip, tools=[dict(shoe, motion=motion)])))

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "forming_sim/contact/closest.h"
+#include "forming_sim/mesh/generate.h"
+#include "forming_sim/results/sheet_sides.h"
 #include "forming_sim/results/thickness.h"
 
 namespace forming_sim {
@@ -172,6 +174,36 @@ TEST(Thickness, FindsTheNearestTriangleAsASearchOfAllDoes) {
     for (const Facet& f : mesh.surface)
       expected = std::min(expected, std::sqrt(closest_on_triangle(positions[top], positions[f.nodes[0]], positions[f.nodes[1]], positions[f.nodes[2]]).squared));
   EXPECT_EQ(smallest(Thickness(model_of(mesh)).at(positions)), expected);
+}
+
+using Sides = std::pair<std::string, std::string>;
+
+TEST(SheetSides, AreThoseOfTheWall) {
+  BlankConfig blank;
+  blank.shape = "strip";
+  blank.length = 1, blank.thickness = 3, blank.cells_along = 2, blank.cells_through = 3;
+  BodyModel body;
+  const auto of = [&](double x, bool about_axis) {
+    blank.origin.x() = x;
+    body.mesh = generate_blank(blank);
+    return sides_of_sheet(body, about_axis);
+  };
+  EXPECT_EQ(of(5, true), Sides("left", "right")) << "a tube";
+  EXPECT_EQ(of(0, false), Sides("left", "right")) << "a wall in plane strain";
+  EXPECT_EQ(of(0, true), Sides("bottom", "top")) << "a solid bar";
+  body.mesh.sets["left"] = {0, 1};  // not one of its four sides
+  EXPECT_EQ(sides_of_sheet(body, false), Sides("bottom", "top"));
+  blank.thickness = 1.9;
+  EXPECT_EQ(of(5, true), Sides("bottom", "top"));
+  body.mesh.sets["inside"] = body.mesh.sets["outside"] = {0};  // a user's own
+  EXPECT_EQ(sides_of_sheet(body, true), Sides("bottom", "top"));
+  body.mesh.sets.erase("top");
+  EXPECT_EQ(sides_of_sheet(body, true), Sides("inside", "outside"));
+  body.mesh.sets.clear();
+  EXPECT_EQ(sides_of_sheet(body, true), Sides());
+  blank.shape = "tube";
+  blank.radius = 5, blank.thickness = 1, blank.cells_around = 8;
+  EXPECT_EQ(of(0, false), Sides("inside", "outside"));
 }
 
 }  // namespace

@@ -218,10 +218,10 @@ TEST(SceneRules, AForceGoesAlongOneLine) {
   const auto with = [&](const std::string& fields) { return replaced(text, "positions: [[0, 0], [0, -0.020]]", fields); };
   EXPECT_TRUE(faults_of(with("forces: [[0, 0], [0, -2000]]")).empty()) << sentences(faults_of(with("forces: [[0, 0], [0, -2000]]")));
   EXPECT_TRUE(faults_of(with("forces: [[1, -2], [-500, 1000]]\n      mass: 0.1\n      damping: 100")).empty());
-  expect_fault(with("forces: [[0, 0], [0, 0]]"), motion + ".forces", "a tool without either rests");
+  expect_fault(with("forces: [[0, 0], [0, 0]]"), motion + ".forces", "a tool without any rests");
   EXPECT_TRUE(faults_of(with("forces: [[0, 0], [0, 0]]\n      initial_velocity: [0, -3]")).empty());
   EXPECT_TRUE(faults_of(with("forces: [[0, 0], [0, -2000]]\n      initial_velocity: [0, 3]")).empty());
-  expect_fault(with("forces: [[0, 0], [0, -2000]]\n      initial_velocity: [1, -3]"), motion + ".initial_velocity", "along the line of the forces");
+  expect_fault(with("forces: [[0, 0], [0, -2000]]\n      initial_velocity: [1, -3]"), motion + ".initial_velocity", "along the guide");
   expect_fault(with("forces: [[0, -1], [1, -2000]]"), motion + ".forces[0]", "along one line");
   expect_fault(with("forces: [[0, -1]]"), motion + ".forces", "2 times");
   expect_fault(with("forces: [[0, 0], [0, -2000]]\n      stop_force: 1e3"), motion + ".stop_force", "where kind is trajectory or velocity");
@@ -233,8 +233,14 @@ TEST(SceneRules, AForceGoesAlongOneLine) {
   expect_fault(with("forces: [[0, 0], [0, -2000, 1]]"), motion + ".forces[1]", "z = 0");
   expect_fault(with("forces: [[0, 0], [0, -2000]]\n      mass: -1"), motion + ".mass", "at least 0");
   expect_fault(with("forces: [[0, 0], [0, -2000]]\n      profile: spline"), motion + ".profile", "trajectories");
-  expect_fault(with("forces: [[0, 0], [0, -2000]]\n      positions: [[0, 0], [0, 1]]"), motion + ".positions[1]", "in part along the line of the forces");
+  expect_fault(with("forces: [[0, 0], [0, -2000]]\n      positions: [[0, 0], [0, 1]]"), motion + ".positions[1]", "in part along the guide");
   EXPECT_TRUE(faults_of(with("forces: [[0, 0], [0, -2000]]\n      positions: [[0, 0], [0.001, 0]]")).empty());
+  const std::string sprung = "forces: [[0, 0], [0, 0]]\n      guide: [0.6, 0.8]\n      stiffness: 1e6\n      ";
+  EXPECT_TRUE(faults_of(with(sprung + "positions: [[8e-3, -6e-3], [0.6e-3, 0.8e-3]]")).empty()) << sentences(faults_of(with(sprung + "positions: [[8e-3, -6e-3], [0.6e-3, 0.8e-3]]")));
+  expect_fault(with(sprung + "positions: [[0.6e-3, 0.8e-3], [0, 0]]"), motion + ".positions[0]", "its spring is slack");
+  expect_fault(with("forces: [[0, 0], [0, -2000]]\n      guide: [1, 0]"), motion + ".forces[1]", "along one line");
+  expect_fault(with("forces: [[0, 0], [0, 0]]\n      guide: [0, 1, 1]"), motion + ".guide", "z = 0");
+  expect_fault(with("forces: [[0, 0], [0, -2000]]\n      stiffness: -1"), motion + ".stiffness", "at least 0");
   expect_fault(with("forces: [[0, 0], [0, -2000]]\n      positions: [[0, 0], [0.001, 0]]\n      velocities: [[0, 0], [1, 0]]"), motion, "give one of both");
   expect_fault(replaced(with("forces: [[0, 0], [0, -2000]]"), "tools:\n", "contact: {method: geometric}\ntools:\n"), motion + ".kind", "set contact.method to implicit");
   expect_flange_fault("positions: [[", "forces: [[0, 0], [0, -1]]\n      positions: [[", motion + ".forces", "where kind is force");

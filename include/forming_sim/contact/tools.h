@@ -43,8 +43,12 @@ constexpr double kOutside = 1 + 1e-6;
 void set_back(double layer, const Sides& sides, const ContactSetup& setup, Features& features, ToolSet& tools,
               std::vector<std::string>& warnings);
 
-/// The smallest distance of two bodies that stand within some layers of each other and do not touch, m; 0 where there are none.
-double clearance_of_bodies(double layer, const ContactSetup& setup, const Features& features, const NodeField& x);
+/// How the bodies stand to each other at the start.
+struct BodiesAtStart {
+  double clearance = 0;     ///< smallest distance of two that stand within some layers of each other and do not touch, m; 0 where there are none
+  bool in_one_pack = true;  ///< each touches another, or is tied to it, and all hang together so
+};
+BodiesAtStart look_at_bodies(double layer, const ContactSetup& setup, const Features& features, const NodeField& x);
 
 /// Moves bodies apart (x, by so much a body, reported in warnings) that touch each
 /// other or overlap by no more than a layer, until none is nearer than the layer.

@@ -20,7 +20,7 @@ class NodeTeam {
   }
   /// place: where in memory the first cell of each node lies, in any unit; cells_are_shared: by the threads, who have the forces of their nodes at hand.
   NodeTeam(Team& team, const std::vector<long>& place, bool cells_are_shared) : NodeTeam(team, static_cast<long>(place.size())) {
-    if (cells_are_shared) parts_of_a_thread_ = 4;
+    if (cells_are_shared) parts_of_a_thread_ = 4;  // some microseconds of work, and what it is about is in the caches already
     std::vector<double> mean(order_.size());
     for (std::size_t p = 0; p < order_.size(); ++p) {
       const long last = std::min(nodes_, order_[p] + kPart);

@@ -30,7 +30,7 @@ struct Kick {
   }
 };
 
-/// f of all nodes.
+/// f of all nodes. Here and below a team goes through as many nodes as the fields have.
 void sum_nodes(const NodeTeam& team, const NodalForces& forces, NodeField& f);
 /// f of one node, the same to the last bit.
 Node force_on(long node, const NodalForces& forces);

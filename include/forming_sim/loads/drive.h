@@ -54,6 +54,7 @@ class Drive {
   double mass() const { return mass_; }    ///< M, kg; kg m2
   double gone() const { return gone_; }    ///< from the start, m; rad
   double speed() const { return speed_; }  ///< V of the last step, m/s; rad/s
+  bool springs_back() const { return spring_.stiffness > 0; }
   /// The longest step that its spring bears, 2/omega, s; infinite without one.
   double stable_step() const;
   /// Adds `rate` to alpha, 1/s, until it is told another: in settle stages.
@@ -86,12 +87,11 @@ class ForceDrive : public Drive {
   explicit ForceDrive(const MotionConfig& config);
 
   const Vec3& guide() const { return guide_; }
-  Vec3 way() const { return gone() * guide_; }         ///< from the start, m
   /// A told pose with its way along the guide replaced by that of the tool, `way` at `speed`.
   Pose placed(Pose told, double way, double speed) const;
   /// The step has been done, dt long, with V = V* + push; answer: J, along the guide, N s.
   void take(double t, double kick, double dt, double push, double answer);
-  /// How far it has gone on along its force since it last pressed on anything, m; 0: it has not pressed yet.
+  /// How far it has gone on along its force since it last pressed on anything, m; 0: it has not pressed yet, or is on a spring.
   double fallen(double t) const;
 
   template <class Archive> void exchange(Archive& a) {

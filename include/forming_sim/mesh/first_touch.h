@@ -18,7 +18,7 @@ struct PlacedSurface {
 
 /// Where `mover` comes to touch `standing` if it comes from far away along the unit vector `along`: the way from where it is now, m, below 0 where it
 /// is past that. Exact for facets: over what both cover, seen along the way, the distance between two of them is least where a corner of one meets the other or two edges cross.
-/// None: it goes by.
+/// None: it goes by. What would only graze, flush with it to a billionth, counts as met. Two planes never meet: they have no corners.
 std::optional<double> way_to_touch(const PlacedSurface& mover, const PlacedSurface& standing, const Vec3& along);
 
 }  // namespace forming_sim

@@ -5,12 +5,13 @@
 
 namespace forming_sim {
 
-/// The mesh of a strip (crossed, quad2 or quad1), plate or bar (hex24, hex6 or hex1), with
+/// The mesh of a strip (crossed, quad2 or quad1), plate, bar or tube (hex24, hex6 or hex1), with
 /// its surface and these sets:
 ///   strip  left (least x) right bottom (least y) top
 ///   plate  left (least x) right front (least y) back bottom (least z) top
 ///   bar    bottom (least z) top side; symmetry_x (the face x = 0 of a half or
 ///          quarter, relative to the origin), symmetry_y (y = 0 of a quarter)
+///   tube   start (least z) end inside outside; symmetry_x, symmetry_y as a bar
 /// Sets hold the face centres of hex24 too.
 /// Throws Error(invalid_scene) for a length, count or name out of range, and Error(mesh_error) for cells that rounding makes flat.
 Mesh generate_blank(const BlankConfig& blank);

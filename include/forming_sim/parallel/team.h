@@ -15,7 +15,7 @@
 namespace forming_sim {
 
 constexpr int kMostThreads = 1024;
-constexpr long kNodesOfAThread = 5000;  ///< fewer are not worth another thread
+constexpr long kNodesOfAThread = 5000;  ///< fewer are not worth another thread, where another one has not worked on them before (element/node_team.h)
 
 class Team {
  public:

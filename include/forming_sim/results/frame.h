@@ -29,6 +29,7 @@ struct ResultHeader {
   std::vector<std::array<int, 4>> elements;  ///< simplices of all bodies, dimension + 1 nodes each
   std::vector<int> element_body;             ///< index of the body, per element
   std::vector<std::string> bodies;
+  std::vector<std::string> sheet_sides;      ///< per body the sets that its thickness is between, "bottom top"; "" of what is no sheet
   NodeField initial_positions;               ///< m
   std::vector<Facet> surface;
   std::map<std::string, std::vector<int>> sets;  ///< "body/set": nodes

@@ -7,7 +7,7 @@
 //   /topology/surface       m x 2|3 int32, boundary facets, normal outwards
 //   /topology/surface_element  m int32, the element of each facet
 //   /topology/initial_positions  nodes x 3, m (z = 0 in dimension 2)
-//   /bodies/<index>         attribute name; sets/<index>: attribute name, nodes, int32
+//   /bodies/<index>         attributes name, thickness_between ("bottom top"); sets/<index>: attribute name, nodes, int32
 //   /tools/<index>          attribute name; points (m), facets, or plane_point and plane_normal
 //   /frames/NNNNNN          attributes time, step, stage, interrupted; positions, velocities, plastic_strain,
 //                           contact_pressure, contact_gap where anything can meet, contact_slip
