@@ -169,12 +169,6 @@ void set_relations(const ContactSetup& setup, const NodeField& x, Features& f) {
 
 }  // namespace
 
-bool Features::any_meets_itself() const {
-  for (int b = 0; b < bodies; ++b)
-    if (relation(b, b).meet) return true;
-  return false;
-}
-
 bool Features::bodies_meet() const {
   for (int a = 0; a < bodies; ++a)
     for (int b = a; b < bodies; ++b)

@@ -67,7 +67,6 @@ struct Features {
   int corners() const { return dimension; }
   /// Can deformable meet deformable? Then both sides of a pair move.
   bool bodies_meet() const;
-  bool any_meets_itself() const;
   const Relation& relation(int a, int b) const { return relations[a * surfaces.size() + b]; }
   Relation& relation(int a, int b) { return relations[a * surfaces.size() + b]; }
   /// Have the features with these vertices (a of one surface, b of the other) both to do with what is tied?
