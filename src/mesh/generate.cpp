@@ -127,7 +127,7 @@ Mesh generate_blank(const BlankConfig& blank) {
     count_of("cells_through", blank.cells_through);
     count_of("cells_around", blank.cells_around, 3);
     check_portion(blank.portion);
-    const int parts = blank.portion == "full" ? 1 : blank.portion == "half" ? 2 : 4;
+    const int parts = 4 / quarters_of(blank.portion);
     if (blank.cells_around % parts != 0)
       refuse("cells_around", std::to_string(blank.cells_around), "so many go around the whole circle: a multiple of " + std::to_string(parts) + " is needed for portion " + blank.portion);
     mesh = generate_tube(blank, solid);

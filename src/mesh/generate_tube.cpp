@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "face_quarters.h"
+#include "forming_sim/mesh/generate.h"
 #include "forming_sim/mesh/split.h"
 
 namespace forming_sim {
@@ -31,8 +32,9 @@ struct TubeGrid {
 
 Mesh generate_tube(const BlankConfig& blank, CellKind kind) {
   const int steps = blank.cells_around;
-  const bool full = blank.portion == "full", half = blank.portion == "half";
-  const TubeGrid grid{full ? steps : half ? steps / 2 : steps / 4, blank.cells_along, blank.cells_through, full};
+  const int quarters = quarters_of(blank.portion);
+  const bool full = quarters == 4, half = quarters == 2;
+  const TubeGrid grid{steps * quarters / 4, blank.cells_along, blank.cells_through, full};
   const int first = half ? -steps / 2 : 0;  // in half steps, from the axis x on
   Mesh mesh;
   mesh.sets = {{"start", {}}, {"end", {}}, {"inside", {}}, {"outside", {}}};

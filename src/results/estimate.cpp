@@ -18,9 +18,9 @@ constexpr double kBytesOfTriangle = 450;  ///< of a tool: its mesh, features, in
 
 Estimate estimate_run(Simulation& simulation) {
   Estimate estimate;
-  double settling = 0, whole = 0;  // s, longest
+  const double whole = longest_time(simulation.plan().stages);
+  double settling = 0;  // s
   for (const StageConfig& stage : simulation.plan().stages) {
-    whole += longest_time(stage);
     if (stage.kind != "settle") continue;
     estimate.settles = true;
     settling += longest_time(stage);
@@ -56,13 +56,13 @@ Estimate estimate_run(Simulation& simulation) {
   if (measured == 0) {  // the whole run is shorter than the warm-up, or broke in it
     const double taken = static_cast<double>(first);
     estimate.time_step_s = first > 0 ? time / taken : simulation.dt();
-    estimate.steps = estimate.broken.empty() ? first : static_cast<long>(std::ceil(longest_time(simulation.plan().stages) / estimate.time_step_s));
+    estimate.steps = estimate.broken.empty() ? first : static_cast<long>(std::ceil(whole / estimate.time_step_s));
     estimate.wall_time_s = first > 0 ? wall / taken * static_cast<double>(estimate.steps) : 0;
     share_out();
     return estimate;
   }
   estimate.time_step_s = (simulation.time() - time) / static_cast<double>(measured);
-  estimate.steps = static_cast<long>(std::ceil(longest_time(simulation.plan().stages) / estimate.time_step_s));
+  estimate.steps = static_cast<long>(std::ceil(whole / estimate.time_step_s));
   estimate.wall_time_s = (simulation.wall_time() - wall) / static_cast<double>(measured) * static_cast<double>(estimate.steps);
   share_out();
   return estimate;

@@ -290,7 +290,6 @@ void check_springback_nodes(const Scene& scene, const std::vector<Mesh>& bodies,
 }
 
 void add_body(const BodyConfig& config, Mesh mesh, std::optional<FormedMemory> formed, Model& model) {
-  tell_odd_body(config, mesh, model);
   BodyModel body;
   body.name = config.name;
   body.first_node = model.node_count();
@@ -302,6 +301,7 @@ void add_body(const BodyConfig& config, Mesh mesh, std::optional<FormedMemory> f
   body.self_contact = config.self_contact;
   body.mesh = std::move(mesh);
   body.formed = std::move(formed);
+  tell_odd_body(config, body, model);
   model.bodies.push_back(std::move(body));
 }
 

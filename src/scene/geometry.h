@@ -21,7 +21,7 @@ Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known);
 void check_sizes(const Scene& scene, const std::vector<Mesh>& bodies, const std::vector<Mesh>& tools, std::vector<Fault>& faults, std::vector<std::string>& notes);
 
 /// Adds to the model's notes what a mesh of a body does not do that its author may expect of it.
-void tell_odd_body(const BodyConfig& config, const Mesh& mesh, Model& model);
+void tell_odd_body(const BodyConfig& config, const BodyModel& body, Model& model);
 
 /// Notes: values that are taken but look like wrong units or slips, and what of the scene lies behind the end of its stages.
 void tell_odd_values(const Scene& scene, std::vector<std::string>& notes);

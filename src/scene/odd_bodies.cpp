@@ -4,8 +4,10 @@
 
 #include "forming_sim/config/words.h"
 #include "forming_sim/loads/boundary.h"
+#include "forming_sim/mesh/generate.h"
 #include "forming_sim/mesh/measure.h"
 #include "forming_sim/mesh/seams.h"
+#include "forming_sim/results/sheet_sides.h"
 #include "geometry.h"
 
 namespace forming_sim {
@@ -43,7 +45,7 @@ void note_polygonal_bar(const BodyConfig& config, const Mesh& mesh, Model& model
   constexpr double kToBeTold = 0.01;
   if (!config.blank || config.blank->shape != "bar" || !config.trim.empty()) return;
   const BlankConfig& bar = *config.blank;
-  const double part = bar.portion == "quarter" ? 0.25 : bar.portion == "half" ? 0.5 : 1, lost = 1 - volume(mesh) / (part * M_PI * bar.radius * bar.radius * bar.length);
+  const double part = 0.25 * quarters_of(bar.portion), lost = 1 - volume(mesh) / (part * M_PI * bar.radius * bar.radius * bar.length);
   if (lost > kToBeTold)
     model.notes.push_back("the section of body " + config.name + " is a polygon with its corners on the circle and has " + three_digits(100 * lost) +
                           " % less area, so that forces are as much too small: give more cells_radius, or a larger radius");
@@ -80,18 +82,17 @@ void note_long_cells(const BodyConfig& config, Model& model) {
                           number_text(blank.thickness) + " m; give both in metres, or more cells_along");
 }
 
-/// The wall of a tube, say. A solid bar about the axis has no wall.
-void note_standing_strip(const BodyConfig& config, Model& model) {
-  constexpr double kStands = 2;  // times as thick as long: results/sheet_sides.h
-  if (!config.blank || config.blank->shape != "strip" || !(config.blank->thickness > kStands * config.blank->length)) return;
-  if (model.axisymmetric && config.blank->origin.x() == 0) return;
+/// The wall of a tube, say.
+void note_standing_strip(const BodyConfig& config, const BodyModel& body, Model& model) {
+  if (!config.blank || config.blank->shape != "strip" || sides_of_sheet(body, model.axisymmetric).first != "left") return;
   model.notes.push_back("body " + config.name + " is a strip " + three_digits(config.blank->thickness / config.blank->length) +
                         " times as thick as it is long: thickness and thinning of the results are those of its wall, between its sets left and right");
 }
 
 }  // namespace
 
-void tell_odd_body(const BodyConfig& config, const Mesh& mesh, Model& model) {
+void tell_odd_body(const BodyConfig& config, const BodyModel& body, Model& model) {
+  const Mesh& mesh = body.mesh;
   if (const int parts = config.self_contact ? 1 : count_parts(mesh); parts > 1)
     model.notes.push_back("body " + config.name + " consists of " + std::to_string(parts) +
                           " parts that share no node, and they pass through each other: set its self_contact to true, or give them as bodies of their own");
@@ -105,7 +106,7 @@ void tell_odd_body(const BodyConfig& config, const Mesh& mesh, Model& model) {
     model.notes.push_back("the cells of body " + config.name + " are " + three_digits(flat) +
                           " times as long and as wide as they are thick: split into tetrahedra they bend far too stiffly (docs/elements.md); take hexahedra with pattern one_point, or give cells about as thick as long");
   note_long_cells(config, model);
-  note_standing_strip(config, model);
+  note_standing_strip(config, body, model);
 }
 
 }  // namespace forming_sim

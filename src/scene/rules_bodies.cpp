@@ -4,6 +4,7 @@
 
 #include "forming_sim/config/formula_field.h"
 #include "forming_sim/material/constants.h"
+#include "forming_sim/mesh/generate.h"
 #include "forming_sim/simulation/release.h"
 
 namespace forming_sim {
@@ -56,7 +57,7 @@ void check_source(const BodyConfig& body, const std::string& path, int dimension
   if (known && dimension == 3 && flat) faults.add(path + ".blank.shape", given_text(blank.shape), "give plate, bar or tube, the blanks of dimension 3, or set dimension to 2");
   if (blank.shape == "tube") {
     if (blank.radius > 0 && blank.thickness >= blank.radius) faults.add(path + ".blank.thickness", given_text(blank.thickness), "give less than the radius, " + number_text(blank.radius) + " m: it is the wall's");
-    const int parts = blank.portion == "half" ? 2 : blank.portion == "quarter" ? 4 : 1;
+    const int parts = 4 / quarters_of(blank.portion);
     if (blank.cells_around % parts != 0) faults.add(path + ".blank.cells_around", std::to_string(blank.cells_around), "give a multiple of " + std::to_string(parts) + " with portion " + blank.portion + ": so many go around the whole circle");
   }
   constexpr double most = 2e7;  // about 10 GB of state

@@ -2,6 +2,7 @@
 #include <cctype>
 #include <map>
 
+#include "forming_sim/mesh/generate.h"
 #include "rules.h"
 
 namespace forming_sim {
@@ -77,8 +78,7 @@ double simplices_of(const BlankConfig& blank) {
   if (blank.shape == "strip") return along * blank.cells_through * (fine ? 4 : 2);
   if (blank.shape == "plate") return along * blank.cells_across * blank.cells_through * (fine ? 24 : 6);
   if (blank.shape == "tube") return along * blank.cells_around * blank.cells_through * (fine ? 24 : 6);  // at most: of the whole circle
-  const double share = blank.portion == "quarter" ? 1 : blank.portion == "half" ? 2 : 4;
-  return along * radius * radius * share * (fine ? 24 : 6);  // at most: a quarter has radius^2 cells or fewer
+  return along * radius * radius * quarters_of(blank.portion) * (fine ? 24 : 6);  // at most: a quarter has radius^2 cells or fewer
 }
 
 }  // namespace forming_sim

@@ -1,5 +1,7 @@
 #pragma once
 // Meshes of simple blanks.
+#include <string>
+
 #include "forming_sim/mesh/config.h"
 #include "forming_sim/mesh/mesh.h"
 
@@ -15,5 +17,8 @@ namespace forming_sim {
 /// Sets hold the face centres of hex24 too.
 /// Throws Error(invalid_scene) for a length, count or name out of range, and Error(mesh_error) for cells that rounding makes flat.
 Mesh generate_blank(const BlankConfig& blank);
+
+/// Of the four of a circle, those that a bar or tube of this portion has: full, half or quarter.
+inline int quarters_of(const std::string& portion) { return portion == "quarter" ? 1 : portion == "half" ? 2 : 4; }
 
 }  // namespace forming_sim
