@@ -47,18 +47,24 @@ template <int D, bool Ring, class Pull> void add_forces(const CellGroup& g, long
 
 double* memory_of_point(const CellGroup& g, long pack) { return lanes_of(g.memory, g.items, pack); }
 
+/// Blocks ahead whose memory is fetched.
+constexpr int kBlocksAhead = 8;
+
 /// The points of a pack: a bundle for material/von_mises_points.h.
 template <int D, bool Ring> struct PackOfPoints : PackOfGroup {
   Vector<Pack, D> x[kEdges<D, Ring>];
   Pack dissipated;
 
   void open() {
-    fetch_memory(g(), memory(0), 8);
-    const long row = first_row(g(), pack), weights = (last_row(g(), pack) - row) * edge_weights(D, Ring);
-    fetch_ahead(weights_of<D, Ring>(g(), row, pack), 8 * weights * static_cast<long>(sizeof(Lane)), weights);
+    if (fetches) fetch();
     const Edges<Pack, D, Ring> e = edges_of_point<D, Ring>(g(), *view, pack);
     for (int m = 0; m < kEdges<D, Ring>; ++m) x[m] = e.x[m];
     dissipated = Pack(0.0);
+  }
+  void fetch() const {
+    fetch_memory(g(), memory(0), kBlocksAhead);
+    const long row = first_row(g(), pack), weights = (last_row(g(), pack) - row) * edge_weights(D, Ring);
+    fetch_ahead(weights_of<D, Ring>(g(), row, pack), kBlocksAhead * weights * static_cast<long>(sizeof(Lane)), weights);
   }
   double* memory(int) const { return memory_of_point(g(), pack); }
   void edges(int, Edges<Pack, D, Ring>& e) const {
@@ -78,23 +84,23 @@ template <int D, bool Ring> struct PackOfPoints : PackOfGroup {
 /// Packs that go through the law together.
 constexpr int kTogether = 4;
 
-template <int D, bool Ring> [[gnu::flatten]] void forces_of_packs(const CellGroup& g, const NodalView& view, long pack, int count) {
+template <int D, bool Ring> [[gnu::flatten]] void forces_of_packs(const CellGroup& g, const NodalView& view, const PacksNow& now) {
   PackOfPoints<D, Ring> packs[kTogether];
-  set_packs(g, view, pack, count, packs);
-  von_mises_points<1, kTogether, Pack, D, Ring>(g.solid, packs, count);
+  set_packs(g, view, now, kBlocksAhead, packs);
+  von_mises_points<1, kTogether, Pack, D, Ring>(g.solid, packs, now.count);
 }
 
 /// Of Law::hill.
-template <int D, bool Ring> [[gnu::flatten]] void forces_of_rolled(const CellGroup& g, const NodalView& view, long pack, int count) {
+template <int D, bool Ring> [[gnu::flatten]] void forces_of_rolled(const CellGroup& g, const NodalView& view, const PacksNow& now) {
   PackOfPoints<D, Ring> packs[kTogether];
-  set_packs(g, view, pack, count, packs);
-  hill_points<1, kTogether, Pack, D, Ring>(g.solid, packs, count);
+  set_packs(g, view, now, kBlocksAhead, packs);
+  hill_points<1, kTogether, Pack, D, Ring>(g.solid, packs, now.count);
 }
 
 /// Of any other law, but for the classical one.
-template <int D, bool Ring> [[gnu::flatten]] void forces_of_any_law(const CellGroup& g, const NodalView& view, long pack) {
+template <int D, bool Ring> [[gnu::flatten]] void forces_of_any_law(const CellGroup& g, const NodalView& view, const PacksNow& now) {
   PackOfPoints<D, Ring> at;
-  set_packs(g, view, pack, 1, &at);
+  set_packs(g, view, now, kBlocksAhead, &at);
   at.open();
   Edges<Pack, D, Ring> e;
   at.edges(0, e);
@@ -160,11 +166,11 @@ template <class Work> void with_dimension(const CellGroup& g, Work&& work) {
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
   with_dimension(g, [&](auto D, auto ring) {
     if (of_von_mises(g.solid.law))
-      packs_at_a_time(first, last, kTogether, [&](long pack, int count) { forces_of_packs<D, ring>(g, view, pack, count); });
+      packs_at_a_time(first, last, kTogether, [&](const PacksNow& now) { forces_of_packs<D, ring>(g, view, now); });
     else if (g.solid.law == Law::hill)
-      packs_at_a_time(first, last, kTogether, [&](long pack, int count) { forces_of_rolled<D, ring>(g, view, pack, count); });
+      packs_at_a_time(first, last, kTogether, [&](const PacksNow& now) { forces_of_rolled<D, ring>(g, view, now); });
     else
-      each_pack(first, last, [&](long pack) { forces_of_any_law<D, ring>(g, view, pack); });
+      packs_at_a_time(first, last, 1, [&](const PacksNow& now) { forces_of_any_law<D, ring>(g, view, now); });
   });
 }
 void observe(const CellGroup& g, const NodalView& view, int first, int last, double* stress, double* ratio, double* energy) {

@@ -102,6 +102,10 @@ template <class Cell> struct PackForces {
   }
 };
 
+/// Simplices whose memory is fetched ahead, and blocks in which that lies.
+constexpr int kSimplicesAhead = 16;
+template <class Cell> constexpr int kBlocksAhead = (kSimplicesAhead + Cell::simplices - 1) / Cell::simplices;
+
 /// A pack of cells of simplices in a step: n of its simplices from `first` on are a bundle of material/von_mises_points.h.
 template <class Cell, int n> struct PackInStep : PackOfGroup {
   static constexpr int D = kD<Cell>, simplices = Cell::simplices;
@@ -142,14 +146,14 @@ template <class Cell, int n> struct PackInStep : PackOfGroup {
   [[gnu::always_inline]] void edges(int i, CellEdges<Cell>& e) const { law_edges<Cell>(constants, x, drawn, simplex(i), e.x); }
   /// J that the law sees.
   [[gnu::always_inline]] Pack ratio(int i, const CellEdges<Cell>& e) {
-    fetch_memory(g(), memory(i), 16);
+    if (fetches) fetch_memory(g(), memory(i), kSimplicesAhead);
     const Pack of_law = Cell::drawn ? simplex_volume<Pack, D, Cell::ring>(e.x) / initial_volume(g(), memory(i)) : J[simplex(i)];
     upright = upright & (J[simplex(i)] > Pack(0.0)) & (of_law > Pack(0.0));
     return of_law;
   }
   [[gnu::always_inline]] void dissipate(int i, const Pack& what) { dissipated += what * initial_volume(g(), memory(i)); }
   template <class Pull> [[gnu::always_inline]] void respond(int i, const CellEdges<Cell>& e, const Pull& pull, PackForces<Cell>& forces) const {
-    fetch_initial_volume(g(), memory(i), simplices);  // for the pressures of the next block
+    if (fetches) fetch_initial_volume(g(), memory(i), simplices);  // for the pressures of the next block
     forces.add(simplex(i), e, pull, p[simplex(i)]);
   }
   [[gnu::always_inline]] decltype(auto) start_forces() {
@@ -174,23 +178,24 @@ template <class Cell, int n> struct PackInStep : PackOfGroup {
 };
 
 /// Of the laws of material/von_mises.h, and made for any of Law::hill.
-template <class Cell, Made made> [[gnu::flatten]] void forces_of_several(const CellGroup& g, const NodalView& view, long pack, int count) {
+template <class Cell, Made made> [[gnu::flatten]] void forces_of_several(const CellGroup& g, const NodalView& view, const PacksNow& now) {
   constexpr int n = kPoints<Cell>, most = kTogether<Cell, made>, D = kD<Cell>;
   PackInStep<Cell, n> packs[most];
-  set_packs(g, view, pack, count, packs);
+  set_packs(g, view, now, kBlocksAhead<Cell>, packs);
   for (int first = 0; first < Cell::simplices; first += n) {
     packs[0].first = first;
-    if constexpr (made == Made::one_layer) one_layer_of_points<n, most, Pack, D, Cell::ring>(g.solid, packs, count);
-    else if constexpr (made == Made::layers) several_layers_of_points<n, most, Pack, D, Cell::ring>(g.solid, packs, count);
-    else hill_points<n, most, Pack, D, Cell::ring>(g.solid, packs, count);
+    if constexpr (made == Made::one_layer) one_layer_of_points<n, most, Pack, D, Cell::ring>(g.solid, packs, now.count);
+    else if constexpr (made == Made::layers) several_layers_of_points<n, most, Pack, D, Cell::ring>(g.solid, packs, now.count);
+    else hill_points<n, most, Pack, D, Cell::ring>(g.solid, packs, now.count);
   }
 }
 
 /// Of any other, one simplex after the other.
-template <class Cell> [[gnu::flatten]] void forces_of_any_law(const CellGroup& g, const NodalView& view, long pack) {
+template <class Cell> [[gnu::flatten]] void forces_of_any_law(const CellGroup& g, const NodalView& view, const PacksNow& now) {
   constexpr int D = kD<Cell>;
+  const long pack = now.pack;
   PackInStep<Cell, 1> at;
-  set_packs(g, view, pack, 1, &at);
+  set_packs(g, view, now, kBlocksAhead<Cell>, &at);
   Vector<Pack, D> v[Cell::nodes], drawn_v[kDrawn<Cell>];  // only where the law asks for velocities
   const bool classical = g.solid.law == Law::classical;
   if (classical) {
@@ -351,12 +356,12 @@ template <class Cell, Made made> void forces_of_packs(const CellGroup& g, const 
   if constexpr (Cell::one_point) {
     const PlaneModuli moduli(g.solid);
     WaitingPacks<Cell> waiting(g, moduli, view);
-    each_pack(first, last, [&](long pack) { forces_of_one_point_pack<Cell, made>(g, moduli, view, pack, waiting); });
+    packs_at_a_time(first, last, 1, [&](const PacksNow& now) { forces_of_one_point_pack<Cell, made>(g, moduli, view, now, waiting); });
     waiting.end();
   } else if (made == Made::any && g.solid.law != Law::hill) {
-    each_pack(first, last, [&](long pack) { forces_of_any_law<Cell>(g, view, pack); });
+    packs_at_a_time(first, last, 1, [&](const PacksNow& now) { forces_of_any_law<Cell>(g, view, now); });
   } else {
-    packs_at_a_time(first, last, kTogether<Cell, made>, [&](long pack, int count) { forces_of_several<Cell, made>(g, view, pack, count); });
+    packs_at_a_time(first, last, kTogether<Cell, made>, [&](const PacksNow& now) { forces_of_several<Cell, made>(g, view, now); });
   }
 }
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {

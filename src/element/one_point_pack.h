@@ -29,7 +29,7 @@ template <class Cell> void gather_one_point(const int* nodes, const double* fiel
 /// The constants of the next block, where they are others: cells of a file have each their own.
 template <class Cell> void fetch_constants(const CellGroup& g, long pack) {
   const long block = block_of(pack);
-  if (block + 1 == g.blocks || g.constant_set[block + 1] == g.constant_set[block]) return;
+  if (g.constant_set[block + 1] == g.constant_set[block]) return;
   using Items = OnePoint<kD<Cell>, Cell::ring>;
   const double* constants = constants_of<Cell>(g, pack + kPacks);
   fetch_ahead(constants, 0, Items::inertia);  // those behind are for the time step, but for one
@@ -53,6 +53,9 @@ template <class Cell> class Variation {
   Hourglass<Pack, kD<Cell>, Cell::ring> hourglass;
 };
 
+/// Blocks ahead whose memory is fetched.
+constexpr int kOnePointBlocksAhead = 2;
+
 /// A pack in a step. It opens with its nodes gathered and closes with its forces handed out.
 template <class Cell> class OnePointPack : public OnePointCell<Pack, kD<Cell>, Cell::ring> {
   static constexpr int D = kD<Cell>;
@@ -71,10 +74,8 @@ template <class Cell> class OnePointPack : public OnePointCell<Pack, kD<Cell>, C
     pack_ = other.pack_;
   }
 
-  void open() {
-    fetch_memory(g_, memory, 2);
-    fetch_constants<Cell>(g_, pack_);
-    fetch_ahead(Base::hourglass_memory, 2L * g_.hourglass_items * static_cast<long>(sizeof(Lane)), g_.hourglass_items);
+  void open(bool fetches) {
+    if (fetches) fetch();
     gather_one_point<Cell>(nodes(), view_.x, constants, e.x, sums);
     find_reciprocal(e);
     V0 = initial_volume(g_, memory), J = e.volume / V0;
@@ -117,6 +118,11 @@ template <class Cell> class OnePointPack : public OnePointCell<Pack, kD<Cell>, C
 
  private:
   const int* nodes() const { return nodes_of<Cell>(g_, pack_); }
+  void fetch() const {
+    fetch_memory(g_, memory, kOnePointBlocksAhead);
+    fetch_constants<Cell>(g_, pack_);
+    fetch_ahead(Base::hourglass_memory, kOnePointBlocksAhead * g_.hourglass_items * static_cast<long>(sizeof(Lane)), g_.hourglass_items);
+  }
 
   const CellGroup& g_;
   const NodalView& view_;
@@ -159,9 +165,9 @@ template <class Cell> class WaitingPacks {
   int count_ = 0;
 };
 
-template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_pack(const CellGroup& g, const PlaneModuli& moduli, const NodalView& view, long pack, WaitingPacks<Cell>& waiting) {
-  OnePointPack<Cell> at(g, moduli, view, pack);
-  at.open();
+template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_pack(const CellGroup& g, const PlaneModuli& moduli, const NodalView& view, const PacksNow& now, WaitingPacks<Cell>& waiting) {
+  OnePointPack<Cell> at(g, moduli, view, now.pack);
+  at.open(now.goes_on(kOnePointBlocksAhead));
   if constexpr (made == Made::one_layer) {
     if (try_one_layer(g.solid, at)) return waiting.add(at);
     finish_one_layer(at);
@@ -175,7 +181,7 @@ template <class Cell, Made made> [[gnu::flatten]] void forces_of_one_point_pack(
     at.answer(hyperelastic_step(g.solid, at.e, at.J, at.memory));
   } else {
     Vector<Pack, kD<Cell>> w[kE<Cell>];
-    at.p = classical_step_of_edges<Cell>(g, view, pack, w);
+    at.p = classical_step_of_edges<Cell>(g, view, now.pack, w);
     at.factor = Pack(g.solid.mu);
     at.answer(classical_step(g.solid, at.e, w, at.J, at.memory, Keep::yes));
     at.find_strains();

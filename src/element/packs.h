@@ -15,26 +15,35 @@ inline int first_lane(long pack) { return static_cast<int>(pack % kPacks) * kWid
 /// Where the lanes of a pack are, of arrays with so many items a block.
 template <class T> T* lanes_of(T* array, long items, long pack) { return array + block_of(pack) * items * kLanes + first_lane(pack); }
 
+/// Packs [pack, pack + count) of a group that are worked on now, and behind them, up to `end`, those that the same thread goes on with.
+/// What lies farther is another thread's: to fetch that would take it away from where it is being written.
+struct PacksNow {
+  long pack;
+  int count;
+  long end;
+
+  bool goes_on(long blocks_ahead) const { return pack + count - 1 + blocks_ahead * kPacks < end; }
+};
 /// A pack in a step: what every bundle of material/von_mises_points.h that is one knows of itself.
 struct PackOfGroup {
   const CellGroup* group;
   const NodalView* view;
   long pack;
+  bool fetches;  ///< what is kept of packs that are ahead
 
   const CellGroup& g() const { return *group; }
 };
-/// Those from `pack` on, `count` of them.
-template <class InStep> void set_packs(const CellGroup& g, const NodalView& view, long pack, int count, InStep* packs) {
-  for (int b = 0; b < count; ++b) static_cast<PackOfGroup&>(packs[b]) = {&g, &view, pack + b};
+template <class InStep> void set_packs(const CellGroup& g, const NodalView& view, const PacksNow& now, long blocks_ahead, InStep* packs) {
+  for (int b = 0; b < now.count; ++b) static_cast<PackOfGroup&>(packs[b]) = {&g, &view, now.pack + b, now.goes_on(blocks_ahead)};
 }
-/// Calls work(pack, count) with the packs of the blocks [first, last), `most` at a time.
+/// Calls work(now) with the packs of the blocks [first, last), `most` at a time.
 template <class Work> void packs_at_a_time(int first, int last, int most, Work&& work) {
   const long end = static_cast<long>(last) * kPacks;
-  for (long pack = static_cast<long>(first) * kPacks; pack < end; pack += most) work(pack, static_cast<int>(end - pack < most ? end - pack : most));
+  for (long pack = static_cast<long>(first) * kPacks; pack < end; pack += most) work(PacksNow{pack, static_cast<int>(end - pack < most ? end - pack : most), end});
 }
 /// Calls work(pack) with each of them.
 template <class Work> void each_pack(int first, int last, Work&& work) {
-  for (long pack = static_cast<long>(first) * kPacks; pack < static_cast<long>(last) * kPacks; ++pack) work(pack);
+  packs_at_a_time(first, last, 1, [&](const PacksNow& now) { work(now.pack); });
 }
 /// Lanes of a pack that are not copies.
 inline int lanes_in_use(const CellGroup& g, long pack) {
