@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   }
   try {
     const ros::NodeHandle node;  // keeps the connection to the master while the client lives
+    forming_sim::catch_shutdown_requests();
     return forming_sim::run_client(request);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "forming_client: %s\n", error.what());

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   try {
     ros::AsyncSpinner spinner(4);
     forming_sim::FormingServer server(ros::NodeHandle("~"));
+    forming_sim::catch_shutdown_requests();
     spinner.start();
     ROS_INFO("ready for goals on %s", ros::NodeHandle("~").resolveName("simulate_forming").c_str());
     while (ros::ok() && !forming_sim::stop_requested()) ros::WallDuration(0.02).sleep();

@@ -12,6 +12,8 @@ constexpr double kOver = 1e-6;  ///< phi of a vertex whose contact is over
 constexpr std::size_t kSaved = 8;  ///< numbers of a vertex
 constexpr std::size_t kHolds = 64; ///< vertices on tools that are asked
 
+bool is_before(const RubbedNode& r, int n) { return r.node < n; }
+
 static_assert(std::is_trivially_copyable_v<MassSums>);
 constexpr std::size_t kSavedMasses = 1 + sizeof(MassSums) / sizeof(double);  ///< of a body
 }  // namespace
@@ -19,6 +21,7 @@ constexpr std::size_t kSavedMasses = 1 + sizeof(MassSums) / sizeof(double);  ///
 ShearWaves::ShearWaves(const std::vector<WaveBody>& bodies, std::size_t nodes, int modes) : bodies_(bodies), place_(nodes, -1) {
   for (const WaveBody& body : bodies) moving_.emplace_back(body.first_node, body.nodes, modes);
   last_masses_.resize(bodies.size());
+  pressed_for_.resize(bodies.size(), 0.0);
 }
 
 const WaveBody& ShearWaves::of_pair(int first, int second) const {
@@ -41,8 +44,7 @@ void ShearWaves::hold(const std::vector<double>& inverse_mass, const std::vector
 
 void ShearWaves::find_asked(const WaveBody& body, const std::vector<RubbedNode>& pressed) {
   asked_.clear();
-  const auto before = [](const RubbedNode& r, int n) { return r.node < n; };
-  const auto first = std::lower_bound(pressed.begin(), pressed.end(), body.first_node, before), last = std::lower_bound(first, pressed.end(), body.first_node + body.nodes, before);
+  const auto first = std::lower_bound(pressed.begin(), pressed.end(), body.first_node, is_before), last = std::lower_bound(first, pressed.end(), body.first_node + body.nodes, is_before);
   for (auto r = first; r != last; ++r)
     if (r->by_tools.squaredNorm() > 0) asked_.push_back(&*r);
   const std::size_t stride = asked_.size() / kHolds + 1;
@@ -54,6 +56,16 @@ void ShearWaves::know_places() {
   for (std::size_t i = 0; i < rubs_.size(); ++i) place_[rubs_[i].node] = static_cast<int>(i);
 }
 
+/// How long bodies have been pressed, less the time that they were free since.
+void ShearWaves::follow_presses(double dt, const std::vector<RubbedNode>& pressed) {
+  auto first = pressed.begin();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const auto behind = std::lower_bound(first, pressed.end(), bodies_[b].first_node + bodies_[b].nodes, is_before);
+    pressed_for_[b] = std::clamp(pressed_for_[b] + (behind > first ? dt : -dt), 0.0, 2 * kStrike * bodies_[b].time);
+    first = behind;
+  }
+}
+
 void ShearWaves::follow(Team& team, double dt, double last_dt, const NodeField& x, const NodeField& before, const NodeField& after, const std::vector<RubbedNode>& pressed) {
   // A velocity belongs to the middle of its step.
   const auto place_after = [&](int n) -> Node { return x[n] - 0.5 * dt * after[n]; };
@@ -61,7 +73,8 @@ void ShearWaves::follow(Team& team, double dt, double last_dt, const NodeField& 
   constexpr int kNone = std::numeric_limits<int>::max();
   int of = -1;  // the body whose motion is known
   ChangeOfMotion whole;
-  double part = 0;  // of what is steady, that the step changes
+  double part = 0, w = 0;  // of what is steady, that the step changes; of phi
+  follow_presses(dt, pressed);
   next_.clear();
   masses_.assign(moving_.size(), LastMasses());
   for (const Rubbing& r : rubs_) place_[r.node] = -1;
@@ -92,17 +105,18 @@ void ShearWaves::follow(Team& team, double dt, double last_dt, const NodeField& 
       masses_[b] = {true, moving_[b].masses(team, x, after, 0.5 * dt)};
       whole = ChangeOfMotion(moving_[b].motion(last_masses_[b].sums, before, place_before, held_before_), moving_[b].motion(masses_[b].sums, after, place_after, held_after_));
       part = dt / (body.time + dt);
+      w = std::clamp(pressed_for_[b] / (kStrike * body.time) - 1, 0.0, 1.0);
       of = b;
     }
-    const double was_phi = r.v[3], phi = was_phi + part * ((rubbed != nullptr) - was_phi);
+    const double was_phi = r.v[3], phi = was_phi + part * ((rubbed ? w : 0) - was_phi);
     r.change = whole.at(place_before(n), place_after(n));
     r.change[3] = 0;
     r.v += r.change;
-    const Node w = after[n] - r.v;
-    r.v += (1 - was_phi) * part * w;
+    const Node beside = after[n] - r.v;
+    r.v += (1 - was_phi) * part * beside;
     if (rubbed) {
       const double across = rubbed->normal.squaredNorm();
-      if (across > 0) r.v += was_phi * part * rubbed->normal.dot(w) / across * rubbed->normal;
+      if (across > 0) r.v += was_phi * part * rubbed->normal.dot(beside) / across * rubbed->normal;
       if (rubbed->area > 0) r.v -= 1 / (body.impedance * rubbed->area * body.time) * rubbed->radiated;
     }
     r.v[3] = phi;
@@ -114,7 +128,7 @@ void ShearWaves::follow(Team& team, double dt, double last_dt, const NodeField& 
 }
 
 std::vector<double> ShearWaves::save() const {
-  std::vector<double> saved;
+  std::vector<double> saved = pressed_for_;
   for (const LastMasses& last : last_masses_) {
     saved.push_back(last.known);
     saved.resize(saved.size() + kSavedMasses - 1);
@@ -127,7 +141,8 @@ std::vector<double> ShearWaves::save() const {
 void ShearWaves::restore(const std::vector<double>& saved) {
   for (const Rubbing& r : rubs_) place_[r.node] = -1;
   rubs_.clear();
-  std::size_t i = 0;
+  std::size_t i = std::min(saved.size(), pressed_for_.size());
+  std::copy_n(saved.begin(), i, pressed_for_.begin());
   for (LastMasses& last : last_masses_) {
     if (i + kSavedMasses > saved.size()) break;
     last.known = saved[i] != 0;

@@ -38,8 +38,7 @@ void Elements::put_points_at_edges(const BodyModel& body, const NodeField& X) {
   g.at_edges = true;
   g.dimension = dimension_;
   g.ring = axisymmetric_;
-  g.cell_simplices = 1;
-  g.make_blocks(points.count());
+  g.make_blocks(points.count(), 1);
   g.pressure = PressureMode::node;
   g.solid = solid_constants(body.material, g.curves);
   g.items = dimension_ == 2 ? memory_items<2>(g.solid) : memory_items<3>(g.solid);
@@ -52,15 +51,16 @@ void Elements::put_points_at_edges(const BodyModel& body, const NodeField& X) {
   // Those of a tile by their number of nodes, so that those of a block have the same.
   std::vector<int> order(points.count());
   std::iota(order.begin(), order.end(), 0);
-  const int of_tile = blocks_of_a_tile(g.blocks, g.cell_simplices) * kLanes;
-  for (int first = 0; first < g.cells; first += of_tile) {
-    const auto begin = order.begin() + first, end = order.begin() + std::min(first + of_tile, g.cells);
+  auto begin = order.begin();
+  for (int behind : g.ends_of_tiles()) {
+    const auto end = order.begin() + behind;
     std::stable_sort(begin, end, [&](int a, int b) { return points.nodes_of(a) < points.nodes_of(b); });
     for (auto same = begin; same != end;) {
       const auto next = std::find_if(same, end, [&](int point) { return points.nodes_of(point) > points.nodes_of(*same); });
       spread(same, next);
       same = next;
     }
+    begin = end;
   }
 
   std::vector<int> place(points.count());

@@ -128,9 +128,8 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.dimension = D;
       g.ring = axisymmetric_;
       g.cell_nodes = shape.nodes;
-      g.cell_simplices = shape.points;
       g.parts = shape.simplices;
-      g.make_blocks(cells.count());
+      g.make_blocks(cells.count(), shape.points);
       g.pressure = mode_of(body, cells.kind);
       any_nodal_ |= g.pressure == PressureMode::node;
       g.solid = solid_constants(body.material, g.curves);
@@ -148,7 +147,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       first_element += g.cells * shape.simplices;
       simplices_.resize(first_element, {-1, -1, -1, -1});
       // By halves only where much is gained: the nodes keep their order, and a large body is the slower for each that is not its cells'.
-      g.order = order_of_cells(body.mesh.nodes, cells.nodes, shape.nodes, blocks_of_a_tile(g.blocks, g.cell_simplices) * kLanes, 0.5);
+      g.order = order_of_cells(body.mesh.nodes, cells.nodes, shape.nodes, g.ends_of_tiles(), 0.5);
       g.cell_of.resize(g.cells);
       for (int cell = 0; cell < g.cells; ++cell) g.cell_of[g.order[cell]] = cell;
       g.body = body.name;
@@ -257,7 +256,7 @@ long Elements::eights_of_a_block(const Group& g) const {
   return g.cell_simplices;
 }
 long Elements::blocks_of_a_thread(const Group& g) const { return kEightsOfAThread / eights_of_a_block(g); }
-long Elements::tiles_of_a_thread(const Group& g) const { return std::max(1L, blocks_of_a_thread(g) / g.tile); }
+long Elements::tiles_of_a_thread(const Group& g) const { return std::max(1L, blocks_of_a_thread(g) * g.tiles / g.blocks); }
 
 /// Calls work(group, tile) for all tiles of the groups of which that is asked, shared by the team: small groups that lie side by
 /// side are shared like a large one. A tile belongs to the thread in whose share its first cells lie.
@@ -269,9 +268,12 @@ template <class Asked, class Work> void Elements::over_tiles(Asked&& asked, Work
     long begin = 0;
     for (const Group& g : groups_) {
       if (!asked(g)) continue;
-      const long of_tile = g.tile * eights_of_a_block(g);
-      for (long t = std::max(0L, (first - begin + of_tile - 1) / of_tile); t < g.tiles && begin + t * of_tile < last; ++t) work(g, t);
-      begin += g.blocks * eights_of_a_block(g);
+      const long of_block = eights_of_a_block(g);
+      for (long t = 0; t < g.tiles; ++t) {
+        const long middle = begin + (g.first_block(t) + g.last_block(t)) * of_block / 2;
+        if (first <= middle && middle < last) work(g, t);
+      }
+      begin += g.blocks * of_block;
     }
   });
 }

@@ -14,6 +14,9 @@
 
 namespace forming_sim {
 
+/// Into how many tiles so many blocks go.
+int tiles_of(int blocks, int simplices_of_a_cell);
+
 struct Elements::Group : CellGroup {
   LargeArray<int> node_storage, row_storage, slot_storage;
   std::vector<int> constant_sets;
@@ -41,10 +44,12 @@ struct Elements::Group : CellGroup {
 
   /// Its simplices have pressures in the nodes, and their law at the edges.
   bool nodal() const { return pressure == PressureMode::node && !at_edges; }
-  /// So many cells, and what is kept a block of them.
-  void make_blocks(int count) {
+  /// So many cells, and what is kept a block of them. For cells of so many simplices each.
+  void make_blocks(int count, int simplices) {
     cells = count;
+    cell_simplices = simplices;
     blocks = (cells + kLanes - 1) / kLanes;
+    tiles = tiles_of(blocks, simplices);
     plastic.assign(blocks, 0.0);
     viscous.assign(blocks, 0.0);
     upright_storage = std::make_unique<bool[]>(blocks);
@@ -87,13 +92,17 @@ struct Elements::Group : CellGroup {
   long first_node(long block) const { return (at_edges ? row_storage[block] : block * cell_nodes) * kLanes; }
   /// Whether what stands there is of a copy of the last cell.
   bool copied(long at) const { return at >= first_node(blocks - 1) && at % kLanes >= cells - (blocks - 1) * kLanes; }
-  int first_block(long t) const { return static_cast<int>(t) * tile; }
-  int last_block(long t) const { return blocks < first_block(t + 1) ? blocks : first_block(t + 1); }
+  int first_block(long t) const { return static_cast<int>(blocks * t / tiles); }
+  int last_block(long t) const { return first_block(t + 1); }
+  /// Cells up to the end of each tile.
+  std::vector<int> ends_of_tiles() const {
+    std::vector<int> ends(tiles);
+    for (int t = 0; t < tiles; ++t) ends[t] = std::min(last_block(t) * kLanes, cells);
+    return ends;
+  }
 };
 
-constexpr long kEightsOfAThread = 250;  ///< eight simplices each: fewer are not worth another thread
-/// Blocks that make a tile of so many.
-int blocks_of_a_tile(int blocks, int simplices_of_a_cell);
+constexpr long kEightsOfAThread = 100;  ///< eight simplices each: fewer are not worth another thread
 
 /// work(D, ring) with both as constants of the compiler.
 template <class Work> auto with_dimension(int dimension, bool ring, Work&& work) {

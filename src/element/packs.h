@@ -33,8 +33,12 @@ struct PackOfGroup {
 
   const CellGroup& g() const { return *group; }
 };
-template <class InStep> void set_packs(const CellGroup& g, const NodalView& view, const PacksNow& now, long blocks_ahead, InStep* packs) {
-  for (int b = 0; b < now.count; ++b) static_cast<PackOfGroup&>(packs[b]) = {&g, &view, now.pack + b, now.goes_on(blocks_ahead)};
+template <class InStep> void set_pack(const CellGroup& g, const NodalView& view, const PacksNow& now, long blocks_ahead, InStep& one, int b = 0) {
+  static_cast<PackOfGroup&>(one) = {&g, &view, now.pack + b, now.goes_on(blocks_ahead)};
+}
+/// Room for `most` of them; what is behind those of now is not used.
+template <class InStep, int most> void set_packs(const CellGroup& g, const NodalView& view, const PacksNow& now, long blocks_ahead, InStep (&packs)[most]) {
+  for (int b = 0; b < most; ++b) set_pack(g, view, now, blocks_ahead, packs[b], b);
 }
 /// Calls work(now) with the packs of the blocks [first, last), `most` at a time.
 template <class Work> void packs_at_a_time(int first, int last, int most, Work&& work) {

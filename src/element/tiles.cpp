@@ -5,11 +5,12 @@
 
 namespace forming_sim {
 
-/// 512 times eight simplices, whose nodes a core's cache holds, or an eighth of a small
-/// group, so that there is something to share among threads; 64 times eight at least.
-int blocks_of_a_tile(int blocks, int simplices_of_a_cell) {
+/// Of 512 times eight simplices at most, whose nodes a core's cache holds, or of an eighth of a small
+/// group, so that there is something to share among threads; of 64 times eight at least. An even number, so that two have as many.
+int tiles_of(int blocks, int simplices_of_a_cell) {
   const auto of_eights = [&](int eights) { return std::max(1, eights / simplices_of_a_cell); };
-  return std::clamp((blocks + 7) / 8, of_eights(64), of_eights(512));
+  const int most = std::clamp((blocks + 7) / 8, of_eights(64), of_eights(512)), tiles = (blocks + most - 1) / most;
+  return tiles > 1 ? tiles + tiles % 2 : tiles;
 }
 
 void Elements::lay_tiles(int nodes) {
@@ -18,8 +19,6 @@ void Elements::lay_tiles(int nodes) {
   int tile_number = 0;
   const auto lay = [&](Group& g) {
     g.first_slot = static_cast<long>(node_of_slot.size());
-    g.tile = blocks_of_a_tile(g.blocks, g.cell_simplices);
-    g.tiles = (g.blocks + g.tile - 1) / g.tile;
     g.slot_storage.resize(g.node_storage.size());
     for (int t = 0; t < g.tiles; ++t, ++tile_number) {
       g.tile_start.push_back(static_cast<long>(node_of_slot.size()) - g.first_slot);

@@ -25,6 +25,7 @@ struct RawCell {
 struct RawMesh {
   std::string source;                  ///< as messages name it
   std::string note;                    ///< what of it is taken otherwise than its author may expect; empty: nothing
+  std::string wrong_group;             ///< why the group that is wanted is no body; empty: it is, and the rest holds
   int dimension = 3;
   bool one_point = false;              ///< quadrilaterals and hexahedra stay whole, with one point each
   std::vector<Vec3> points;            ///< metres

@@ -7,19 +7,31 @@
 
 namespace forming_sim {
 
+namespace {
+
+std::function<double(const Vec3&)> distance_of(const TrimConfig& region, bool flat, const std::string& name) {
+  try {
+    return distance_from(region, flat, "");
+  } catch (const Error& error) {
+    throw SceneError({{error.code(), name, region.choose, error.what()}});
+  }
+}
+
+}  // namespace
+
 Remainder find_remainder(const Mesh& mesh, const std::vector<TrimConfig>& regions) {
   struct Cut {
     std::function<bool(const Vec3&)> takes;
-    std::string name;
+    std::string name, choose;
     bool any = false;
   };
   std::vector<Cut> cuts;
   for (std::size_t i = 0; i < regions.size(); ++i) {
     const TrimConfig& region = regions[i];
-    const std::string name = join_path("trim", i) + ": ";
-    const auto distance = distance_from(region, mesh.dimension == 2, name);
+    const std::string name = join_path("trim", i);
+    const auto distance = distance_of(region, mesh.dimension == 2, name);
     const bool positive = region.choose == "plane" || region.outside;
-    cuts.push_back({[=](const Vec3& x) { return positive ? distance(x) > 0 : distance(x) < 0; }, name});
+    cuts.push_back({[=](const Vec3& x) { return positive ? distance(x) > 0 : distance(x) < 0; }, name, region.choose});
   }
   Remainder left;
   left.node.assign(mesh.nodes.size(), -1);
@@ -43,7 +55,7 @@ Remainder find_remainder(const Mesh& mesh, const std::vector<TrimConfig>& region
   const auto box = bounds(mesh);
   const std::string extent = "the body extends from " + place(box.min()) + " to " + place(box.max());
   for (const Cut& cut : cuts)
-    if (!cut.any) throw Error(Code::mesh_error, cut.name + "no cell lies there: " + extent + ", and a cell is cut away where its middle lies in the region; give another place, or leave it out");
+    if (!cut.any) throw SceneError({{Code::mesh_error, cut.name, cut.choose, "no cell lies there: " + extent + ", and a cell is cut away where its middle lies in the region; give another place, or leave it out"}});
   if (stay == 0) throw Error(Code::mesh_error, "trim: nothing is left: " + extent + ", and all its cells are cut away; turn a normal round, or cut less");
   int next = 0;
   for (int& n : left.node)

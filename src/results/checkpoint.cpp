@@ -46,7 +46,7 @@ void require_same_run(const Checkpoint& checkpoint, const Scene& scene, const st
   if (checkpoint.version != package_version())
     throw Error(Code::resume_error, path + " was written by version " + checkpoint.version + ", this is version " +
                                         package_version() + "; resume with the version that wrote it");
-  const std::string text = write_scene(scene);
+  const std::string text = meaning_of(scene);
   if (checkpoint.scene != text)
     throw Error(Code::resume_error, path + " was written for another scene (" +
                                         first_difference(checkpoint.scene, text, "in the checkpoint", "in the scene") +
@@ -72,7 +72,7 @@ void Checkpoints::on_end(const Simulation& simulation, Code code, const std::str
 }
 
 Checkpoint Checkpoints::take(const Simulation& simulation) const {
-  return {package_version(), write_scene(scene_), simulation.time(), simulation.steps(), simulation.save(),
+  return {package_version(), meaning_, simulation.time(), simulation.steps(), simulation.save(),
           record_.to_json()};
 }
 

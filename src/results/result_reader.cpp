@@ -68,6 +68,7 @@ ToolShape read_tool(const Hdf5Group& tool, int dimension) {
 
 ResultHeader read_header(const Hdf5Group& root) {
   ResultHeader header;
+  if (!root.has("topology") || !root.has("frames")) throw Error(Code::output_error, "the file holds no result; give the result.h5 of a run");
   header.version = root.text("version");
   header.scene_name = root.text("scene");
   header.scene_text = root.read_text("scene_text");

@@ -4,6 +4,7 @@
 
 #include "forming_sim/material/damage.h"
 #include "forming_sim/results/history.h"
+#include "forming_sim/results/meaning.h"
 #include "forming_sim/results/version.h"
 #include "forming_sim/results/sheet_sides.h"
 #include "forming_sim/scene/yaml.h"
@@ -15,9 +16,8 @@ ResultHeader take_header(const Simulation& simulation, const Scene& scene) {
   ResultHeader header;
   header.version = package_version();
   header.scene_name = scene.name;
-  const std::string meant = write_scene(scene);
-  header.scene_text = scene.text.empty() ? meant : scene.text;
-  header.scene_hash = static_cast<std::int64_t>(std::hash<std::string>()(meant));
+  header.scene_text = scene.text.empty() ? write_scene(scene) : scene.text;
+  header.scene_hash = static_cast<std::int64_t>(std::hash<std::string>()(meaning_of(scene)));
   header.dimension = model.dimension;
   header.axisymmetric = model.axisymmetric;
   header.elements = simulation.elements();

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <ctime>
 #include <filesystem>
 #include <system_error>
@@ -20,6 +21,37 @@ namespace forming_sim {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// The urls of a scene in another that says the same: a client spells them so that the server finds the files.
+void take_urls(const Scene& from, Scene& to) {
+  const auto take = [](const auto& given, auto& taken) {
+    if (given && taken) taken->url = given->url;
+  };
+  for (std::size_t b = 0; b < std::min(from.bodies.size(), to.bodies.size()); ++b) {
+    take(from.bodies[b].mesh, to.bodies[b].mesh);
+    take(from.bodies[b].formed, to.bodies[b].formed);
+  }
+  for (std::size_t t = 0; t < std::min(from.tools.size(), to.tools.size()); ++t) take(from.tools[t].mesh, to.tools[t].mesh);
+}
+
+/// result.h5 keeps the text as the one of the run: it has to say what the message says.
+void check_text(const std::string& scene_text, const Scene& scene, std::vector<Fault>& known) {
+  const auto refuse = [&](const std::string& given) { known.push_back({Code::invalid_scene, "scene_text", given, "give the text that the scene was read from, or leave one of them out"}); };
+  std::vector<Fault> faults;
+  try {
+    Scene told = read_scene(scene_text, "", faults);
+    if (!faults.empty()) return refuse(faults.front().sentence());
+    take_urls(scene, told);
+    const std::string of_text = write_scene(told), of_scene = write_scene(scene);
+    if (of_text != of_scene) refuse(first_difference(of_text, of_scene, "in the text", "in the scene"));
+  } catch (const SceneError& error) {
+    refuse(error.faults().front().sentence());
+  }
+}
+
+}  // namespace
+
 Prepared prepare(const SceneSpec& message, const std::string& scene_text, int threads) {
   Prepared prepared;
   try {
@@ -30,6 +62,7 @@ Prepared prepare(const SceneSpec& message, const std::string& scene_text, int th
     } else {
       prepared.scene = scene_from(message, known);
       prepared.scene.text = scene_text.empty() ? write_scene(prepared.scene) : scene_text;
+      if (known.empty() && !scene_text.empty()) check_text(scene_text, prepared.scene, known);
     }
     if (threads < 1 || threads > kMostThreads)
       known.push_back({Code::invalid_scene, "threads", std::to_string(threads), "give 1 to " + std::to_string(kMostThreads) + ", or 0 for the server's"});

@@ -43,6 +43,12 @@ SimulateFormingResult rejection(const std::vector<Fault>& faults) {
   return result;
 }
 
+/// The name of the node that sent a goal: clients of actionlib begin the goal's id with it, and end it with a count and a time. Empty: of another.
+std::string sender_of(const std::string& goal_id) {
+  const std::size_t time = goal_id.rfind('-'), count = time == 0 || time == std::string::npos ? time : goal_id.rfind('-', time - 1);
+  return count == std::string::npos || goal_id[0] != '/' ? "" : goal_id.substr(0, count);
+}
+
 /// What a large scene took is the system's again when its run, or what was asked of it, has ended.
 struct GivesBack {
   ~GivesBack() { malloc_trim(0); }
@@ -83,7 +89,9 @@ FormingServer::FormingServer(const ros::NodeHandle& node)
   publisher_.publish(idle);
   worker_ = std::thread([this] { work(); });
   server_.start();
-  results_ = node_.advertise<SimulateFormingActionResult>("simulate_forming/result", 1);
+  results_ = node_.advertise<SimulateFormingActionResult>(
+      "simulate_forming/result", 1, [this](const ros::SingleSubscriberPublisher& listener) { note_listener(listener.getSubscriberName(), 1); },
+      [this](const ros::SingleSubscriberPublisher& listener) { note_listener(listener.getSubscriberName(), -1); });
   goals_ = node_.subscribe<SimulateFormingActionGoal>("simulate_forming/goal", 1, boost::function<void(const SimulateFormingActionGoalConstPtr&)>([](const SimulateFormingActionGoalConstPtr&) {}));
 }
 
@@ -99,14 +107,26 @@ void FormingServer::stop() {
   if (worker_.joinable()) worker_.join();
 }
 
+void FormingServer::note_listener(const std::string& node, int more) {
+  const std::lock_guard<std::mutex> lock(listeners_mutex_);
+  listeners_[node] += more;
+}
+
+bool FormingServer::listens(const std::string& node) const {
+  const std::lock_guard<std::mutex> lock(listeners_mutex_);
+  const auto known = listeners_.find(node);
+  return known != listeners_.end() && known->second > 0;
+}
+
 // Answers that come at once are lost, and their clients wait for ever: actionlib's client in C++ takes itself for connected
 // as soon as it has opened its way to the results, which may be before this node knows of it; the one in Python drops what
 // comes before its send_goal has returned.
-void FormingServer::wait_for_client(Clock::time_point received) const {
+void FormingServer::wait_for_client(const Goal& goal, Clock::time_point received) const {
+  const std::string sender = sender_of(goal.getGoalID().id);
   while (ros::ok()) {
     const auto age = Clock::now() - received;
-    const bool all_listen = results_.getNumSubscribers() >= goals_.getNumPublishers();
-    if (age >= kSettled && (all_listen || age >= 2s)) return;
+    const bool heard = sender.empty() ? results_.getNumSubscribers() >= goals_.getNumPublishers() : listens(sender);
+    if (age >= kSettled && (heard || age >= 2s)) return;
     std::this_thread::sleep_for(kLook);
   }
 }
@@ -131,7 +151,7 @@ void FormingServer::on_goal(Goal goal) {
   }();
   const auto result = result_of(Code::busy, stops ? "the server is being shut down; send the goal when it runs again"
                                                   : "another run is under way; send the goal again when it has ended, or cancel it");
-  wait_for_client(received);
+  wait_for_client(goal, received);
   goal.setRejected(result, result.message);
 }
 
@@ -176,7 +196,7 @@ void FormingServer::serve(Goal goal, Clock::time_point received) {
     result.message = "the run ended without an outcome: " + result.message;
   }
   if (!answer.begun) tell(answer.scene, static_cast<Code>(result.code), result.message);
-  wait_for_client(received);
+  wait_for_client(goal, received);
   {
     // From here a new goal is welcome: its client may have waited for this result only.
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -5,6 +5,7 @@
 
 #include <ros/master.h>
 #include <ros/time.h>
+#include <ros/xmlrpc_manager.h>
 
 namespace forming_sim {
 namespace {
@@ -23,6 +24,15 @@ void catch_stop_signals() {
   std::signal(SIGTERM, forming_sim_on_stop);
   if (std::signal(SIGHUP, forming_sim_on_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup asks to be left alone
   std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void catch_shutdown_requests() {
+  const ros::XMLRPCManagerPtr& server = ros::XMLRPCManager::instance();
+  server->unbind("shutdown");
+  server->bind("shutdown", [](XmlRpc::XmlRpcValue&, XmlRpc::XmlRpcValue& answer) {
+    forming_sim_on_stop(0);
+    answer = ros::xmlrpc::responseInt(1, "", 0);
+  });
 }
 
 bool stop_requested() { return stop_flag != 0; }

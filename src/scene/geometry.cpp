@@ -44,6 +44,8 @@ template <class Make> bool attempt(const std::string& path, const std::string& g
   try {
     make();
     return true;
+  } catch (const SceneError& error) {  // of fields beside the one of the path
+    for (const Fault& fault : error.faults()) faults.push_back({fault.code, path.substr(0, path.rfind('.') + 1) + fault.field, fault.given, fault.remedy});
   } catch (const Error& error) {
     if (error.code() == Code::cancelled) throw;
     faults.push_back({error.code(), path, given, error.what()});

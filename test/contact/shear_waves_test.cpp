@@ -142,11 +142,20 @@ TEST(ShearWaves, CountsHowLongContactLasts) {
   ShearWaves waves = box.waves(1);
   const NodeField v(8, Node::Zero());
   const auto phi = [&](int n) { return waves.steady(n, 0, v[n])[3]; };
-  for (int step = 0; step < 1000; ++step) waves.follow(box.team(), 1e-3, 1e-3, box.X, v, v, {rubbed(2), rubbed(5)});
-  for (int n = 0; n < 8; ++n) EXPECT_NEAR(phi(n), n == 2 || n == 5 ? 1 - std::exp(-1.) : 0, 1e-3) << n;
-  for (int step = 0; step < 1000; ++step) waves.follow(box.team(), 1e-3, 1e-3, box.X, v, v, {rubbed(5)});
-  EXPECT_NEAR(phi(2), std::exp(-1.) * (1 - std::exp(-1.)), 1e-3);
-  EXPECT_NEAR(phi(5), 1 - std::exp(-2.), 1e-3);
+  const auto press = [&](double time, const std::vector<RubbedNode>& nodes) {
+    for (long step = 0; step < std::lround(1000 * time); ++step) waves.follow(box.team(), 1e-3, 1e-3, box.X, v, v, nodes);
+  };
+  press(kStrike, {rubbed(2), rubbed(5)});
+  for (int n = 0; n < 8; ++n) EXPECT_LT(phi(n), 1e-9) << "a strike, node " << n;
+  press(kStrike + 10, {rubbed(2), rubbed(5)});
+  for (int n = 0; n < 8; ++n) EXPECT_NEAR(phi(n), n == 2 || n == 5 ? 1 : 0, 1e-3) << n;
+  press(1, {rubbed(5)});
+  EXPECT_NEAR(phi(2), std::exp(-1.), 1e-3);
+  EXPECT_NEAR(phi(5), 1, 1e-3);
+  press(2 * kStrike, {});
+  for (int n = 0; n < 8; ++n) EXPECT_LT(phi(n), 1e-5) << "free, node " << n;
+  press(kStrike, {rubbed(2)});
+  EXPECT_LT(phi(2), 1e-5) << "the next strike";
 }
 
 TEST(ShearWaves, WhatIsSavedGoesOnTheSame) {

@@ -46,7 +46,7 @@ TEST(CellOrder, ShuffledCellsLieTogetherAgain) {
   for (CellKind kind : {CellKind::tetrahedron, CellKind::triangle, CellKind::hex1}) {
     const Mesh mesh = block_of(kind, kind == CellKind::triangle ? 60 : 12);
     const Cells cells = reordered(mesh.cells[0], shuffled(mesh.cells[0].count()));
-    const std::vector<int> order = order_of_cells(mesh.nodes, cells.nodes, shape_of(kind).nodes, kPiece, 0.7);
+    const std::vector<int> order = order_of_cells(mesh.nodes, cells.nodes, shape_of(kind).nodes, ends_of_pieces(cells.count(), kPiece), 0.7);
     std::vector<int> numbers = order, all(order.size());
     std::sort(numbers.begin(), numbers.end());
     std::iota(all.begin(), all.end(), 0);
@@ -60,7 +60,7 @@ TEST(CellOrder, ShuffledCellsLieTogetherAgain) {
 
 TEST(CellOrder, CellsInOrderStay) {
   const Mesh mesh = block_of(CellKind::hex1, 20);
-  const std::vector<int> order = order_of_cells(mesh.nodes, mesh.cells[0].nodes, 8, 4096, 0.7);
+  const std::vector<int> order = order_of_cells(mesh.nodes, mesh.cells[0].nodes, 8, ends_of_pieces(mesh.cells[0].count(), 4096), 0.7);
   EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
 }
 

@@ -225,7 +225,7 @@ class BadInput(OwnDirectory):
         self.assertEqual(self.offline(self.path('scene.yaml'), '--output', self.path('out')).returncode, 0, self.said)
         self.write('nan.msh', text % ('nan', '1 2 3'))
         self.refused(self.body(url='nan.msh'), 'bodies[0].mesh', 'nan.msh')
-        self.refused(self.body(url='good.msh', group='sheet'), 'bodies[0].mesh', 'physical group "sheet"')
+        self.refused(self.body(url='good.msh', group='sheet'), 'bodies[0].mesh.group: given sheet', 'physical group')
         self.refused(self.body(url='good.msh', unit_scale=0.0), 'bodies[0].mesh.unit_scale')
         scene = self.body(url='good.msh')
         scene['dimension'] = 3
@@ -351,7 +351,7 @@ class BadInput(OwnDirectory):
         self.assertEqual(self.offline(*resume).returncode, 0, self.said)
         self.write('die.stl', stl(box((-1, -1, 1.0), (10.5, 11, 3.0))))
         self.assertEqual(self.offline(*resume).returncode, 1)
-        self.assertIn('the surface of tool die has changed since the checkpoint was written', self.said)
+        self.assertIn("url: die.stl, content ", self.said)
 
     def test_what_the_last_step_turns_inside_out_is_no_success(self):
         driven = self.changed(('tools',), None)

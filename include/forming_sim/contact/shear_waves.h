@@ -11,10 +11,11 @@
 //   tau = -z phi (u - u_s),   z = kappa rho c_s,  kappa = min(1, 2 mu)
 // beside friction and not within its cone. u_s is what of u is steady while the surfaces are pressed, so that tau is nothing over a time longer than T:
 //   v_s <- v_s + dv_r - e/(z A T) + (1 - phi) dt/(T + dt) (v - v_s)   of either surface; e: impulse of tau on what it stands for, A
-//   phi <- phi + dt/(T + dt) (1 or 0 - phi)                             1: pressed
+//   phi <- phi + dt/(T + dt) (w or 0 - phi)                             w: pressed
 // as if masses of z A T were dragged along by dashpots: over a long time they take no impulse, however contact comes and goes.
 // Across the surface v_s follows as where phi is 0. dv_r is the change of the velocity that the body has there as a whole (body_motion.h):
-// a body that gathers speed, turns or follows its grips and tools feels nothing. phi grows as contact lasts: a strike that is over long before T keeps Coulomb's impulse.
+// a body that gathers speed, turns or follows its grips and tools feels nothing. A strike keeps Coulomb's law: w rises from 0 to 1 between kStrike T and 2 kStrike T of
+// the time that the body has been pressed anywhere, less the time that it was free since. A swing needs some T to grow.
 // (A washout of first order, rho c_s sT/(1 + sT): of small motion about steady sliding it takes energy at every frequency and gives it at none. But u_s begins
 // with the speed of the surface, an energy that nobody paid, which comes back where the surface slows down: so where tau pushes the slip on it is no more than
 // friction is, mu N, and both together do no work on the body; what is left over comes back later.)
@@ -32,6 +33,7 @@ namespace forming_sim {
 
 constexpr double kSteadyTime = 4;     ///< T, of the time H/c_s that a wave of shear takes through the thickness H: with half of it something grows at friction .3, and what T drags along is as T
 constexpr double kMemoryShare = .25;  ///< T_N / T
+constexpr double kStrike = 8;         ///< T that a strike takes at most: twice through a bar eight times as long as wide, along which it strikes, is less than 3
 
 /// kappa: friction gives a swing a part mu at each of its ways through the thickness, of kappa z a part 2 kappa/(1 + kappa) leaves there: this is twice what is needed at least.
 /// (By the eigenvalues nothing grows with kappa = mu either. With kappa = 1 whatever the friction, a sheet that all but slides freely would be held as one that sticks.)
@@ -95,11 +97,13 @@ class ShearWaves {
   int body_of(int n) const;
   void find_asked(const WaveBody& body, const std::vector<RubbedNode>& pressed);
   void know_places();
+  void follow_presses(double dt, const std::vector<RubbedNode>& pressed);
 
   std::vector<WaveBody> bodies_;
   std::vector<MovingBody> moving_;
   std::vector<LastMasses> last_masses_, masses_;  ///< of every body; masses_: of the step
   std::vector<Rubbing> rubs_, next_;  ///< in rising order of their nodes
+  std::vector<double> pressed_for_;   ///< of every body, s
   std::vector<int> place_;            ///< of every node in rubs_, -1: none
   // Of one body in follow()
   std::vector<const RubbedNode*> asked_;  ///< vertices on tools whose motion is told

@@ -33,7 +33,7 @@ struct CellGroup {
   bool ring = false;        ///< axisymmetric: the triangles are turned about the y axis
   int cell_nodes = 0, cell_simplices = 0;  ///< simplices: elements with a memory, 1 in a one-point cell; of points at edges no number of nodes, which have as many as there are around an edge
   int cells = 0, blocks = 0;
-  int tile = 1, tiles = 0;         ///< blocks of a tile (the last may have fewer); number of tiles
+  int tiles = 0;                   ///< of as many blocks each, but for one more or less
   PressureMode pressure = PressureMode::cell;
   double element_share = 0;        ///< share of the element's own volume in a cell's pressure
   double guard = 0;                ///< theta of element/guard.h, 0 where there is none

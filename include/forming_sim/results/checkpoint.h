@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "forming_sim/results/meaning.h"
 #include "forming_sim/results/run_record.h"
 #include "forming_sim/results/schedule.h"
 #include "forming_sim/simulation/simulation.h"
@@ -10,7 +11,7 @@
 namespace forming_sim {
 
 struct Checkpoint {
-  std::string version, scene;   ///< package version; the scene as write_scene gives it
+  std::string version, scene;   ///< package version; what the scene means (results/meaning.h)
   double time = 0;              ///< s
   long step = 0;
   std::vector<char> state;      ///< Simulation::save()
@@ -32,7 +33,7 @@ void require_same_run(const Checkpoint& checkpoint, const Scene& scene, const st
 class Checkpoints : public Observer {
  public:
   Checkpoints(const Scene& scene, const std::string& path, double interval, RunRecord& record)
-      : scene_(scene), path_(path), schedule_(interval), record_(record) {}
+      : meaning_(meaning_of(scene)), path_(path), schedule_(interval), record_(record) {}
   void on_start(const Simulation& simulation) override { schedule_.start(simulation.time()); }
   void on_step(const Simulation& simulation) override;
   void on_stage_end(const Simulation& simulation, int index) override;
@@ -40,7 +41,7 @@ class Checkpoints : public Observer {
 
  private:
   Checkpoint take(const Simulation& simulation) const;
-  const Scene& scene_;
+  std::string meaning_;  ///< at the start: its files may change later
   std::string path_;
   Schedule schedule_;
   RunRecord& record_;

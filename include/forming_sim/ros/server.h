@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -67,7 +68,9 @@ class FormingServer {
   void run(Goal& goal, Answer& answer);
   void finish(Goal& goal, const Answer& answer);
   /// Until the client of a goal that came then can take an answer to it.
-  void wait_for_client(Clock::time_point received) const;
+  void wait_for_client(const Goal& goal, Clock::time_point received) const;
+  void note_listener(const std::string& node, int more);
+  bool listens(const std::string& node) const;
 
   ros::NodeHandle node_;
   int threads_ = 0;
@@ -79,6 +82,9 @@ class FormingServer {
   std::unique_ptr<Waiting> waiting_; ///< handed over, not yet taken by the worker
   std::unique_ptr<Goal> current_;    ///< taken by the worker, not yet done; cancel_ is its own
   bool stopping_ = false;
+
+  mutable std::mutex listeners_mutex_;
+  std::map<std::string, int> listeners_;  ///< by name of the node: its ways to the results
 
   std::atomic<bool> cancel_{false};
   Server server_;

@@ -1,11 +1,14 @@
 #pragma once
-// SIGINT, SIGTERM and SIGHUP as a flag, so that a program ends its work before ROS goes.
+// What asks a program to stop, signals and rosnode kill, as a flag, so that it ends its work before ROS goes.
 
 namespace forming_sim {
 
 /// Call it after ros::init with ros::init_options::NoSigintHandler. A limit of file sizes is a full disk from then on: the write says so.
 void catch_stop_signals();
-/// True once one of the signals has come.
+/// The shutdown that rosnode kill asks for, or a master that starts another node of the name, is such a signal from now on. Call it while a
+/// ros::NodeHandle lives: ROS itself would close the topics at once, and no result went out.
+void catch_shutdown_requests();
+/// True once one of them has come.
 bool stop_requested();
 /// How often they have come.
 int stops_requested();

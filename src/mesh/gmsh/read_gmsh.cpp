@@ -49,6 +49,11 @@ std::vector<std::string> set_names_of(const Groups& groups) {
   return names;
 }
 
+/// The group that is wanted is no body.
+struct WrongGroup {
+  std::string why;
+};
+
 struct MeshReader {
   std::string source;
   std::unordered_map<std::size_t, int> index;  // of a node's tag
@@ -139,11 +144,11 @@ struct MeshReader {
       if (is_wanted(g)) raw.dimension = std::max(raw.dimension, groups[g].first);
     }
     if (raw.dimension < 0)
-      refuse("has no physical group \"" + wanted + "\"; it has " + (names.empty() ? std::string("none") : names));
+      throw WrongGroup{source + " has no such physical group; it has " + (names.empty() ? std::string("none") : names)};
     for (std::size_t g = 0; g < groups.size(); ++g)
       if (groups[g].first == raw.dimension && is_wanted(g)) append_group(groups[g], raw.cells);
     if (raw.dimension < 2 || raw.cells.empty())
-      refuse("the physical group \"" + wanted + "\" holds no triangles, quadrilaterals, tetrahedra, hexahedra, wedges or pyramids, so it is no body");
+      throw WrongGroup{"this physical group of " + source + " holds no triangles, quadrilaterals, tetrahedra, hexahedra, wedges or pyramids, so it is no body"};
   }
 
   // Neighbours in the body come near to each other, which the numbers of a mesh generator do not see to.
@@ -152,7 +157,7 @@ struct MeshReader {
     for (const RawCell& cell : raw.cells)
       for (int k = 0; k < 8; ++k) nodes.push_back(cell.nodes[std::min(k, shape_of(cell.kind).corners - 1)]);
     const std::vector<RawCell> given = raw.cells;
-    const std::vector<int> order = order_of_cells(raw.points, nodes, 8, 512, 0.8);
+    const std::vector<int> order = order_of_cells(raw.points, nodes, 8, ends_of_pieces(static_cast<int>(nodes.size() / 8), 512), 0.8);
     for (std::size_t i = 0; i < order.size(); ++i) raw.cells[i] = given[order[i]];
   }
 
@@ -223,6 +228,10 @@ RawMesh read_with_reasons(const std::string& path, const std::string& group, dou
   const std::string remedy = "; it may be cut short: write it again with gmsh (format 2.2 or 4.1)";
   try {
     return read(path, group, unit_scale);
+  } catch (const WrongGroup& wrong) {
+    RawMesh none;
+    none.wrong_group = wrong.why;
+    return none;
   } catch (const Error&) {
     throw;
   } catch (const std::string& message) {
@@ -240,12 +249,14 @@ void forming_sim_read_gmsh(const std::string& path, const std::string& group, do
   body = read_apart<RawMesh>("mesh file \"" + path + "\"", path, [&] { return read_with_reasons(path, group, unit_scale); }, [](auto& archive, auto& mesh) {
     archive.text(mesh.source);
     archive.text(mesh.note);
+    archive.text(mesh.wrong_group);
     archive.number(mesh.dimension);
     archive.list(mesh.points);
     archive.list(mesh.point_tags);
     archive.list(mesh.cells);
     archive.lists(mesh.groups);
   });
+  if (!body.wrong_group.empty()) throw SceneError({{Code::mesh_error, "group", group, body.wrong_group}});
 }
 
 }  // namespace forming_sim
