@@ -59,6 +59,21 @@ class SceneTextTest(ServerTest):
         self.assertEqual(state, GoalStatus.REJECTED)
         self.assertEqual(result.faults[0].field, 'bodies[0].formed.url')
 
+    def test_a_text_beside_a_scene_says_the_same(self):
+        scene = scenes.pressed_strip()
+        other = scenes.pressed_strip()
+        other['bodies'][0]['material']['density'] *= 2
+        for text, told in ((yaml.safe_dump(other), 'density'), ('garbage: [', 'line 1')):
+            state, result = run(scene, scene_text=text)
+            self.assertEqual(state, GoalStatus.REJECTED)
+            self.assertEqual([fault.field for fault in result.faults], ['scene_text'])
+            self.assertIn(told, result.faults[0].given)
+        text = '# the same\n' + yaml.safe_dump(scene)
+        state, result = run(scene, scene_text=text, output_directory=self.path('same'))
+        self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
+        with h5py.File(self.path('same/result.h5'), 'r') as file:
+            self.assertEqual(file['scene_text'][()].decode(), text)
+
     def test_faults_of_a_text_are_those_of_a_file(self):
         scene = scenes.pressed_strip()
         scene['bodies'][0]['blank']['lenght'] = scene['bodies'][0]['blank'].pop('length')

@@ -261,6 +261,21 @@ class ServiceTest(ServerTest):
         state, result = running.result()
         self.assertEqual((state, result.code), (GoalStatus.PREEMPTED, ResultCode.CANCELLED))
 
+    def test_a_client_that_was_killed_holds_up_no_other(self):
+        """The master goes on to name its topics."""
+        dead = subprocess.Popen(['rostopic', 'pub', '/forming_server/simulate_forming/goal', 'forming_sim/SimulateFormingActionGoal', '{}'])
+        self.addCleanup(dead.kill)
+        listened = threading.Event()
+        watch = rospy.Subscriber('/forming_server/simulate_forming/goal', SimulateFormingActionGoal, lambda _: listened.set())
+        self.addCleanup(watch.unregister)
+        self.assertTrue(listened.wait(30))
+        dead.kill()
+        dead.wait()
+        began = time.monotonic()
+        for _ in range(6):
+            self.assertEqual(run({})[0], GoalStatus.REJECTED)
+        self.assertLess(time.monotonic() - began, 9, 'each waits no 2 s')
+
     def test_a_goal_after_a_cancel_waits_for_it(self):
         running = Followed(goal_of(scenes.long_run(), output_directory=self.path('long')))
         running.wait_running()

@@ -52,13 +52,12 @@ class ShutdownTest(unittest.TestCase):
         with open(os.path.join(directory, 'summary.json')) as file:
             self.assertEqual(json.load(file)['status']['code'], ResultCode.CANCELLED)
         self.assertTrue(os.path.exists(os.path.join(directory, 'checkpoint.h5')))
-        return client
-
-    def test_interrupt(self):
-        client = self.stop_cleanly('interrupted', lambda server: server.send_signal(signal.SIGINT))
         # It tells its client before it goes.
         self.assertTrue(client.wait_for_result(rospy.Duration(5)))
         self.assertEqual(client.get_result().code, ResultCode.CANCELLED)
+
+    def test_interrupt(self):
+        self.stop_cleanly('interrupted', lambda server: server.send_signal(signal.SIGINT))
 
     def test_terminate(self):
         self.stop_cleanly('terminated', lambda server: server.send_signal(signal.SIGTERM))
