@@ -85,6 +85,6 @@ double ForceDrive::fallen(double t) const {
 }
 
 AxleDrive::AxleDrive(const MotionConfig& config)
-    : Drive(config.torques.empty() ? ScalarProfile() : profile_of(config, config.torques), config.inertia, config.damping, kRadiansPerDegree * config.initial_spin_deg_s), axle_(config.axle.stableNormalized()) {}
+    : Drive(config.torques.empty() ? ScalarProfile() : profile_of(config, config.torques), config.inertia, config.spin_damping, kRadiansPerDegree * config.initial_spin_deg_s), axle_(config.axle.stableNormalized()) {}
 
 }  // namespace forming_sim

@@ -76,7 +76,7 @@ void check_motion(const MotionConfig& motion, const std::string& path, FaultList
     without(!motion.torques.empty(), "torques", given_text(static_cast<double>(motion.torques.size())) + " values");
     without(motion.initial_spin_deg_s != 0, "initial_spin_deg_s", given_text(motion.initial_spin_deg_s));
     without(motion.inertia != 0, "inertia", given_text(motion.inertia));
-    if (!motion.by_force()) without(motion.damping != 0, "damping", given_text(motion.damping));
+    without(motion.spin_damping != 0, "spin_damping", given_text(motion.spin_damping));
   }
   const Vec3 guide = guide_of(motion);
   if (!motion.forces.empty() && guide.isZero(0))

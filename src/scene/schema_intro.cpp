@@ -132,7 +132,7 @@ A robot that presses a roll on an edge and drives it along is one too: its `forc
 ```
 
 A tool with an `axle` is an idle roll: it turns about that as friction and its `torques` make it, and goes where the rest of its motion
-takes it, axle and all, round curves and leaning too, also while it is withdrawn; what of that is about the axle itself does not turn it. In a `settle` stage it comes to rest with what it presses on, as a holder does. A roll of a mill turns at `spins_deg_s` instead, pressed on by a force if its `kind` is `force`. How far an idle roll has
+takes it, axle and all, round curves and leaning too, also while it is withdrawn; what of that is about the axle itself does not turn it. Its `spin_damping` brakes it, `damping` the tool along its guide. In a `settle` stage it comes to rest with what it presses on, as a holder does. A roll of a mill turns at `spins_deg_s` instead, pressed on by a force if its `kind` is `force`. How far an idle roll has
 turned is in `history.csv`, the torque on a driven one there as its moment. A heavy one takes long to settle: friction releases it slowly (`kinetic_fraction`):
 
 ```yaml

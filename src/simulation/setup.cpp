@@ -184,7 +184,7 @@ void Simulation::Impl::tell_quick_press() {
   for (const BodyModel& body : model.bodies) {
     const auto rubs = [&](const SurfacePair& p) { return (p.first == body.name || p.second == body.name) && p.friction > 0; };
     const double T = waves_of(body, plan.time_step.mass_scaling).time, share = all / T;
-    if (share >= kQuick || std::none_of(pairs.begin(), pairs.end(), rubs)) continue;
+    if (share <= kStrike || share >= kQuick || std::none_of(pairs.begin(), pairs.end(), rubs)) continue;
     std::ostringstream text;
     text.precision(2);
     text << "the tools form body " << body.name << " in " << all << " s, " << share << " times the " << T << " s within which its shear waves leave at surfaces that rub: below "

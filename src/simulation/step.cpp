@@ -197,8 +197,8 @@ void Simulation::Impl::tell_landing(int tool) {
   text.precision(3);
   text << "tool " << model.tools[tool].name << ", which a force drives, had lifted off the bodies and come back " << kMany << " times at " << time << " s, every " << period << " s: with " << stages.drive(tool)->mass() / mass_of_bodies()
        << " times the mass of the bodies it swings on them, and where it rubs, friction is less in the mean than its force asks for. ";
-  if (!model.tools[tool].turns_freely()) text << "A motion.damping of " << M_PI / period << " 1/s stops such a swing, or a motion.mass of some times that of the bodies at most";
-  else text << "A motion.mass of some times that of the bodies at most stops such a swing, or a profile with a smaller chord_error (a motion.damping would brake its turn too)";
+  text << "A motion.damping of " << M_PI / period << " 1/s stops such a swing, or a motion.mass of some times that of the bodies at most";
+  if (model.tools[tool].turns_freely()) text << ", or a profile with a smaller chord_error";
   warnings.push_back(text.str());
 }
 

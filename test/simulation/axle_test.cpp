@@ -127,7 +127,7 @@ TEST(Axle, TheSameWithTwoThreadsAndResumed) {
   const OneBody run = [] {
     OneBody r = block_under_roll(2, 2e4, 2e-4);
     r.plan.bodies[0].initial_velocity = Vec3(3, 0, 0);
-    r.model.tools[1].motion->damping = 100;
+    r.model.tools[1].motion->spin_damping = 100;
     return r;
   }();
   auto one = run.start(), two = run.start(2);
@@ -161,7 +161,7 @@ TEST(Axle, AloneItTurnsOn) {
     roll.motion->mass = 0;
     roll.motion->times = {0};
     roll.motion->initial_spin_deg_s = 9000;
-    roll.motion->damping = damping;
+    roll.motion->spin_damping = damping;
     auto sim = run.start();
     while (sim->step()) {}
     const double expected = 9000 * M_PI / 180 * (damping > 0 ? (1 - std::exp(-damping * 1e-4)) / damping : 1e-4);
@@ -307,7 +307,7 @@ TEST(Axle, ABrakeStopsIt) {
   roll.position.y() += 1e-3;
   roll.motion->centre = roll.position;
   roll.motion->initial_spin_deg_s = 1e6;
-  roll.motion->damping = 1e12;
+  roll.motion->spin_damping = 1e12;
   auto sim = run.start();
   double back = 0, before = 0;
   while (sim->step()) {
