@@ -37,7 +37,6 @@ int main(int argc, char** argv) {
     const ros::NodeHandle place = options.topics.empty() ? node : ros::NodeHandle(options.topics);
     if (forming_sim::are_published(place))
       forming_sim::refuse_parameter(node, "topics", place.getNamespace(), "a node publishes there already, a server or another replay: give another name, as in topics:=replay (of one that was killed `rosnode cleanup` forgets the topics)");
-    forming_sim::catch_shutdown_requests();
     ros::AsyncSpinner spinner(1);
     spinner.start();
     forming_sim::RunPublisher publisher(place, forming_sim::PublishOptions::read(node));

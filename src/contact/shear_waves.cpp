@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <string>
 #include <type_traits>
+
+#include "forming_sim/config/fault.h"
 
 namespace forming_sim {
 
@@ -151,6 +154,7 @@ void ShearWaves::restore(const std::vector<double>& saved) {
   }
   for (; i + kSaved <= saved.size(); i += kSaved) {
     const double* s = &saved[i];
+    if (!(s[0] >= 0 && s[0] < static_cast<double>(place_.size()))) throw Error(Code::resume_error, "the checkpoint tells of node " + std::to_string(s[0]) + " that rubs, of " + std::to_string(place_.size()));
     rubs_.push_back({static_cast<int>(s[0]), Node(s[1], s[2], s[3], s[4]), Node(s[5], s[6], s[7], 0)});
   }
   know_places();

@@ -100,7 +100,7 @@ template <int D, bool Ring> [[gnu::flatten]] void forces_of_rolled(const CellGro
 /// Of any other law, but for the classical one.
 template <int D, bool Ring> [[gnu::flatten]] void forces_of_any_law(const CellGroup& g, const NodalView& view, const PacksNow& now) {
   PackOfPoints<D, Ring> at;
-  set_pack(g, view, now, kBlocksAhead, at);
+  set_pack(g, view, now, now.pack, kBlocksAhead, at);
   at.open();
   Edges<Pack, D, Ring> e;
   at.edges(0, e);

@@ -259,7 +259,7 @@ long Elements::blocks_of_a_thread(const Group& g) const { return kEightsOfAThrea
 long Elements::tiles_of_a_thread(const Group& g) const { return std::max(1L, blocks_of_a_thread(g) * g.tiles / g.blocks); }
 
 /// Calls work(group, tile) for all tiles of the groups of which that is asked, shared by the team: small groups that lie side by
-/// side are shared like a large one. A tile belongs to the thread in whose share its first cells lie.
+/// side are shared like a large one. A tile belongs to the thread in whose share its middle lies.
 template <class Asked, class Work> void Elements::over_tiles(Asked&& asked, Work&& work) const {
   long eights = 0;
   for (const Group& g : groups_)

@@ -195,7 +195,7 @@ template <class Cell> [[gnu::flatten]] void forces_of_any_law(const CellGroup& g
   constexpr int D = kD<Cell>;
   const long pack = now.pack;
   PackInStep<Cell, 1> at;
-  set_pack(g, view, now, kBlocksAhead<Cell>, at);
+  set_pack(g, view, now, pack, kBlocksAhead<Cell>, at);
   Vector<Pack, D> v[Cell::nodes], drawn_v[kDrawn<Cell>];  // only where the law asks for velocities
   const bool classical = g.solid.law == Law::classical;
   if (classical) {

@@ -26,7 +26,7 @@ template <class Cell> void gather_one_point(const int* nodes, const double* fiel
   sums.find_edges(constants, edge);
 }
 
-/// The constants of the next block, where they are others: cells of a file have each their own.
+/// The constants of the next block, which there is where kOnePointBlocksAhead are, if they are others: cells of a file have each their own.
 template <class Cell> void fetch_constants(const CellGroup& g, long pack) {
   const long block = block_of(pack);
   if (g.constant_set[block + 1] == g.constant_set[block]) return;

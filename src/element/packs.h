@@ -15,8 +15,8 @@ inline int first_lane(long pack) { return static_cast<int>(pack % kPacks) * kWid
 /// Where the lanes of a pack are, of arrays with so many items a block.
 template <class T> T* lanes_of(T* array, long items, long pack) { return array + block_of(pack) * items * kLanes + first_lane(pack); }
 
-/// Packs [pack, pack + count) of a group that are worked on now, and behind them, up to `end`, those that the same thread goes on with.
-/// What lies farther is another thread's: to fetch that would take it away from where it is being written.
+/// Packs [pack, pack + count) of a group that are worked on now, and behind them, up to the end of their tile, those that the same thread goes on with.
+/// What lies farther may be another thread's: to fetch that would take it away from where it is being written.
 struct PacksNow {
   long pack;
   int count;
@@ -33,12 +33,12 @@ struct PackOfGroup {
 
   const CellGroup& g() const { return *group; }
 };
-template <class InStep> void set_pack(const CellGroup& g, const NodalView& view, const PacksNow& now, long blocks_ahead, InStep& one, int b = 0) {
-  static_cast<PackOfGroup&>(one) = {&g, &view, now.pack + b, now.goes_on(blocks_ahead)};
+template <class InStep> void set_pack(const CellGroup& g, const NodalView& view, const PacksNow& now, long pack, long blocks_ahead, InStep& one) {
+  static_cast<PackOfGroup&>(one) = {&g, &view, pack, now.goes_on(blocks_ahead)};
 }
 /// Room for `most` of them; what is behind those of now is not used.
 template <class InStep, int most> void set_packs(const CellGroup& g, const NodalView& view, const PacksNow& now, long blocks_ahead, InStep (&packs)[most]) {
-  for (int b = 0; b < most; ++b) set_pack(g, view, now, blocks_ahead, packs[b], b);
+  for (int b = 0; b < most; ++b) set_pack(g, view, now, now.pack + b, blocks_ahead, packs[b]);
 }
 /// Calls work(now) with the packs of the blocks [first, last), `most` at a time.
 template <class Work> void packs_at_a_time(int first, int last, int most, Work&& work) {

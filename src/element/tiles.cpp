@@ -6,7 +6,7 @@
 namespace forming_sim {
 
 /// Of 512 times eight simplices at most, whose nodes a core's cache holds, or of an eighth of a small
-/// group, so that there is something to share among threads; of 64 times eight at least. An even number, so that two have as many.
+/// group, so that there is something to share among threads, but not of much less than 64 times eight. An even number, so that two threads have as many.
 int tiles_of(int blocks, int simplices_of_a_cell) {
   const auto of_eights = [&](int eights) { return std::max(1, eights / simplices_of_a_cell); };
   const int most = std::clamp((blocks + 7) / 8, of_eights(64), of_eights(512)), tiles = (blocks + most - 1) / most;

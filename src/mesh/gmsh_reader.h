@@ -5,7 +5,7 @@
 
 namespace forming_sim {
 
-/// The body of a .msh file at a path, scaled. Throws Error(mesh_error), also where libgmsh cannot be loaded.
+/// The body of a .msh file at a path, scaled. Throws Error(mesh_error), also where libgmsh cannot be loaded; SceneError, field group, where that is no body.
 RawMesh read_gmsh(const std::string& path, const std::string& group, double unit_scale);
 
 /// Of libforming_sim_gmsh.so.

@@ -2,6 +2,7 @@
 
 #include "forming_sim/config/fault.h"
 #include "forming_sim/config/reflect.h"
+#include "forming_sim/config/words.h"
 #include "forming_sim/mesh/measure.h"
 #include "mesh/region.h"
 
@@ -13,7 +14,7 @@ std::function<double(const Vec3&)> distance_of(const TrimConfig& region, bool fl
   try {
     return distance_from(region, flat, "");
   } catch (const Error& error) {
-    throw SceneError({{error.code(), name, region.choose, error.what()}});
+    throw SceneError({{error.code(), name, given_text(region.choose), error.what()}});
   }
 }
 
@@ -55,8 +56,8 @@ Remainder find_remainder(const Mesh& mesh, const std::vector<TrimConfig>& region
   const auto box = bounds(mesh);
   const std::string extent = "the body extends from " + place(box.min()) + " to " + place(box.max());
   for (const Cut& cut : cuts)
-    if (!cut.any) throw SceneError({{Code::mesh_error, cut.name, cut.choose, "no cell lies there: " + extent + ", and a cell is cut away where its middle lies in the region; give another place, or leave it out"}});
-  if (stay == 0) throw Error(Code::mesh_error, "trim: nothing is left: " + extent + ", and all its cells are cut away; turn a normal round, or cut less");
+    if (!cut.any) throw SceneError({{Code::mesh_error, cut.name, given_text(cut.choose), "no cell lies there: " + extent + ", and a cell is cut away where its middle lies in the region; give another place, or leave it out"}});
+  if (stay == 0) throw Error(Code::mesh_error, "nothing is left: " + extent + ", and all its cells are cut away; turn a normal round, or cut less");
   int next = 0;
   for (int& n : left.node)
     if (n == 0) n = next++;

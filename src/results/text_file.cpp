@@ -41,6 +41,7 @@ std::string read_text(const std::string& path) {
   if (!file) fail("read", path, errno);
   std::ostringstream text;
   text << file.rdbuf();
+  if (file.bad()) fail("read", path, errno);
   return text.str();
 }
 

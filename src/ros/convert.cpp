@@ -5,6 +5,7 @@
 
 #include "forming_sim/config/reflect.h"
 #include "forming_sim/config/words.h"
+#include "forming_sim/scene/urls.h"
 
 namespace forming_sim {
 namespace {
@@ -117,16 +118,6 @@ bool is_relative(const std::string& url) {
   return !url.empty() && url.find("://") == std::string::npos && url.front() != '/';
 }
 
-template <class Function> void for_each_url(Scene& scene, Function&& function) {
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (scene.bodies[i].mesh) function(join_path("bodies", i) + ".mesh.url", scene.bodies[i].mesh->url);
-    if (scene.bodies[i].formed) function(join_path("bodies", i) + ".formed.url", scene.bodies[i].formed->url);
-  }
-  for (std::size_t i = 0; i < scene.tools.size(); ++i) {
-    if (scene.tools[i].mesh) function(join_path("tools", i) + ".mesh.url", scene.tools[i].mesh->url);
-  }
-}
-
 }  // namespace
 
 SceneSpec scene_message(const Scene& scene) {
@@ -138,11 +129,9 @@ SceneSpec scene_message(const Scene& scene) {
 Scene scene_from(const SceneSpec& message, std::vector<Fault>& faults) {
   Scene scene;
   read(message, scene, "", faults);
-  for_each_url(scene, [&](const std::string& path, const std::string& url) {
-    if (!is_relative(url)) return;
-    faults.push_back({Code::invalid_scene, path, given_text(url),
-                      "give a file:// URL, a package:// URL or an absolute path: a goal has no directory of its own"});
-  });
+  for (const auto& [path, url] : urls_of(scene))
+    if (is_relative(*url))
+      faults.push_back({Code::invalid_scene, path, given_text(*url), "give a file:// URL, a package:// URL or an absolute path: a goal has no directory of its own"});
   return scene;
 }
 
@@ -160,11 +149,11 @@ std::vector<SceneFault> fault_messages(const std::vector<Fault>& faults) {
 }
 
 void make_urls_absolute(Scene& scene) {
-  for_each_url(scene, [&](const std::string&, std::string& url) {
-    if (!is_relative(url)) return;
-    const std::filesystem::path path = std::filesystem::absolute(scene.base_directory) / url;
-    url = "file://" + path.lexically_normal().string();
-  });
+  for (const auto& [field, url] : urls_of(scene)) {
+    if (!is_relative(*url)) continue;
+    const std::filesystem::path path = std::filesystem::absolute(scene.base_directory) / *url;
+    *url = "file://" + path.lexically_normal().string();
+  }
 }
 
 }  // namespace forming_sim

@@ -15,6 +15,7 @@
 #include "forming_sim/ros/convert.h"
 #include "forming_sim/ros/publisher.h"
 #include "forming_sim/scene/topic_name.h"
+#include "forming_sim/scene/urls.h"
 #include "forming_sim/scene/yaml.h"
 
 namespace forming_sim {
@@ -23,18 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The urls of a scene in another that says the same: a client spells them so that the server finds the files.
-void take_urls(const Scene& from, Scene& to) {
-  const auto take = [](const auto& given, auto& taken) {
-    if (given && taken) taken->url = given->url;
-  };
-  for (std::size_t b = 0; b < std::min(from.bodies.size(), to.bodies.size()); ++b) {
-    take(from.bodies[b].mesh, to.bodies[b].mesh);
-    take(from.bodies[b].formed, to.bodies[b].formed);
-  }
-  for (std::size_t t = 0; t < std::min(from.tools.size(), to.tools.size()); ++t) take(from.tools[t].mesh, to.tools[t].mesh);
-}
-
 /// result.h5 keeps the text as the one of the run: it has to say what the message says.
 void check_text(const std::string& scene_text, const Scene& scene, std::vector<Fault>& known) {
   const auto refuse = [&](const std::string& given) { known.push_back({Code::invalid_scene, "scene_text", given, "give the text that the scene was read from, or leave one of them out"}); };
@@ -42,7 +31,10 @@ void check_text(const std::string& scene_text, const Scene& scene, std::vector<F
   try {
     Scene told = read_scene(scene_text, "", faults);
     if (!faults.empty()) return refuse(faults.front().sentence());
-    take_urls(scene, told);
+    Scene said = scene;
+    const auto of_told = urls_of(told), of_said = urls_of(said);  // a client spells them so that the server finds the files
+    for (std::size_t i = 0; i < std::min(of_told.size(), of_said.size()); ++i)
+      if (of_told[i].first == of_said[i].first) *of_told[i].second = *of_said[i].second;
     const std::string of_text = write_scene(told), of_scene = write_scene(scene);
     if (of_text != of_scene) refuse(first_difference(of_text, of_scene, "in the text", "in the scene"));
   } catch (const SceneError& error) {

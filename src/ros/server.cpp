@@ -109,13 +109,12 @@ void FormingServer::stop() {
 
 void FormingServer::note_listener(const std::string& node, int more) {
   const std::lock_guard<std::mutex> lock(listeners_mutex_);
-  listeners_[node] += more;
+  if ((listeners_[node] += more) == 0) listeners_.erase(node);
 }
 
 bool FormingServer::listens(const std::string& node) const {
   const std::lock_guard<std::mutex> lock(listeners_mutex_);
-  const auto known = listeners_.find(node);
-  return known != listeners_.end() && known->second > 0;
+  return listeners_.count(node) > 0;
 }
 
 // Answers that come at once are lost, and their clients wait for ever: actionlib's client in C++ takes itself for connected

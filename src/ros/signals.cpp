@@ -1,8 +1,11 @@
 #include "forming_sim/ros/signals.h"
 
+#include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <string>
 
+#include <ros/console.h>
 #include <ros/master.h>
 #include <ros/time.h>
 #include <ros/xmlrpc_manager.h>
@@ -11,10 +14,11 @@ namespace forming_sim {
 namespace {
 
 constexpr int kMostAsked = 100;
-volatile std::sig_atomic_t stop_flag = 0;  ///< how often it was asked
+std::atomic<int> stop_flag{0};  ///< how often it was asked, by signals and by a thread of ROS
+static_assert(std::atomic<int>::is_always_lock_free);
 
 extern "C" void forming_sim_on_stop(int) {
-  if (stop_flag < kMostAsked) stop_flag = stop_flag + 1;
+  if (stop_flag < kMostAsked) ++stop_flag;
 }
 
 }  // namespace
@@ -29,7 +33,8 @@ void catch_stop_signals() {
 void catch_shutdown_requests() {
   const ros::XMLRPCManagerPtr& server = ros::XMLRPCManager::instance();
   server->unbind("shutdown");
-  server->bind("shutdown", [](XmlRpc::XmlRpcValue&, XmlRpc::XmlRpcValue& answer) {
+  server->bind("shutdown", [](XmlRpc::XmlRpcValue& given, XmlRpc::XmlRpcValue& answer) {
+    if (given.getType() == XmlRpc::XmlRpcValue::TypeArray && given.size() > 1) ROS_WARN("asked to shut down: %s", std::string(given[1]).c_str());
     forming_sim_on_stop(0);
     answer = ros::xmlrpc::responseInt(1, "", 0);
   });

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kLightest = 1e-3;  ///< mass of a tool that moves as it is pushed, over that of all bodies; inertia likewise
 constexpr double kRoundings = 1e4;  ///< of the farthest place, that a contact layer is to be thick at least
-constexpr double kQuick = 40;       ///< T of contact/shear_waves.h: a press that takes less feels by percents what keeps swings down
+constexpr double kQuick = 40;       ///< T of contact/shear_waves.h: a press that takes less, and more than kStrike, feels by percents what keeps swings down
 
 /// Of all bodies, in the joined numbering. places_of: a body's nodes, m.
 template <class PlacesOf> NodeField joined(const Model& model, PlacesOf&& places_of) {

@@ -53,7 +53,7 @@ World strip_over_plane(double mu, double impedance, double time) {
 
 TEST(ShearWaves, ABodyThatGathersSpeedAndTurnsIsSteady) {
   const Box box;
-  ShearWaves waves = box.waves(.02);
+  ShearWaves waves = box.waves(.002);
   const double dt = 1e-3;
   const auto place = [&](double t, int n) -> Node {
     const Mat3 turn = Eigen::AngleAxisd(30 * t + 200 * t * t, Vec3(1, 2, 3).normalized()).toRotationMatrix();
@@ -79,6 +79,7 @@ TEST(ShearWaves, ABodyThatGathersSpeedAndTurnsIsSteady) {
     }
     before = after;
   }
+  EXPECT_GT(waves.phi(7), .9);
 }
 
 // A box that swings on a tool that gathers speed: across the tool its steady motion is the tool's.
@@ -115,7 +116,7 @@ TEST(ShearWaves, WhatSwingsLosesEnergyAtEveryFrequency) {
     const long round = std::lround(2 * M_PI / (w * dt));
     NodeField v(8, Node::Zero());
     double taken = 0, all = 0, impulse = 0, most = 0;
-    const long settled = static_cast<long>(std::ceil(20 * T / dt / round)) * round;
+    const long settled = static_cast<long>(std::ceil((2 * kStrike + 4) * T / dt / round)) * round;
     for (long step = 0; step < settled + round; ++step) {
       const NodeField before = v;
       v[3][0] = std::sin(w * dt * static_cast<double>(step));
@@ -158,15 +159,54 @@ TEST(ShearWaves, CountsHowLongContactLasts) {
   EXPECT_LT(phi(2), 1e-5) << "the next strike";
 }
 
+TEST(ShearWaves, BeginsBetweenOneAndTwoStrikes) {
+  const Box box;
+  ShearWaves waves = box.waves(1);
+  const NodeField v(8, Node::Zero());
+  const auto press = [&](double time, const std::vector<RubbedNode>& nodes) {
+    for (long step = 0; step < std::lround(1000 * time); ++step) waves.follow(box.team(), 1e-3, 1e-3, box.X, v, v, nodes);
+  };
+  press(1.5 * kStrike, {rubbed(2)});
+  const double t = .5 * kStrike;  // of the ramp: phi' = t / kStrike - phi
+  EXPECT_NEAR(waves.phi(2), (t - 1 + std::exp(-t)) / kStrike, 2e-3);
+  press(.5 * kStrike + 10, {rubbed(2)});
+  press(2, {});
+  press(3, {rubbed(2)});
+  EXPECT_GT(waves.phi(2), .8) << "a short time without contact is taken off, and no more";
+}
+
+TEST(ShearWaves, EachBodyHasAStrikeOfItsOwn) {
+  ShearWaves waves({{kImpedance, 1, 0, 4}, {kImpedance, 1, 4, 4}}, 8, 6);
+  const Box box;
+  waves.hold(box.inverse_mass, {});
+  const NodeField v(8, Node::Zero());
+  for (int step = 0; step < 13000; ++step) waves.follow(box.team(), 1e-3, 1e-3, box.X, v, v, step < 12000 ? std::vector{rubbed(1)} : std::vector{rubbed(1), rubbed(6)});
+  EXPECT_GT(waves.phi(1), .4);
+  EXPECT_LT(waves.phi(6), 1e-9);
+}
+
 TEST(ShearWaves, WhatIsSavedGoesOnTheSame) {
   const Box box;
   const NodeField v(8, Node(1, 2, 3, 0)), later(8, Node(2, -1, 4, 0));
   ShearWaves waves = box.waves(1), resumed = box.waves(1);
-  for (int step = 0; step < 10; ++step) waves.follow(box.team(), .1, .1, box.X, v, v, {rubbed(1), rubbed(6)});
+  for (int step = 0; step < 120; ++step) waves.follow(box.team(), .1, .1, box.X, v, v, {rubbed(1), rubbed(6)});
   waves.follow(box.team(), .1, .1, box.X, v, later, {rubbed(6)});
   resumed.follow(box.team(), .1, .1, box.X, v, v, {rubbed(3)});  // what it knew is gone
   resumed.restore(waves.save());
+  for (ShearWaves* both : {&waves, &resumed})
+    for (int step = 0; step < 30; ++step) both->follow(box.team(), .1, .1, box.X, later, later, {rubbed(6)});
+  EXPECT_GT(waves.phi(6), .5);
   for (int n = 0; n < 8; ++n) EXPECT_EQ(waves.steady(n, .5, later[n]), resumed.steady(n, .5, later[n])) << n;
+}
+
+TEST(ShearWaves, ANodeThatIsNoneIsRefused) {
+  const Box box;
+  ShearWaves waves = box.waves(1);
+  const NodeField v(8, Node::Zero());
+  waves.follow(box.team(), .1, .1, box.X, v, v, {rubbed(3)});
+  std::vector<double> saved = waves.save();
+  saved.insert(saved.end(), {2e5, 0, 0, 0, 0, 0, 0, 0});
+  EXPECT_THROW(box.waves(1).restore(saved), Error);
 }
 
 TEST(ShearWaves, OfTwoBodiesTheSofterTakesThem) {
@@ -200,6 +240,7 @@ TEST(ShearWaves, AStrikeKeepsCoulombsImpulse) {
       EXPECT_NEAR(ratio, .1, 2e-4);
     } else {
       EXPECT_GT(pressed, 2 * kStrike * time);
+      EXPECT_GT(std::abs(ratio - .1), 5e-4);
     }
   }
 }
@@ -212,17 +253,20 @@ TEST(ShearWaves, BetweenBodiesMomentumIsKept) {
   world.add_strip(Vec3(0, 0, 0), 12, 3, .01, .01, 2700, 2e9);
   const int first = static_cast<int>(world.x.size());
   world.add_strip(Vec3(.013, .0302, 0), 7, 3, .012, .01, 5000, 3e9);
-  world.bodies[0].waves = {3e6, 1e-5, 0, first};
-  world.bodies[1].waves = {4e6, 2e-5, first, static_cast<int>(world.x.size()) - first};
+  world.bodies[0].waves = {3e6, 1e-6, 0, first};
+  world.bodies[1].waves = {4e6, 2e-6, first, static_cast<int>(world.x.size()) - first};
   for (int n = 0; n < static_cast<int>(world.x.size()); ++n) world.v[n] = n < first ? Node(3, 1, 0, 0) : Node(-4, -2, 0, 0);
   Contact contact = world.make();
   const Vec3 p0 = world.momentum();
   double scale = 0;
   for (std::size_t n = 0; n < world.x.size(); ++n) scale += world.mass[n] * world.v[n].norm();
+  double pressed = 0;
   for (int i = 0; i < 2000; ++i) {
     world.step(contact, 5e-7, false);
+    if (world.last.active > 0) pressed += world.last.dt;
     ASSERT_NEAR(world.closure(), 0, 1e-11 * world.exchanged + 1e-300);
     ASSERT_LT((world.momentum() - p0).norm(), 1e-12 * scale);
   }
+  EXPECT_GT(pressed, 2 * kStrike * 2e-6);
   EXPECT_GT(world.friction, 0);
 }

@@ -225,7 +225,7 @@ class BadInput(OwnDirectory):
         self.assertEqual(self.offline(self.path('scene.yaml'), '--output', self.path('out')).returncode, 0, self.said)
         self.write('nan.msh', text % ('nan', '1 2 3'))
         self.refused(self.body(url='nan.msh'), 'bodies[0].mesh', 'nan.msh')
-        self.refused(self.body(url='good.msh', group='sheet'), 'bodies[0].mesh.group: given sheet', 'physical group')
+        self.refused(self.body(url='good.msh', group='sheet'), "bodies[0].mesh.group: given 'sheet'", 'physical group')
         self.refused(self.body(url='good.msh', unit_scale=0.0), 'bodies[0].mesh.unit_scale')
         scene = self.body(url='good.msh')
         scene['dimension'] = 3
@@ -349,6 +349,12 @@ class BadInput(OwnDirectory):
         shutil.copy(self.path('out/checkpoint.h5'), self.path('checkpoint.h5'))
         resume = words + ('--resume', self.path('checkpoint.h5'))
         self.assertEqual(self.offline(*resume).returncode, 0, self.said)
+        # However its place is spelled, it is the same file.
+        with open(self.path('scene.yaml')) as file:
+            spelled = yaml.safe_load(file)
+        spelled['tools'][0]['mesh']['url'] = 'file://' + self.path('die.stl')
+        self.write('spelled.yaml', yaml.safe_dump(spelled))
+        self.assertEqual(self.offline(self.path('spelled.yaml'), *resume[1:]).returncode, 0, self.said)
         self.write('die.stl', stl(box((-1, -1, 1.0), (10.5, 11, 3.0))))
         self.assertEqual(self.offline(*resume).returncode, 1)
         self.assertIn("url: die.stl, content ", self.said)

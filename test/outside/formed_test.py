@@ -153,7 +153,7 @@ class Formed(SceneRun):
         solid = dict(self.next_scene(), dimension=3)
         self.assertIn('whose cells have dimension 2', self.refused(solid))
         nowhere = self.next_scene([{'choose': 'plane', 'point': [1, 0, 0], 'normal': [1, 0, 0]}])
-        self.assertIn('trim[0]: given plane; no cell lies there', self.refused(nowhere))
+        self.assertIn("bodies[0].trim[0]: given 'plane'; no cell lies there", self.refused(nowhere))
         spun = self.next_scene()
         spun['bodies'][0]['formed']['turn_deg'] = [90, 0, 0]
         self.assertIn('bodies[0].formed.turn_deg: given [90, 0, 0]', self.refused(spun))

@@ -13,6 +13,7 @@
 #include <fstream>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/results/checkpoint.h"
 #include "forming_sim/results/result_file.h"
 #include "forming_sim/results/result_reader.h"
 #include "results/example_run.h"
@@ -65,6 +66,17 @@ TEST(ResultFile, IsReadBackAsWritten) {
   EXPECT_EQ(reader.header().tools[1].plane_normal, header.tools[1].plane_normal);
   ASSERT_EQ(reader.frames().size(), 6u);
   for (int i = 0; i < 6; ++i) expect_frame(reader.frame(i), header, i);
+}
+
+TEST(ResultFile, AnotherFileOfARunIsNone) {
+  const TemporaryDirectory directory;
+  save_checkpoint(directory.file("checkpoint.h5"), Checkpoint());
+  try {
+    ResultReader reader(directory.file("checkpoint.h5"));
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("holds no result; give the result.h5 of a run"), std::string::npos) << error.what();
+  }
 }
 
 TEST(ResultFile, ResumesAfterAStepAndDropsWhatCameLater) {

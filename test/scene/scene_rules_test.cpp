@@ -70,9 +70,10 @@ TEST(SceneRules, WhatTurnsFreely) {
     return minimal_example() + "tools:\n  - {name: roll, profile: {start: [0, 0.003], pieces: [{to: [0, 0.005], radius: 0.001}, {to: [0, 0.003], radius: 0.001}]}, motion: {" + motion + "}}\n";
   };
   const std::string here = "tools[0].motion", stands = "kind: velocity, times: [0], ", idle = stands + "axle: [0, 0, 2], ";
-  EXPECT_TRUE(faults_of(with(idle + "torques: [3], inertia: 1, initial_spin_deg_s: 5, damping: 3")).empty()) << sentences(faults_of(with(idle + "torques: [3], inertia: 1, initial_spin_deg_s: 5, damping: 3")));
+  EXPECT_TRUE(faults_of(with(idle + "torques: [3], inertia: 1, initial_spin_deg_s: 5, spin_damping: 3")).empty()) << sentences(faults_of(with(idle + "torques: [3], inertia: 1, initial_spin_deg_s: 5, spin_damping: 3")));
+  expect_fault(with(idle + "damping: 3"), here + ".damping", "force");
   expect_fault(with(stands + "profile: linear"), here, "or an axle");
-  for (const char* field : {"torques", "inertia", "initial_spin_deg_s", "damping"})
+  for (const char* field : {"torques", "inertia", "initial_spin_deg_s", "spin_damping"})
     expect_fault(with(stands + "velocities: [[1, 0]], " + field + ": " + (field == std::string("torques") ? "[1]" : "1")), here + "." + field, "give the axle");
   expect_fault(with("kind: force, times: [0], forces: [[0, -1]], axle: [0, 0]"), here + ".axle", "of a length above 0");
   expect_fault(with(stands + "axle: [0, 1, 1]"), here + ".axle", "give [0, 0, 1]");

@@ -15,7 +15,7 @@
 // as if masses of z A T were dragged along by dashpots: over a long time they take no impulse, however contact comes and goes.
 // Across the surface v_s follows as where phi is 0. dv_r is the change of the velocity that the body has there as a whole (body_motion.h):
 // a body that gathers speed, turns or follows its grips and tools feels nothing. A strike keeps Coulomb's law: w rises from 0 to 1 between kStrike T and 2 kStrike T of
-// the time that the body has been pressed anywhere, less the time that it was free since. A swing needs some T to grow.
+// the time that the body has been pressed anywhere where it rubs, less the time that it was free since. A swing needs some T to grow.
 // (A washout of first order, rho c_s sT/(1 + sT): of small motion about steady sliding it takes energy at every frequency and gives it at none. But u_s begins
 // with the speed of the surface, an energy that nobody paid, which comes back where the surface slows down: so where tau pushes the slip on it is no more than
 // friction is, mu N, and both together do no work on the body; what is left over comes back later.)
@@ -105,7 +105,7 @@ class ShearWaves {
   std::vector<MovingBody> moving_;
   std::vector<LastMasses> last_masses_, masses_;  ///< of every body; masses_: of the step
   std::vector<Rubbing> rubs_, next_;  ///< in rising order of their nodes
-  std::vector<double> pressed_for_;   ///< of every body, s
+  std::vector<double> pressed_for_;   ///< of every body, s: how long it was pressed where it rubs, less how long it was free, at most 2 kStrike T
   std::vector<int> place_;            ///< of every node in rubs_, -1: none
   // Of one body in follow()
   std::vector<const RubbedNode*> asked_;  ///< vertices on tools whose motion is told

@@ -17,7 +17,7 @@ namespace forming_sim {
 /// group_<tag>; where groups of several dimensions have one name, each is called NAME_point, NAME_curve, NAME_surface, NAME_volume. Of cells of
 /// higher order the corners are taken, which `notes` says. Surface found, volumes checked.
 /// Throws Error(mesh_error) for a file that is missing, not readable or without cells, in 2D for nodes off z = 0, for inverted cells, named by their nodes, and for cells
-/// that touch without being joined (see seams.h), as tetrahedra on the face of a hexahedron do.
+/// that touch without being joined (see seams.h), as tetrahedra on the face of a hexahedron do; SceneError, field group, for one that is no body.
 Mesh load_body_mesh(const MeshConfig& config, const std::string& base_directory, std::vector<std::string>& notes);
 
 /// A tool: triangles in `surface`, coinciding nodes merged, triangles without

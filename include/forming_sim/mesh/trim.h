@@ -13,8 +13,8 @@ struct Remainder {
   std::vector<int> node;                ///< [node] its new number, -1: it is gone
 };
 
-/// What lies in none of the regions, by the means of the cells' nodes. Throws Error(mesh_error) for a region without
-/// a direction or with exchanged corners, for one in which no cell lies, and where nothing is left.
+/// What lies in none of the regions, by the means of the cells' nodes. Throws SceneError, field trim[i], for a region without
+/// a direction or with exchanged corners and for one in which no cell lies, Error(mesh_error) where nothing is left.
 Remainder find_remainder(const Mesh& mesh, const std::vector<TrimConfig>& regions);
 
 /// The mesh of it: its nodes in their order, sets without what is gone (empty ones left out), its surface.

@@ -3,7 +3,7 @@
 // other at its end. A thread without work watches for it for a
 // millisecond, which spans the gap between two loops of a step, and then sleeps.
 // To share a loop costs some microseconds, and what one thread wrote comes to the other slowly:
-// the constants that say how much is worth another thread are 15 to 30 microseconds of work.
+// the constants that say how much is worth another thread are some 5 to 30 microseconds of work.
 // On a machine that does other things as well a thread may not be there when its
 // part is due: then another takes it, and the loop waits for no more than the part
 // in which a thread was stopped.

@@ -20,7 +20,7 @@ struct Prepared {
 
 /// Reads, validates and builds the scene of a message, so that a body that starts
 /// inside a tool is found too. Never throws: what goes wrong is among the faults.
-/// threads: 1 to kMostThreads, else a fault. scene_text: as its author wrote it; empty: written from the message; with a message without name and bodies it is the scene.
+/// threads: 1 to kMostThreads, else a fault. scene_text: as its author wrote it; empty: written from the message; with a message without name and bodies it is the scene, beside another it has to say the same, but for urls.
 Prepared prepare(const SceneSpec& message, const std::string& scene_text, int threads);
 
 /// The directory of a run, made and found writable: `given`, or where that is

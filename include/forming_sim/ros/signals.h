@@ -5,7 +5,7 @@ namespace forming_sim {
 
 /// Call it after ros::init with ros::init_options::NoSigintHandler. A limit of file sizes is a full disk from then on: the write says so.
 void catch_stop_signals();
-/// The shutdown that rosnode kill asks for, or a master that starts another node of the name, is such a signal from now on. Call it while a
+/// The shutdown that rosnode kill asks for, or the master when another node takes the name, is such a signal from now on, and its reason is told. Call it while a
 /// ros::NodeHandle lives: ROS itself would close the topics at once, and no result went out.
 void catch_shutdown_requests();
 /// True once one of them has come.

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/config/words.h"
 #include "forming_sim/mesh/cell_order.h"
 #include "files/read_apart.h"
 #include "mesh/gmsh_reader.h"
@@ -256,7 +257,7 @@ void forming_sim_read_gmsh(const std::string& path, const std::string& group, do
     archive.list(mesh.cells);
     archive.lists(mesh.groups);
   });
-  if (!body.wrong_group.empty()) throw SceneError({{Code::mesh_error, "group", group, body.wrong_group}});
+  if (!body.wrong_group.empty()) throw SceneError({{Code::mesh_error, "group", given_text(group), body.wrong_group}});
 }
 
 }  // namespace forming_sim
