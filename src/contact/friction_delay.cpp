@@ -31,20 +31,17 @@ void FrictionDelay::recall(const Workspace& work, const LargeArray<ContactPair>&
 
 void FrictionDelay::follow(const Workspace& work, const LargeArray<ContactPair>& pairs, const std::vector<Rub>& rubs, std::size_t nodes, const ShearWaves& waves) {
   delayed_.resize(nodes, 0.0);
-  sum_impulses(work, pairs, sum_);
-  not_given_.assign(work.body_entries, 0.0);
+  sum_.assign(work.body_entries, 0.0);  // kick N - given
   for (const ContactPair& pair : pairs) {
     if (pair.rub < 0 || !(pair.impulse > 0)) continue;
     const Rub& rub = rubs[pair.rub];
     const double left = pair.impulse - (rub.own * pair.impulse + rub.before);
-    work.each_of_bodies(pair, [&](int i, double b) { not_given_[i] += std::abs(b) * left; });
+    work.each_of_bodies(pair, [&](int i, double b) { sum_[i] += std::abs(b) * left; });
   }
   for (int i = 0; i < work.body_entries; ++i) {
-    const int n = work.vertex[i];
-    if (sum_[i] == 0 || waves.of_node(n).time == 0) continue;
-    const double T_N = kMemoryShare * waves.of_node(n).time, a = work.kick / (T_N + work.kick);
-    double& delayed = delayed_[n];
-    delayed = std::max(0.0, delayed + not_given_[i] / T_N + (1 - waves.phi(n)) * a * (sum_[i] / work.kick - delayed));
+    if (sum_[i] == 0) continue;
+    double& delayed = delayed_[work.vertex[i]];
+    delayed = std::max(0.0, delayed + sum_[i] / (kMemoryShare * waves.of_node(work.vertex[i]).time));
   }
 }
 

@@ -13,6 +13,7 @@ namespace forming_sim {
 namespace {
 constexpr double kOver = 1e-6;  ///< phi of a vertex whose contact is over
 constexpr std::size_t kSaved = 8;  ///< numbers of a vertex
+constexpr std::size_t kSavedPresses = 7;  ///< of a body
 constexpr std::size_t kHolds = 64; ///< vertices on tools that are asked
 
 bool is_before(const RubbedNode& r, int n) { return r.node < n; }
@@ -24,7 +25,7 @@ constexpr std::size_t kSavedMasses = 1 + sizeof(MassSums) / sizeof(double);  ///
 ShearWaves::ShearWaves(const std::vector<WaveBody>& bodies, std::size_t nodes, int modes) : bodies_(bodies), place_(nodes, -1) {
   for (const WaveBody& body : bodies) moving_.emplace_back(body.first_node, body.nodes, modes);
   last_masses_.resize(bodies.size());
-  pressed_for_.resize(bodies.size(), 0.0);
+  presses_.resize(bodies.size());
 }
 
 const WaveBody& ShearWaves::of_pair(int first, int second) const {
@@ -59,14 +60,17 @@ void ShearWaves::know_places() {
   for (std::size_t i = 0; i < rubs_.size(); ++i) place_[rubs_[i].node] = static_cast<int>(i);
 }
 
-/// How long bodies have been pressed, less the time that they were free since.
-void ShearWaves::follow_presses(double dt, const std::vector<RubbedNode>& pressed) {
-  auto first = pressed.begin();
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const auto behind = std::lower_bound(first, pressed.end(), bodies_[b].first_node + bodies_[b].nodes, is_before);
-    pressed_for_[b] = std::clamp(pressed_for_[b] + (behind > first ? dt : -dt), 0.0, 2 * kStrike * bodies_[b].time);
-    first = behind;
-  }
+void ShearWaves::Presses::add(double part, const Node& step_normal, double step_size, const Node& step_momentum) {
+  normal = (1 - part) * normal + step_normal;
+  momentum = (1 - part) * momentum + step_momentum;
+  size = (1 - part) * size + step_size;
+}
+
+double ShearWaves::Presses::w() const {
+  const double across = normal.norm();
+  if (across == 0) return 1;
+  const double s = std::min(across, std::max(0.0, momentum.dot(normal) / across)) / size;
+  return std::clamp(2 * (1 - s), 0.0, 1.0);
 }
 
 void ShearWaves::follow(Team& team, double dt, double last_dt, const NodeField& x, const NodeField& before, const NodeField& after, const std::vector<RubbedNode>& pressed) {
@@ -77,7 +81,6 @@ void ShearWaves::follow(Team& team, double dt, double last_dt, const NodeField& 
   int of = -1;  // the body whose motion is known
   ChangeOfMotion whole;
   double part = 0, w = 0;  // of what is steady, that the step changes; of phi
-  follow_presses(dt, pressed);
   next_.clear();
   masses_.assign(moving_.size(), LastMasses());
   for (const Rubbing& r : rubs_) place_[r.node] = -1;
@@ -108,7 +111,15 @@ void ShearWaves::follow(Team& team, double dt, double last_dt, const NodeField& 
       masses_[b] = {true, moving_[b].masses(team, x, after, 0.5 * dt)};
       whole = ChangeOfMotion(moving_[b].motion(last_masses_[b].sums, before, place_before, held_before_), moving_[b].motion(masses_[b].sums, after, place_after, held_after_));
       part = dt / (body.time + dt);
-      w = std::clamp(pressed_for_[b] / (kStrike * body.time) - 1, 0.0, 1.0);
+      Node normal = Node::Zero(), momentum = Node::Zero();
+      double size = 0;
+      for (std::size_t k = p - (rubbed != nullptr); k < pressed.size() && body_of(pressed[k].node) == b; ++k) {
+        normal += pressed[k].normal;
+        size += pressed[k].normal.norm();
+      }
+      for (int c = 0; c < 3; ++c) momentum[c] = masses_[b].sums.momentum[c] - last_masses_[b].sums.momentum[c];
+      presses_[b].add(part, normal, size, momentum);
+      w = presses_[b].w();
       of = b;
     }
     const double was_phi = r.v[3], phi = was_phi + part * ((rubbed ? w : 0) - was_phi);
@@ -126,12 +137,15 @@ void ShearWaves::follow(Team& team, double dt, double last_dt, const NodeField& 
     if (rubbed || phi > kOver) next_.push_back(r);
   }
   rubs_.swap(next_);
+  for (std::size_t b = 0; b < presses_.size(); ++b)
+    if (!masses_[b].known) presses_[b] = Presses();
   last_masses_.swap(masses_);
   know_places();
 }
 
 std::vector<double> ShearWaves::save() const {
-  std::vector<double> saved = pressed_for_;
+  std::vector<double> saved;
+  for (const Presses& p : presses_) saved.insert(saved.end(), {p.normal[0], p.normal[1], p.normal[2], p.momentum[0], p.momentum[1], p.momentum[2], p.size});
   for (const LastMasses& last : last_masses_) {
     saved.push_back(last.known);
     saved.resize(saved.size() + kSavedMasses - 1);
@@ -144,8 +158,13 @@ std::vector<double> ShearWaves::save() const {
 void ShearWaves::restore(const std::vector<double>& saved) {
   for (const Rubbing& r : rubs_) place_[r.node] = -1;
   rubs_.clear();
-  std::size_t i = std::min(saved.size(), pressed_for_.size());
-  std::copy_n(saved.begin(), i, pressed_for_.begin());
+  std::size_t i = 0;
+  for (Presses& p : presses_) {
+    if (i + kSavedPresses > saved.size()) break;
+    const double* s = &saved[i];
+    p = {Node(s[0], s[1], s[2], 0), Node(s[3], s[4], s[5], 0), s[6]};
+    i += kSavedPresses;
+  }
   for (LastMasses& last : last_masses_) {
     if (i + kSavedMasses > saved.size()) break;
     last.known = saved[i] != 0;

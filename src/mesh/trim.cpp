@@ -55,8 +55,10 @@ Remainder find_remainder(const Mesh& mesh, const std::vector<TrimConfig>& region
   }
   const auto box = bounds(mesh);
   const std::string extent = "the body extends from " + place(box.min()) + " to " + place(box.max());
+  std::vector<Fault> faults;
   for (const Cut& cut : cuts)
-    if (!cut.any) throw SceneError({{Code::mesh_error, cut.name, given_text(cut.choose), "no cell lies there: " + extent + ", and a cell is cut away where its middle lies in the region; give another place, or leave it out"}});
+    if (!cut.any) faults.push_back({Code::mesh_error, cut.name, given_text(cut.choose), "no cell lies there: " + extent + ", and a cell is cut away where its middle lies in the region; give another place, or leave it out"});
+  if (!faults.empty()) throw SceneError(faults);
   if (stay == 0) throw Error(Code::mesh_error, "nothing is left: " + extent + ", and all its cells are cut away; turn a normal round, or cut less");
   int next = 0;
   for (int& n : left.node)

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kLightest = 1e-3;  ///< mass of a tool that moves as it is pushed, over that of all bodies; inertia likewise
 constexpr double kRoundings = 1e4;  ///< of the farthest place, that a contact layer is to be thick at least
-constexpr double kQuick = 40;       ///< T of contact/shear_waves.h: a press that takes less, and more than kStrike, feels by percents what keeps swings down
+constexpr double kQuick = 40;       ///< T of contact/shear_waves.h: a press that takes less feels by percents what keeps swings down
 
 /// Of all bodies, in the joined numbering. places_of: a body's nodes, m.
 template <class PlacesOf> NodeField joined(const Model& model, PlacesOf&& places_of) {
@@ -184,7 +184,7 @@ void Simulation::Impl::tell_quick_press() {
   for (const BodyModel& body : model.bodies) {
     const auto rubs = [&](const SurfacePair& p) { return (p.first == body.name || p.second == body.name) && p.friction > 0; };
     const double T = waves_of(body, plan.time_step.mass_scaling).time, share = all / T;
-    if (share <= kStrike || share >= kQuick || std::none_of(pairs.begin(), pairs.end(), rubs)) continue;
+    if (share >= kQuick || std::none_of(pairs.begin(), pairs.end(), rubs)) continue;
     std::ostringstream text;
     text.precision(2);
     text << "the tools form body " << body.name << " in " << all << " s, " << share << " times the " << T << " s within which its shear waves leave at surfaces that rub: below "

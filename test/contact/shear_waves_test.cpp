@@ -116,7 +116,7 @@ TEST(ShearWaves, WhatSwingsLosesEnergyAtEveryFrequency) {
     const long round = std::lround(2 * M_PI / (w * dt));
     NodeField v(8, Node::Zero());
     double taken = 0, all = 0, impulse = 0, most = 0;
-    const long settled = static_cast<long>(std::ceil((2 * kStrike + 4) * T / dt / round)) * round;
+    const long settled = static_cast<long>(std::ceil(20 * T / dt / round)) * round;
     for (long step = 0; step < settled + round; ++step) {
       const NodeField before = v;
       v[3][0] = std::sin(w * dt * static_cast<double>(step));
@@ -143,58 +143,61 @@ TEST(ShearWaves, CountsHowLongContactLasts) {
   ShearWaves waves = box.waves(1);
   const NodeField v(8, Node::Zero());
   const auto phi = [&](int n) { return waves.steady(n, 0, v[n])[3]; };
-  const auto press = [&](double time, const std::vector<RubbedNode>& nodes) {
-    for (long step = 0; step < std::lround(1000 * time); ++step) waves.follow(box.team(), 1e-3, 1e-3, box.X, v, v, nodes);
-  };
-  press(kStrike, {rubbed(2), rubbed(5)});
-  for (int n = 0; n < 8; ++n) EXPECT_LT(phi(n), 1e-9) << "a strike, node " << n;
-  press(kStrike + 10, {rubbed(2), rubbed(5)});
-  for (int n = 0; n < 8; ++n) EXPECT_NEAR(phi(n), n == 2 || n == 5 ? 1 : 0, 1e-3) << n;
-  press(1, {rubbed(5)});
-  EXPECT_NEAR(phi(2), std::exp(-1.), 1e-3);
-  EXPECT_NEAR(phi(5), 1, 1e-3);
-  press(2 * kStrike, {});
-  for (int n = 0; n < 8; ++n) EXPECT_LT(phi(n), 1e-5) << "free, node " << n;
-  press(kStrike, {rubbed(2)});
-  EXPECT_LT(phi(2), 1e-5) << "the next strike";
+  for (int step = 0; step < 1000; ++step) waves.follow(box.team(), 1e-3, 1e-3, box.X, v, v, {rubbed(2), rubbed(5)});
+  for (int n = 0; n < 8; ++n) EXPECT_NEAR(phi(n), n == 2 || n == 5 ? 1 - std::exp(-1.) : 0, 1e-3) << n;
+  for (int step = 0; step < 1000; ++step) waves.follow(box.team(), 1e-3, 1e-3, box.X, v, v, {rubbed(5)});
+  EXPECT_NEAR(phi(2), std::exp(-1.) * (1 - std::exp(-1.)), 1e-3);
+  EXPECT_NEAR(phi(5), 1 - std::exp(-2.), 1e-3);
 }
 
-TEST(ShearWaves, BeginsBetweenOneAndTwoStrikes) {
+/// A box of which the nodes 0, 1, 4, 5 are pressed, that changes its speed by `part` of what presses it: phi of node 1 after 3 T.
+double phi_where_pressed(double part, const Node& across) {
   const Box box;
   ShearWaves waves = box.waves(1);
-  const NodeField v(8, Node::Zero());
-  const auto press = [&](double time, const std::vector<RubbedNode>& nodes) {
-    for (long step = 0; step < std::lround(1000 * time); ++step) waves.follow(box.team(), 1e-3, 1e-3, box.X, v, v, nodes);
-  };
-  press(1.5 * kStrike, {rubbed(2)});
-  const double t = .5 * kStrike;  // of the ramp: phi' = t / kStrike - phi
-  EXPECT_NEAR(waves.phi(2), (t - 1 + std::exp(-t)) / kStrike, 2e-3);
-  press(.5 * kStrike + 10, {rubbed(2)});
-  press(2, {});
-  press(3, {rubbed(2)});
-  EXPECT_GT(waves.phi(2), .8) << "a short time without contact is taken off, and no more";
+  double mass = 0;
+  for (double w : box.inverse_mass) mass += 1 / w;
+  NodeField v(8, Node(7, 0, 0, 0));
+  std::vector<RubbedNode> base;
+  for (const int n : {0, 1, 4, 5}) {
+    base.push_back(rubbed(n));
+    base.back().normal = (1 + .1 * n) * across;
+  }
+  const Node change = part * 5 * across / mass;  // 4 and .1 (0 + 1 + 4 + 5)
+  for (int step = 0; step < 3000; ++step) {
+    const NodeField before = v;
+    for (Node& of : v) of += change;
+    waves.follow(Box::team(), 1e-3, 1e-3, box.X, before, v, base);
+  }
+  return waves.phi(1);
 }
 
-TEST(ShearWaves, EachBodyHasAStrikeOfItsOwn) {
-  ShearWaves waves({{kImpedance, 1, 0, 4}, {kImpedance, 1, 4, 4}}, 8, 6);
-  const Box box;
-  waves.hold(box.inverse_mass, {});
-  const NodeField v(8, Node::Zero());
-  for (int step = 0; step < 13000; ++step) waves.follow(box.team(), 1e-3, 1e-3, box.X, v, v, step < 12000 ? std::vector{rubbed(1)} : std::vector{rubbed(1), rubbed(6)});
-  EXPECT_GT(waves.phi(1), .4);
-  EXPECT_LT(waves.phi(6), 1e-9);
+TEST(ShearWaves, OfAStrikeNothing) {
+  for (const Node& across : {Node(0, 2, 0, 0), Node(.3, 1, -.4, 0)}) {
+    EXPECT_LT(phi_where_pressed(1, across), 1e-9) << "thrown back";
+    EXPECT_NEAR(phi_where_pressed(0, across), 1 - std::exp(-3.), 1e-3) << "at rest";
+    EXPECT_NEAR(phi_where_pressed(.5, across), 1 - std::exp(-3.), 1e-3);
+    EXPECT_NEAR(phi_where_pressed(.75, across), .5 * (1 - std::exp(-3.)), 1e-3);
+    EXPECT_NEAR(phi_where_pressed(-1, across), 1 - std::exp(-3.), 1e-3) << "pushed into it";
+  }
 }
 
 TEST(ShearWaves, WhatIsSavedGoesOnTheSame) {
   const Box box;
-  const NodeField v(8, Node(1, 2, 3, 0)), later(8, Node(2, -1, 4, 0));
+  NodeField v(8, Node(1, 2, 3, 0));
+  const NodeField later(8, Node(2, -1, 4, 0));
   ShearWaves waves = box.waves(1), resumed = box.waves(1);
-  for (int step = 0; step < 120; ++step) waves.follow(box.team(), .1, .1, box.X, v, v, {rubbed(1), rubbed(6)});
-  waves.follow(box.team(), .1, .1, box.X, v, later, {rubbed(6)});
+  RubbedNode pressed = rubbed(6);
+  pressed.normal = Node(0, 30, 0, 0);
+  for (int step = 0; step < 120; ++step) {
+    const NodeField before = v;
+    for (Node& of : v) of += Node(0, .9, 0, 0);
+    waves.follow(box.team(), .1, .1, box.X, before, v, {rubbed(1), pressed});
+  }
+  waves.follow(box.team(), .1, .1, box.X, v, later, {pressed});
   resumed.follow(box.team(), .1, .1, box.X, v, v, {rubbed(3)});  // what it knew is gone
   resumed.restore(waves.save());
   for (ShearWaves* both : {&waves, &resumed})
-    for (int step = 0; step < 30; ++step) both->follow(box.team(), .1, .1, box.X, later, later, {rubbed(6)});
+    for (int step = 0; step < 30; ++step) both->follow(box.team(), .1, .1, box.X, later, later, {pressed});
   EXPECT_GT(waves.phi(6), .5);
   for (int n = 0; n < 8; ++n) EXPECT_EQ(waves.steady(n, .5, later[n]), resumed.steady(n, .5, later[n])) << n;
 }
@@ -217,7 +220,7 @@ TEST(ShearWaves, OfTwoBodiesTheSofterTakesThem) {
   EXPECT_EQ(waves.of_pair(2, 0).impedance, 3e6);
 }
 
-// A strip thrown at a plane at an angle: what is over within kStrike T keeps friction at mu times the normal impulse, what lasts longer does not.
+// A strip thrown at a plane at an angle: friction is mu times the normal impulse, whether it is over in a thousandth of T or in many T.
 TEST(ShearWaves, AStrikeKeepsCoulombsImpulse) {
   for (const double time : {1., 3e-5, 1e-6}) {
     World world = strip_over_plane(.1, 3e6, time);
@@ -234,39 +237,35 @@ TEST(ShearWaves, AStrikeKeepsCoulombsImpulse) {
     EXPECT_GT(change.y(), 0);
     const double ratio = -change.x() / change.y();
     std::printf("  T %g s: pressed for %.1e s, friction over normal impulse %.5f\n", time, pressed, ratio);
+    EXPECT_GT(pressed, 6e-5);
     EXPECT_LT(pressed, 1e-3);
-    if (time > 1e-6) {
-      EXPECT_LT(pressed, kStrike * time);
-      EXPECT_NEAR(ratio, .1, 2e-4);
-    } else {
-      EXPECT_GT(pressed, 2 * kStrike * time);
-      EXPECT_GT(std::abs(ratio - .1), 5e-4);
-    }
+    EXPECT_NEAR(ratio, .1, 2e-4);
   }
 }
 
-// Two strips rub on each other: what leaves the one goes to the other.
+// Two strips come together on a third, which so is pressed and not thrown back, and rub on it: what leaves the one goes to the other.
 TEST(ShearWaves, BetweenBodiesMomentumIsKept) {
   World world;
   world.config.layer = 1e-4;
   world.config.friction = .3;
   world.add_strip(Vec3(0, 0, 0), 12, 3, .01, .01, 2700, 2e9);
-  const int first = static_cast<int>(world.x.size());
+  const auto nodes = [&] { return static_cast<int>(world.x.size()); };
+  const int first = nodes();
   world.add_strip(Vec3(.013, .0302, 0), 7, 3, .012, .01, 5000, 3e9);
-  world.bodies[0].waves = {3e6, 1e-6, 0, first};
-  world.bodies[1].waves = {4e6, 2e-6, first, static_cast<int>(world.x.size()) - first};
-  for (int n = 0; n < static_cast<int>(world.x.size()); ++n) world.v[n] = n < first ? Node(3, 1, 0, 0) : Node(-4, -2, 0, 0);
+  const int second = nodes();
+  world.add_strip(Vec3(.017, -.0302, 0), 7, 3, .012, .01, 5000, 3e9);
+  world.bodies[0].waves = {3e6, 1e-5, 0, first};
+  world.bodies[1].waves = {4e6, 2e-5, first, second - first};
+  world.bodies[2].waves = {4e6, 2e-5, second, nodes() - second};
+  for (int n = 0; n < nodes(); ++n) world.v[n] = n < first ? Node(3, 0, 0, 0) : n < second ? Node(-4, -2, 0, 0) : Node(-4, 2, 0, 0);
   Contact contact = world.make();
   const Vec3 p0 = world.momentum();
   double scale = 0;
   for (std::size_t n = 0; n < world.x.size(); ++n) scale += world.mass[n] * world.v[n].norm();
-  double pressed = 0;
   for (int i = 0; i < 2000; ++i) {
     world.step(contact, 5e-7, false);
-    if (world.last.active > 0) pressed += world.last.dt;
-    ASSERT_NEAR(world.closure(), 0, 1e-11 * world.exchanged + 1e-300);
+    ASSERT_NEAR(world.closure(), 0, 1e-11 * world.exchanged + 1e-14);
     ASSERT_LT((world.momentum() - p0).norm(), 1e-12 * scale);
   }
-  EXPECT_GT(pressed, 2 * kStrike * 2e-6);
   EXPECT_GT(world.friction, 0);
 }

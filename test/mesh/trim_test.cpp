@@ -113,6 +113,9 @@ TEST(Trim, CountsThePieces) {
 TEST(Trim, SaysWhatIsWrong) {
   EXPECT_NE(refusal(plate(), {plane(Vec3(9, 0, 0), Vec3(1, 0, 0))}).find("trim[0]: given 'plane'; no cell lies there: the body extends from (0, 0, 0) m to (4, 3, 1) m"), std::string::npos);
   EXPECT_NE(refusal(plate(), {plane(Vec3(1, 0, 0), Vec3(1, 0, 0)), box(Vec3(9, 9, 9), Vec3(10, 10, 10))}).find("trim[1]: given 'box'; no cell"), std::string::npos);
+  const std::string both = refusal(plate(), {box(Vec3(9, 9, 9), Vec3(10, 10, 10)), plane(Vec3(9, 0, 0), Vec3(1, 0, 0))});
+  EXPECT_NE(both.find("trim[0]"), std::string::npos) << both;
+  EXPECT_NE(both.find("trim[1]"), std::string::npos) << both;
   EXPECT_NE(refusal(plate(), {plane(Vec3(-1, 0, 0), Vec3(1, 0, 0))}).find("nothing is left"), std::string::npos);
   EXPECT_NE(refusal(plate(), {box(Vec3(1, 1, 1), Vec3(0, 2, 2))}).find("exchange the coordinates"), std::string::npos);
   EXPECT_NE(refusal(strip(), {plane(Vec3(0, 0, 0), Vec3(0, 0, 1))}).find("has no length in x and y"), std::string::npos);

@@ -33,7 +33,7 @@ PLATE = {
                         'cells': [0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3]},
                'motion': {'kind': 'velocity', 'times': [0.0, 2e-6], 'velocities': [[0.0, 0.0, 0.0], [0.3, 0.0, -10.0]]}}],
     'stages': [{'kind': 'form', 'duration': 5e-5}],
-    'output': {'frames': 5, 'checkpoint_interval': 3e-5}}  # when what keeps swings down has begun
+    'output': {'frames': 5, 'checkpoint_interval': 3e-5}}
 
 
 class Threads(unittest.TestCase):

@@ -1,7 +1,7 @@
 #pragma once
 // Friction answers to a change of the normal force N with a delay (shear_waves.h): it follows (1 - phi) N + phi N_d, with of every node
-//   N_d <- N_d + (kick N - given)/T_N + (1 - phi) a (N - N_d),   given = kick ((1 - phi) N + phi (a N + (1 - a) N_d)),  a = kick/(T_N + kick);  not pressed: 0
-// That is the mean of N over the time T_N. While phi is 0 it costs friction nothing, so that nothing is owed when phi begins to rise. With phi = 1 what friction is not given now it is given later: however N jumps, its
+//   N_d <- N_d + (kick N - given)/T_N,   given = kick ((1 - phi) N + phi (a N + (1 - a) N_d)),  a = kick/(T_N + kick);  not pressed: 0
+// With phi = 1 that is the mean of N over the time T_N. What friction is not given now it is given later: however N jumps, its
 // impulse is mu times that of N, but for mu N_d T_N that is still to come.
 //
 // Nodes remember, not pairs: as a corner of a tool leaves a cell and the next one comes, or a node slides from facet to facet, pairs come
@@ -25,7 +25,7 @@ class FrictionDelay {
   const std::vector<double>& delayed() const { return delayed_; }
 
  private:
-  std::vector<double> delayed_, sum_, not_given_;  ///< N; per entry, N s: kick N, kick N - given
+  std::vector<double> delayed_, sum_;  ///< N; per entry, N s
 };
 
 }  // namespace forming_sim

@@ -14,8 +14,10 @@
 //   phi <- phi + dt/(T + dt) (w or 0 - phi)                             w: pressed
 // as if masses of z A T were dragged along by dashpots: over a long time they take no impulse, however contact comes and goes.
 // Across the surface v_s follows as where phi is 0. dv_r is the change of the velocity that the body has there as a whole (body_motion.h):
-// a body that gathers speed, turns or follows its grips and tools feels nothing. A strike keeps Coulomb's law: w rises from 0 to 1 between kStrike T and 2 kStrike T of
-// the time that the body has been pressed anywhere where it rubs, less the time that it was free since. A swing needs some T to grow.
+// a body that gathers speed, turns or follows its grips and tools feels nothing. phi grows as contact lasts.
+// A strike keeps Coulomb's law. What strikes is thrown back: of the impulses N across the surfaces that press a body, over the last T, its momentum P has changed by the part
+//   s = min(|sum N|, P.n) / sum |N|,   n along sum N;   w = min(1, 2 (1 - s))
+// A body that is pressed between tools, that rests or that slides as its weight presses it has s near 0, one that flies at a tool 1 until it has left it.
 // (A washout of first order, rho c_s sT/(1 + sT): of small motion about steady sliding it takes energy at every frequency and gives it at none. But u_s begins
 // with the speed of the surface, an energy that nobody paid, which comes back where the surface slows down: so where tau pushes the slip on it is no more than
 // friction is, mu N, and both together do no work on the body; what is left over comes back later.)
@@ -33,7 +35,6 @@ namespace forming_sim {
 
 constexpr double kSteadyTime = 4;     ///< T, of the time H/c_s that a wave of shear takes through the thickness H: with half of it something grows at friction .3, and what T drags along is as T
 constexpr double kMemoryShare = .25;  ///< T_N / T
-constexpr double kStrike = 8;         ///< T that a strike takes at most: twice through a bar eight times as long as wide, along which it strikes, is less than 3
 
 /// kappa: friction gives a swing a part mu at each of its ways through the thickness, of kappa z a part 2 kappa/(1 + kappa) leaves there: this is twice what is needed at least.
 /// (By the eigenvalues nothing grows with kappa = mu either. With kappa = 1 whatever the friction, a sheet that all but slides freely would be held as one that sticks.)
@@ -96,16 +97,23 @@ class ShearWaves {
     bool known = false;
     MassSums sums;
   };
+  /// What has pressed a body where it rubs, and what it did, within the last T: sums that fade, N s.
+  struct Presses {
+    Node normal = Node::Zero(), momentum = Node::Zero();
+    double size = 0;
+
+    void add(double part, const Node& step_normal, double step_size, const Node& step_momentum);
+    double w() const;
+  };
   int body_of(int n) const;
   void find_asked(const WaveBody& body, const std::vector<RubbedNode>& pressed);
   void know_places();
-  void follow_presses(double dt, const std::vector<RubbedNode>& pressed);
 
   std::vector<WaveBody> bodies_;
   std::vector<MovingBody> moving_;
   std::vector<LastMasses> last_masses_, masses_;  ///< of every body; masses_: of the step
   std::vector<Rubbing> rubs_, next_;  ///< in rising order of their nodes
-  std::vector<double> pressed_for_;   ///< of every body, s: how long it was pressed where it rubs, less how long it was free, at most 2 kStrike T
+  std::vector<Presses> presses_;      ///< of every body
   std::vector<int> place_;            ///< of every node in rubs_, -1: none
   // Of one body in follow()
   std::vector<const RubbedNode*> asked_;  ///< vertices on tools whose motion is told
