@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "forming_sim/config/fault.h"
 
@@ -16,7 +17,14 @@ constexpr std::size_t kSaved = 8;  ///< numbers of a vertex
 constexpr std::size_t kSavedPresses = 7;  ///< of a body
 constexpr std::size_t kHolds = 64; ///< vertices on tools that are asked
 
-bool is_before(const RubbedNode& r, int n) { return r.node < n; }
+/// Those of a body, from the first to behind the last.
+using Vertices = std::pair<const RubbedNode*, const RubbedNode*>;
+Vertices of_body(const WaveBody& body, const std::vector<RubbedNode>& pressed) {
+  const auto before = [](const RubbedNode& r, int n) { return r.node < n; };
+  const RubbedNode *first = pressed.data(), *end = first + pressed.size();
+  first = std::lower_bound(first, end, body.first_node, before);
+  return {first, std::lower_bound(first, end, body.first_node + body.nodes, before)};
+}
 
 static_assert(std::is_trivially_copyable_v<MassSums>);
 constexpr std::size_t kSavedMasses = 1 + sizeof(MassSums) / sizeof(double);  ///< of a body
@@ -48,9 +56,9 @@ void ShearWaves::hold(const std::vector<double>& inverse_mass, const std::vector
 
 void ShearWaves::find_asked(const WaveBody& body, const std::vector<RubbedNode>& pressed) {
   asked_.clear();
-  const auto first = std::lower_bound(pressed.begin(), pressed.end(), body.first_node, is_before), last = std::lower_bound(first, pressed.end(), body.first_node + body.nodes, is_before);
-  for (auto r = first; r != last; ++r)
-    if (r->by_tools.squaredNorm() > 0) asked_.push_back(&*r);
+  const auto [first, end] = of_body(body, pressed);
+  for (const RubbedNode* r = first; r != end; ++r)
+    if (r->by_tools.squaredNorm() > 0) asked_.push_back(r);
   const std::size_t stride = asked_.size() / kHolds + 1;
   for (std::size_t i = 0; i * stride < asked_.size(); ++i) asked_[i] = asked_[i * stride];
   asked_.resize((asked_.size() + stride - 1) / stride);
@@ -113,9 +121,10 @@ void ShearWaves::follow(Team& team, double dt, double last_dt, const NodeField& 
       part = dt / (body.time + dt);
       Node normal = Node::Zero(), momentum = Node::Zero();
       double size = 0;
-      for (std::size_t k = p - (rubbed != nullptr); k < pressed.size() && body_of(pressed[k].node) == b; ++k) {
-        normal += pressed[k].normal;
-        size += pressed[k].normal.norm();
+      const auto [first, end] = of_body(body, pressed);
+      for (const RubbedNode* press = first; press != end; ++press) {
+        normal += press->normal;
+        size += press->normal.norm();
       }
       for (int c = 0; c < 3; ++c) momentum[c] = masses_[b].sums.momentum[c] - last_masses_[b].sums.momentum[c];
       presses_[b].add(part, normal, size, momentum);

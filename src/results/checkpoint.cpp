@@ -42,14 +42,13 @@ Checkpoint load_checkpoint(const std::string& path) {
   }
 }
 
-void require_same_run(const Checkpoint& checkpoint, const Scene& scene, const std::string& path) {
+void require_same_run(const Checkpoint& checkpoint, const std::string& meaning, const std::string& path) {
   if (checkpoint.version != package_version())
     throw Error(Code::resume_error, path + " was written by version " + checkpoint.version + ", this is version " +
                                         package_version() + "; resume with the version that wrote it");
-  const std::string text = meaning_of(scene);
-  if (checkpoint.scene != text)
+  if (checkpoint.scene != meaning)
     throw Error(Code::resume_error, path + " was written for another scene (" +
-                                        first_difference(checkpoint.scene, text, "in the checkpoint", "in the scene") +
+                                        first_difference(checkpoint.scene, meaning, "in the checkpoint", "in the scene") +
                                         "); resume with the scene that wrote it");
 }
 

@@ -13,7 +13,7 @@ namespace forming_sim {
 void Fields::on_start(const Simulation& simulation) {
   schedule_.start(simulation.time());
   const std::string path = in_directory(directory_, "result.h5");
-  ResultHeader header = take_header(simulation, scene_);
+  ResultHeader header = take_header(simulation, scene_, meaning_);
   if (resumed_) {
     file_ = ResultFile::resume(path, header, simulation.steps());
     if (file_) {

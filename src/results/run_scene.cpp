@@ -6,6 +6,7 @@
 
 #include "forming_sim/mesh/url.h"
 #include "forming_sim/results/directory_lock.h"
+#include "forming_sim/results/meaning.h"
 #include "forming_sim/results/result_file.h"
 #include "forming_sim/results/run_files.h"
 #include "forming_sim/results/snapshot.h"
@@ -34,23 +35,24 @@ Outcome run_valid(const Scene& scene, const std::string& directory, int threads,
   make_output_directory(directory);
   const DirectoryLock lock(directory);
   require_room_for_parts(scene, directory);
+  const std::string meaning = meaning_of(scene);
   std::optional<Checkpoint> checkpoint;
   if (!resume_file.empty()) {
     checkpoint = load_checkpoint(resume_file);
-    require_same_run(*checkpoint, scene, resume_file);
+    require_same_run(*checkpoint, meaning, resume_file);
   }
   if (!built) built = build_run(scene, std::move(model), threads);
   Simulation& simulation = *built;
   if (checkpoint) {
     simulation.restore(checkpoint->state);
-    require_first_part(in_directory(directory, "result.h5"), take_header(simulation, scene));
+    require_first_part(in_directory(directory, "result.h5"), take_header(simulation, scene, meaning));
   }
   std::error_code unknown;
   // Of another run; this one's come later.
   std::filesystem::remove(in_directory(directory, "summary.json"), unknown);
   if (!checkpoint) std::filesystem::remove(in_directory(directory, "checkpoint.h5"), unknown);
   if (!checkpoint && scene.output.formed) std::filesystem::remove(in_directory(directory, "formed.h5"), unknown);
-  RunFiles files = open_run_files(simulation, scene, directory, checkpoint ? &*checkpoint : nullptr);
+  RunFiles files = open_run_files(simulation, scene, meaning, directory, checkpoint ? &*checkpoint : nullptr);
   for (const auto& observer : files.observers) simulation.add(*observer);
   for (Observer* observer : extra) simulation.add(*observer);
   return simulation.run(cancel);

@@ -4,20 +4,19 @@
 
 #include "forming_sim/material/damage.h"
 #include "forming_sim/results/history.h"
-#include "forming_sim/results/meaning.h"
 #include "forming_sim/results/version.h"
 #include "forming_sim/results/sheet_sides.h"
 #include "forming_sim/scene/yaml.h"
 
 namespace forming_sim {
 
-ResultHeader take_header(const Simulation& simulation, const Scene& scene) {
+ResultHeader take_header(const Simulation& simulation, const Scene& scene, const std::string& meaning) {
   const Model& model = simulation.model();
   ResultHeader header;
   header.version = package_version();
   header.scene_name = scene.name;
   header.scene_text = scene.text.empty() ? write_scene(scene) : scene.text;
-  header.scene_hash = static_cast<std::int64_t>(std::hash<std::string>()(meaning_of(scene)));
+  header.scene_hash = static_cast<std::int64_t>(std::hash<std::string>()(meaning));
   header.dimension = model.dimension;
   header.axisymmetric = model.axisymmetric;
   header.elements = simulation.elements();

@@ -11,6 +11,7 @@
 #include "forming_sim/mesh/url.h"
 #include "forming_sim/parallel/team.h"
 #include "forming_sim/results/checkpoint.h"
+#include "forming_sim/results/meaning.h"
 #include "forming_sim/results/start.h"
 #include "forming_sim/ros/convert.h"
 #include "forming_sim/ros/publisher.h"
@@ -112,7 +113,7 @@ std::string check_resume(const std::string& given, Prepared& prepared) {
   const auto refuse = [&](const std::string& remedy) { prepared.faults.push_back({Code::resume_error, "resume", '"' + given + '"', remedy}); };
   try {
     file = local_path(given, Code::resume_error);
-    if (is_readable_file(file)) require_same_run(load_checkpoint(file), prepared.scene, file);
+    if (is_readable_file(file)) require_same_run(load_checkpoint(file), meaning_of(prepared.scene), file);
     else refuse("give the checkpoint file of an earlier run on the server's machine");
   } catch (const Error& error) {
     refuse(error.what());

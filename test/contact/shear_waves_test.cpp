@@ -33,6 +33,8 @@ struct Box {
   }
 };
 
+double phi_of(const ShearWaves& waves, int node) { return waves.steady(node, 0, Node::Zero())[3]; }
+
 RubbedNode rubbed(int node) {
   RubbedNode of;
   of.node = node;
@@ -79,7 +81,7 @@ TEST(ShearWaves, ABodyThatGathersSpeedAndTurnsIsSteady) {
     }
     before = after;
   }
-  EXPECT_GT(waves.phi(7), .9);
+  EXPECT_GT(phi_of(waves, 7), .9);
 }
 
 // A box that swings on a tool that gathers speed: across the tool its steady motion is the tool's.
@@ -142,7 +144,7 @@ TEST(ShearWaves, CountsHowLongContactLasts) {
   const Box box;
   ShearWaves waves = box.waves(1);
   const NodeField v(8, Node::Zero());
-  const auto phi = [&](int n) { return waves.steady(n, 0, v[n])[3]; };
+  const auto phi = [&](int n) { return phi_of(waves, n); };
   for (int step = 0; step < 1000; ++step) waves.follow(box.team(), 1e-3, 1e-3, box.X, v, v, {rubbed(2), rubbed(5)});
   for (int n = 0; n < 8; ++n) EXPECT_NEAR(phi(n), n == 2 || n == 5 ? 1 - std::exp(-1.) : 0, 1e-3) << n;
   for (int step = 0; step < 1000; ++step) waves.follow(box.team(), 1e-3, 1e-3, box.X, v, v, {rubbed(5)});
@@ -168,7 +170,7 @@ double phi_where_pressed(double part, const Node& across) {
     for (Node& of : v) of += change;
     waves.follow(Box::team(), 1e-3, 1e-3, box.X, before, v, base);
   }
-  return waves.phi(1);
+  return phi_of(waves, 1);
 }
 
 TEST(ShearWaves, OfAStrikeNothing) {
@@ -198,7 +200,7 @@ TEST(ShearWaves, WhatIsSavedGoesOnTheSame) {
   resumed.restore(waves.save());
   for (ShearWaves* both : {&waves, &resumed})
     for (int step = 0; step < 30; ++step) both->follow(box.team(), .1, .1, box.X, later, later, {pressed});
-  EXPECT_GT(waves.phi(6), .5);
+  EXPECT_GT(phi_of(waves, 6), .5);
   for (int n = 0; n < 8; ++n) EXPECT_EQ(waves.steady(n, .5, later[n]), resumed.steady(n, .5, later[n])) << n;
 }
 

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "forming_sim/results/checkpoint.h"
+#include "forming_sim/results/meaning.h"
 #include "forming_sim/results/version.h"
 #include "results/small_scene.h"
 
@@ -68,7 +69,7 @@ TEST(Checkpoint, IsLoadedAsSaved) {
   EXPECT_EQ(record.history_tools[0].felt.angular, Vec3(0, 0, 2));
   EXPECT_EQ(record.history_tools[0].felt.radial, 3);
   EXPECT_EQ(record.history_tools[0].position, Vec3(4, 5, 6));
-  EXPECT_NO_THROW(require_same_run(loaded, small_scene(), "checkpoint.h5"));
+  EXPECT_NO_THROW(require_same_run(loaded, meaning_of(small_scene()), "checkpoint.h5"));
 }
 
 /// In a process of its own, whose files may grow to `bytes`. Exits with 0 where the failure is the sentence that it should be.
@@ -145,7 +146,7 @@ TEST(Checkpoint, OfAnotherVersionIsRefused) {
   Checkpoint checkpoint = example_checkpoint();
   checkpoint.version = "0.0.1";
   try {
-    require_same_run(checkpoint, small_scene(), "checkpoint.h5");
+    require_same_run(checkpoint, meaning_of(small_scene()), "checkpoint.h5");
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), Code::resume_error);

@@ -72,8 +72,6 @@ class ShearWaves {
     const int i = place_[node];
     return i < 0 ? v : Node(rubs_[i].v + steps * rubs_[i].change);
   }
-  /// phi of a node.
-  double phi(int node) const { return place_[node] < 0 ? 0 : rubs_[place_[node]].v[3]; }
   /// Of a pair of surfaces, those of tools after those of bodies: the body, or of two the one with the smaller impedance.
   const WaveBody& of_pair(int first, int second) const;
   const WaveBody& of_node(int n) const { return bodies_[body_of(n)]; }

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "forming_sim/results/meaning.h"
 #include "forming_sim/results/run_record.h"
 #include "forming_sim/results/schedule.h"
 #include "forming_sim/simulation/simulation.h"
@@ -25,15 +24,16 @@ void save_checkpoint(const std::string& path, const Checkpoint& checkpoint);
 /// Throws Error(resume_error): missing, cut off, damaged (checksums), not a checkpoint.
 Checkpoint load_checkpoint(const std::string& path);
 
-/// Throws Error(resume_error) where it was written by another version or for
+/// meaning: of the scene (results/meaning.h). Throws Error(resume_error) where it was written by another version or for
 /// another scene, naming the first line that differs.
-void require_same_run(const Checkpoint& checkpoint, const Scene& scene, const std::string& path);
+void require_same_run(const Checkpoint& checkpoint, const std::string& meaning, const std::string& path);
 
 /// Writes checkpoint.h5 at intervals and on cancel.
 class Checkpoints : public Observer {
  public:
-  Checkpoints(const Scene& scene, const std::string& path, double interval, RunRecord& record)
-      : meaning_(meaning_of(scene)), path_(path), schedule_(interval), record_(record) {}
+  /// meaning: of the scene at the start; its files may change later.
+  Checkpoints(const std::string& meaning, const std::string& path, double interval, RunRecord& record)
+      : meaning_(meaning), path_(path), schedule_(interval), record_(record) {}
   void on_start(const Simulation& simulation) override { schedule_.start(simulation.time()); }
   void on_step(const Simulation& simulation) override;
   void on_stage_end(const Simulation& simulation, int index) override;
@@ -41,7 +41,7 @@ class Checkpoints : public Observer {
 
  private:
   Checkpoint take(const Simulation& simulation) const;
-  std::string meaning_;  ///< at the start: its files may change later
+  std::string meaning_;
   std::string path_;
   Schedule schedule_;
   RunRecord& record_;

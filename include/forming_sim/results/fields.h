@@ -17,8 +17,9 @@ namespace forming_sim {
 class Fields : public Observer {
  public:
   /// resumed: go on with the file that is there; a note in the record tells where there is none, or one that ends too early.
-  Fields(const Scene& scene, const std::string& directory, double interval, bool resumed, Gauge& gauge, RunRecord& record)
-      : scene_(scene), directory_(directory), schedule_(interval), resumed_(resumed), gauge_(gauge), record_(record) {}
+  /// meaning: of the scene (results/meaning.h).
+  Fields(const Scene& scene, const std::string& meaning, const std::string& directory, double interval, bool resumed, Gauge& gauge, RunRecord& record)
+      : scene_(scene), meaning_(meaning), directory_(directory), schedule_(interval), resumed_(resumed), gauge_(gauge), record_(record) {}
   void on_start(const Simulation& simulation) override;
   void on_step(const Simulation& simulation) override;
   void on_stage_end(const Simulation& simulation, int index) override;
@@ -29,6 +30,7 @@ class Fields : public Observer {
   void write(const Simulation& simulation, bool interrupted = false);
   void write_xdmf();
   const Scene& scene_;
+  std::string meaning_;
   std::string directory_;
   Schedule schedule_;
   bool resumed_;

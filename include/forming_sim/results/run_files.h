@@ -18,9 +18,9 @@ struct RunFiles {
   std::vector<std::unique_ptr<Observer>> observers;
 };
 
-/// checkpoint: from which the simulation was restored, or null.
+/// meaning: of the scene (results/meaning.h); checkpoint: from which the simulation was restored, or null.
 /// Throws SceneError (probes), Error(resume_error).
-RunFiles open_run_files(const Simulation& simulation, const Scene& scene, const std::string& directory,
+RunFiles open_run_files(const Simulation& simulation, const Scene& scene, const std::string& meaning, const std::string& directory,
                         const Checkpoint* checkpoint);
 
 }  // namespace forming_sim

@@ -7,7 +7,8 @@
 
 namespace forming_sim {
 
-ResultHeader take_header(const Simulation& simulation, const Scene& scene);
+/// meaning: of the scene (results/meaning.h).
+ResultHeader take_header(const Simulation& simulation, const Scene& scene, const std::string& meaning);
 /// measures: taken at the same step.
 Frame take_frame(const Simulation& simulation, const Measures& measures);
 
