@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Draws the forming limit diagram of a run, from its result.h5: the principal strains of every surface
-facet of the sheets, the larger over the smaller, true strains.
+facet of the sheets, the larger over the smaller, true strains. Of bodies whose material has a forming limit they are those of the middle of the sheet, and its curve is drawn.
 
 The sheet is the facets whose nodes are all in the set `top` or all in `bottom` of their body (or in the other two sides that its thickness is between, as `inside` and `outside` of a tube); --set
-chooses others. A limit curve, given as a CSV of rows "minor,major" in true strain, is drawn with it, and
-what share of the sheet lies beyond it is printed: of its area at the start, of its facets where the section of a ring or strip is the model.
+chooses others, and shows the strains of the surface itself. A limit curve, given as a CSV of rows "minor,major" in true strain, is drawn with it, and
+what share of its area at the start lies beyond it is printed.
 """
 import argparse
 import csv
@@ -46,10 +46,11 @@ def sides_of_the_sheets(result, wanted):
 
 
 def weight_of_facets(result):
-    """Area at the start in 3D, 1 in a section."""
+    """Area at the start, of a section per width or per radian."""
     points, facets = result["topology/initial_positions"][:], result["topology/surface"][:]
     if facets.shape[1] == 2:
-        return np.ones(len(facets))
+        a, b = points[facets[:, 0]], points[facets[:, 1]]
+        return np.linalg.norm(b - a, axis=1) * ((a + b)[:, 0] / 2 if result.attrs["axisymmetric"] else 1)
     a, b, c = (points[facets[:, k]] for k in range(3))
     return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
 
@@ -70,6 +71,24 @@ def read_limit(path):
     return points[np.argsort(points[:, 0])].T
 
 
+def limit_of_the_scene(result):
+    """(minor, major) of the sheets' material, level beyond its ends as in the run; None where it has none."""
+    curves = [body["forming_limit"][:] for body in result["bodies"].values() if "forming_limit" in body]
+    if not curves:
+        return None
+    if any(curve.shape != curves[0].shape or (curve != curves[0]).any() for curve in curves):
+        sys.exit("the bodies have several limit curves; give one with --limit, and the sets of its body with --set")
+    (first, left), (last, right) = curves[0][0], curves[0][-1]
+    return np.array([(min(first, 0) - 5, left), *curves[0], (max(last, 0) + 5, right)]).T
+
+
+def strains(frame, wanted):
+    """(major, minor, of what) per facet: of the middle of the sheets with a forming limit, nan elsewhere, where no other surface is asked for."""
+    if not wanted and "membrane_strain" in frame:
+        return frame["membrane_strain"][:], frame["membrane_strain_minor"][:], "middle"
+    return frame["surface_strain"][:], frame["surface_strain_minor"][:], "surface"
+
+
 def is_number(text):
     try:
         float(text)
@@ -82,13 +101,15 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add_frame_options(parser)
     parser.add_argument("--set", action="append", default=[], help="a set of the surface; can be given again; default: the two sides that the thickness is between")
-    parser.add_argument("--limit", help="CSV of a limit curve: rows minor,major, true strains")
+    parser.add_argument("--limit", help="CSV of a limit curve: rows minor,major, true strains; default: that of the scene")
     options = parser.parse_args()
 
     with opened(options.result) as result:
         frame = pick_frame(result, options)
-        major, minor = frame["surface_strain"][:], frame["surface_strain_minor"][:]
         sides = sides_of_the_sheets(result, options.set)
+        major, minor, surface = strains(frame, options.set)
+        sides = {name: chosen & np.isfinite(major) for name, chosen in sides.items()}
+        limit = read_limit(options.limit) if options.limit else limit_of_the_scene(result)
         weight = weight_of_facets(result)
         heading = title(result, frame)
 
@@ -102,8 +123,8 @@ def main():
         reach = high if ratio <= 0 else min(high, max(minor[shown].max(), 0.05))
         axes.plot([0, ratio * reach], [0, reach], color="0.75", linewidth=0.8, zorder=0)
         axes.annotate(name, (ratio * reach, reach), fontsize=8, color="0.5", ha="center", va="bottom")
-    if options.limit:
-        limit_minor, limit_major = read_limit(options.limit)
+    if limit is not None:
+        limit_minor, limit_major = limit
         axes.plot(limit_minor, limit_major, color="black", linewidth=1.4, label="limit")
         under = shown & (minor >= limit_minor[0]) & (minor <= limit_minor[-1])
         if not under.any():
@@ -116,8 +137,8 @@ def main():
         high = max(high, np.interp(np.clip(0, limit_minor[0], limit_minor[-1]), limit_minor, limit_major))
     axes.set_xlim(1.15 * low, 1.6 * max(minor[shown].max(), 0.05))
     axes.set_ylim(min(1.1 * major[shown].min(), 0), 1.15 * high)
-    axes.set_xlabel("smaller principal strain of the surface (true)")
-    axes.set_ylabel("larger principal strain of the surface (true)")
+    axes.set_xlabel(f"smaller principal strain of the {surface} (true)")
+    axes.set_ylabel(f"larger principal strain of the {surface} (true)")
     axes.set_title(heading, fontsize=10)
     axes.legend(frameon=False, fontsize=9)
     output = options.output or os.path.join(os.path.dirname(options.result), "forming_limit.png")

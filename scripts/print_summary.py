@@ -41,6 +41,8 @@ def main():
     for damage in s.get("damage", []):
         critical = "" if damage["critical"] is None else f", critical {number(damage['critical'])}"
         rows.append((f"damage of {damage['body']}", f"{number(damage['max'])}{' Pa' if damage['unit'] == 'Pa' else ''} ({damage['criterion']}{critical})"))
+    for limit in s.get("forming_limit", []):
+        rows.append((f"forming limit of {limit['body']}", f"{number(limit['max'], 100)} % of it at most; beyond it {number(limit['beyond'], 100)} % of the sheet"))
     for tool in s["tools"]:
         force = tool["peak_force"]
         rows.append((f"peak force on {tool['name']}", "(" + ", ".join(number(f) for f in force) + f") {newton}"))

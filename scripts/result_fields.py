@@ -11,10 +11,11 @@ import numpy as np
 COMPONENTS = {3: ("x", "y", "z"), 6: ("xx", "yy", "zz", "xy", "yz", "zx")}
 NAMES = {"plastic_strain": "equivalent plastic strain", "mises": "von Mises stress", "volume_ratio": "volume ratio V/V0", "damage": "damage",
          "surface_strain": "largest principal strain of the surface",
-         "surface_strain_minor": "smallest principal strain in the surface"}
-ON_SURFACE_FACETS = ("surface_strain", "surface_strain_minor")
+         "surface_strain_minor": "smallest principal strain in the surface", "limit_ratio": "part of the forming limit",
+         "membrane_strain": "largest principal strain of the middle", "membrane_strain_minor": "smallest principal strain of the middle"}
+ON_SURFACE_FACETS = ("surface_strain", "surface_strain_minor", "membrane_strain", "membrane_strain_minor")
 ON_SURFACE_NODES = ("contact_pressure", "contact_gap", "contact_slip")
-ON_NODES = ("positions", "velocities", "thickness", "thinning", *ON_SURFACE_NODES)  # the others: on elements
+ON_NODES = ("positions", "velocities", "thickness", "thinning", "limit_ratio", *ON_SURFACE_NODES)  # the others: on elements
 SHOWN_IN = {"Pa": ("MPa", 1e-6), "m": ("mm", 1e3)}
 
 

@@ -10,11 +10,13 @@ namespace forming_sim {
 
 namespace {
 
-std::function<double(const Vec3&)> distance_of(const TrimConfig& region, bool flat, const std::string& name) {
+/// Empty where the region is none: that is then among the faults.
+std::function<double(const Vec3&)> distance_of(const TrimConfig& region, bool flat, const std::string& name, std::vector<Fault>& faults) {
   try {
     return distance_from(region, flat, "");
   } catch (const Error& error) {
-    throw SceneError({{error.code(), name, given_text(region.choose), error.what()}});
+    faults.push_back({error.code(), name, given_text(region.choose), error.what()});
+    return {};
   }
 }
 
@@ -27,10 +29,12 @@ Remainder find_remainder(const Mesh& mesh, const std::vector<TrimConfig>& region
     bool any = false;
   };
   std::vector<Cut> cuts;
+  std::vector<Fault> faults;
   for (std::size_t i = 0; i < regions.size(); ++i) {
     const TrimConfig& region = regions[i];
     const std::string name = join_path("trim", i);
-    const auto distance = distance_of(region, mesh.dimension == 2, name);
+    const auto distance = distance_of(region, mesh.dimension == 2, name, faults);
+    if (!distance) continue;
     const bool positive = region.choose == "plane" || region.outside;
     cuts.push_back({[=](const Vec3& x) { return positive ? distance(x) > 0 : distance(x) < 0; }, name, region.choose});
   }
@@ -55,7 +59,6 @@ Remainder find_remainder(const Mesh& mesh, const std::vector<TrimConfig>& region
   }
   const auto box = bounds(mesh);
   const std::string extent = "the body extends from " + place(box.min()) + " to " + place(box.max());
-  std::vector<Fault> faults;
   for (const Cut& cut : cuts)
     if (!cut.any) faults.push_back({Code::mesh_error, cut.name, given_text(cut.choose), "no cell lies there: " + extent + ", and a cell is cut away where its middle lies in the region; give another place, or leave it out"});
   if (!faults.empty()) throw SceneError(faults);

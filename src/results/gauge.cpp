@@ -101,7 +101,7 @@ Peak number_of_pressed_cells(const Simulation& simulation) {
 }
 
 Gauge::Gauge(const Simulation& simulation, const std::vector<ProbeConfig>& probes)
-    : probes_(find_probes(probes, simulation.model(), simulation.elements())), sheets_(simulation.model()), top_(sheets_.top()) {
+    : probes_(find_probes(probes, simulation.model(), simulation.elements())), sheets_(simulation.model()), limits_(simulation.model()), top_(sheets_.top()) {
   for (Probe& probe : probes_) {
     probe.held = std::any_of(probe.nodes.begin(), probe.nodes.end(), [&](int n) { return simulation.once_held(n); });
     asked_.insert(asked_.end(), probe.elements.begin(), probe.elements.end());
@@ -120,6 +120,8 @@ const Measures& Gauge::at(const Simulation& simulation) {
     measures_.thickness = smallest(measures_.thickness_of_nodes);
     measures_.thinning = greatest_thinning(simulation, top_, measures_.thinning_of_nodes);
   }
+  measures_.limits = limits_.at(simulation.positions());
+  for (Peak& peak : measures_.limits.greatest) peak.time = simulation.time();
   measures_.probes.clear();
   const std::vector<Sym> stress = simulation.stress(asked_);
   const Sym* of_probe = stress.data();

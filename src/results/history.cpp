@@ -36,6 +36,7 @@ std::vector<std::string> history_columns(const Model& model, const std::vector<P
   for (const char* name : {"max_plastic_strain", "max_surface_strain", "min_thickness_m", "max_thinning", "min_gap_over_h0"})
     columns.push_back(name);
   for (const BodyModel* body : with_damage(model)) columns.push_back("max_damage_" + body->name + (std::string(damage_unit(body->material.damage->criterion)) == "Pa" ? "_Pa" : ""));
+  for (const BodyModel* body : with_forming_limit(model)) columns.push_back("max_limit_ratio_" + body->name);
   for (const Probe& probe : probes) {
     for (const char* axis : kAxes) columns.push_back("probe_" + probe.name + "_position_" + axis + "_m");
     for (const char* axis : kAxes) columns.push_back("probe_" + probe.name + "_velocity_" + axis + "_m_per_s");
@@ -126,6 +127,7 @@ void History::write(const Simulation& simulation) {
   values.push_back(measures.thickness ? csv_number(measures.thinning.value) : "");
   values.push_back(csv_number(simulation.contact_status().min_gap_over_layer));
   for (const Peak& damage : measures.damage) values.push_back(csv_number(damage.value));
+  for (const Peak& ratio : measures.limits.greatest) values.push_back(csv_number(ratio.value));
   record_.history_reactions.resize(measures.probes.size());
   for (std::size_t i = 0; i < measures.probes.size(); ++i) {
     const ProbeValue& probe = measures.probes[i];

@@ -78,6 +78,9 @@ void EndTable::on_end(const Simulation& simulation, Code, const std::string&) {
   const std::vector<double> damage = simulation.damage();
   for (const BodyModel* body : with_damage(simulation.model()))
     std::printf("damage of %-10s %.4g (%s)\n", body->name.c_str(), *std::max_element(damage.begin() + body->first_element, damage.begin() + body->first_element + body->element_count), body->material.damage->criterion.c_str());
+  const FormingLimits::State limits = FormingLimits(simulation.model()).at(simulation.positions());
+  for (std::size_t k = 0; k < limits.greatest.size(); ++k)
+    std::printf("forming limit of %-4s %.4g of it at most, beyond it %.3g %% of the sheet\n", with_forming_limit(simulation.model())[k]->name.c_str(), limits.greatest[k].value, 100 * limits.beyond[k]);
   if (kinetic) std::printf("kinetic / internal   %.3g at most while forming\n", *kinetic);
   std::printf("balance error        %.3g\n", simulation.balance_error());
   std::printf("crossings            %ld\nsmallest gap / layer %.3g\n", contact.crossings, contact.min_gap_over_layer);

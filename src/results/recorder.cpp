@@ -102,11 +102,26 @@ void Recorder::tell_damage(const Simulation& simulation) {
     const DamageConfig& damage = *bodies[k]->material.damage;
     const Peak& most = gauge_.at(simulation).damage[k];
     if (damage.critical == 0 || most.value < damage.critical) continue;
-    const std::string told = "body " + bodies[k]->name + " cracks by its criterion";
-    if (std::any_of(record_.notes.begin(), record_.notes.end(), [&](const std::string& note) { return note.compare(0, told.size(), told) == 0; })) continue;
-    record_.notes.push_back(told + ": at " + three_digits(most.time) + " s its damage (" + damage.criterion + ") had come to " + three_digits(most.value) + ", critical is " + three_digits(damage.critical) +
+    tell_once("body " + bodies[k]->name + " cracks by its criterion", ": at " + three_digits(most.time) + " s its damage (" + damage.criterion + ") had come to " + three_digits(most.value) + ", critical is " + three_digits(damage.critical) +
                             ", at " + place(most.position) + ". Nothing parts here: what follows is the forming of metal that holds");
   }
+}
+
+// Likewise.
+void Recorder::tell_forming_limit(const Simulation& simulation) {
+  const std::vector<const BodyModel*> bodies = with_forming_limit(simulation.model());
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const Peak& most = gauge_.at(simulation).limits.greatest[k];
+    if (most.value < 1) continue;
+    tell_once("body " + bodies[k]->name + " is beyond its forming limit", ": at " + three_digits(most.time) + " s the strains of its middle had come to " + three_digits(most.value) +
+              " of the curve at " + place(most.position) + ", where the sheet begins to neck. A neck narrower than a cell is not seen here");
+  }
+}
+
+/// Unless a note begins so already.
+void Recorder::tell_once(const std::string& told, const std::string& more) {
+  const auto begins_so = [&](const std::string& note) { return note.compare(0, told.size(), told) == 0; };
+  if (std::none_of(record_.notes.begin(), record_.notes.end(), begins_so)) record_.notes.push_back(told + more);
 }
 
 void Recorder::on_end(const Simulation& simulation, Code code, const std::string&) {
@@ -123,6 +138,9 @@ void Recorder::look(const Simulation& simulation) {
     record_.thickness_min = std::min(record_.thickness_min.value_or(*now.thickness), *now.thickness);
   }
   tell_damage(simulation);
+  tell_forming_limit(simulation);
+  record_.limit_ratio.resize(now.limits.greatest.size());
+  for (std::size_t k = 0; k < now.limits.greatest.size(); ++k) record_.limit_ratio[k].rise_to(now.limits.greatest[k]);
   record_.surface_strain.rise_to(now.surface_strain);
   record_.thinning.rise_to(now.thinning);
 }

@@ -45,6 +45,11 @@ void write_fields(Hdf5Group& group, const Frame& frame) {
   if (!frame.damage.empty()) group.write("damage", frame.damage.data(), {elements}, frame.damage_unit);
   group.write("surface_strain", frame.surface_strain.data(), {frame.surface_strain.size()}, "1");
   group.write("surface_strain_minor", frame.surface_strain_minor.data(), {frame.surface_strain_minor.size()}, "1");
+  if (!frame.limit_ratio.empty()) {
+    group.write("membrane_strain", frame.membrane_strain.data(), {frame.membrane_strain.size()}, "1");
+    group.write("membrane_strain_minor", frame.membrane_strain_minor.data(), {frame.membrane_strain_minor.size()}, "1");
+    group.write("limit_ratio", frame.limit_ratio.data(), {nodes}, "1");
+  }
   if (frame.thickness.empty()) return;
   group.write("thickness", frame.thickness.data(), {nodes}, "m");
   group.write("thinning", frame.thinning.data(), {nodes}, "1");
@@ -52,9 +57,9 @@ void write_fields(Hdf5Group& group, const Frame& frame) {
 
 /// At most what a frame takes in the file: its values as they are, and 4 KiB a data set and group for what describes them.
 std::uint64_t most_bytes(const Frame& frame, const ResultHeader& header) {
-  std::uint64_t bytes = 22 * 4096;
-  bytes += frame.positions.size() * (6 * sizeof(double) + 5 * sizeof(float)) + frame.stress.size() * 10 * sizeof(float) +
-           2 * frame.surface_strain.size() * sizeof(float);
+  std::uint64_t bytes = 25 * 4096;
+  bytes += frame.positions.size() * (6 * sizeof(double) + 6 * sizeof(float)) + frame.stress.size() * 10 * sizeof(float) +
+           4 * frame.surface_strain.size() * sizeof(float);
   for (const ToolShape& tool : header.tools) bytes += 6 * 4096 + tool.points.size() * 3 * sizeof(double);
   return bytes;
 }
@@ -114,7 +119,7 @@ void ResultFile::write(const Frame& frame) {
   group.set("interrupted", std::int64_t{frame.interrupted});
   write_fields(group, frame);
   Hdf5Group tools = group.create("tools");
-  FrameEntry entry{name, frame.time, frame.step, frame.interrupted, {}, !frame.contact_gap.empty(), !frame.contact_slip.empty(), !frame.thickness.empty(), !frame.damage.empty()};
+  FrameEntry entry{name, frame.time, frame.step, frame.interrupted, {}, !frame.contact_gap.empty(), !frame.contact_slip.empty(), !frame.thickness.empty(), !frame.damage.empty(), !frame.limit_ratio.empty()};
   for (std::size_t i = 0; i < frame.tools.size(); ++i) {
     write_tool(tools, frame, i);
     entry.tools_present.push_back(frame.tools[i].present);

@@ -19,6 +19,8 @@ void write_bodies(Hdf5Group bodies, const ResultHeader& header) {
     Hdf5Group body = bodies.create(std::to_string(i));
     body.set("name", header.bodies[i]);
     if (i < header.sheet_sides.size()) body.set("thickness_between", header.sheet_sides[i]);
+    if (i < header.forming_limits.size() && !header.forming_limits[i].empty())
+      body.write("forming_limit", header.forming_limits[i][0].data(), {header.forming_limits[i].size(), 2}, "1", Storage::plain);
     Hdf5Group sets = body.create("sets");
     const std::string prefix = header.bodies[i] + "/";
     int index = 0;

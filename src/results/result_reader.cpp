@@ -112,7 +112,7 @@ std::vector<FrameEntry> read_entries(const Hdf5Group& root) {
   const Hdf5Group frames = root.group("frames");
   for (const std::string& name : frames.names()) {
     const Hdf5Group frame = frames.group(name), tools = frame.group("tools");
-    FrameEntry entry{name, frame.number("time"), frame.integer("step"), frame.integer("interrupted") != 0, {}, frame.has("contact_gap"), frame.has("contact_slip"), frame.has("thickness"), frame.has("damage")};
+    FrameEntry entry{name, frame.number("time"), frame.integer("step"), frame.integer("interrupted") != 0, {}, frame.has("contact_gap"), frame.has("contact_slip"), frame.has("thickness"), frame.has("damage"), frame.has("limit_ratio")};
     for (std::size_t i = 0; i < member_count(tools); ++i)
       entry.tools_present.push_back(tools.group(std::to_string(i)).integer("present") != 0);
     entries.push_back(std::move(entry));
@@ -153,6 +153,11 @@ Frame ResultReader::frame(std::size_t index) const {
   for (std::size_t e = 0; e < frame.stress.size(); ++e) std::copy_n(&stress[6 * e], 6, frame.stress[e].begin());
   frame.volume_ratio = values<float>(group, "volume_ratio", elements);
   if (entry.damage) frame.damage = values<float>(group, "damage", elements);
+  if (entry.limit) {
+    frame.membrane_strain = values<float>(group, "membrane_strain", facets);
+    frame.membrane_strain_minor = values<float>(group, "membrane_strain_minor", facets);
+    frame.limit_ratio = values<float>(group, "limit_ratio", count);
+  }
   frame.contact_pressure = values<float>(group, "contact_pressure", count);
   if (entry.gap) frame.contact_gap = values<float>(group, "contact_gap", count);
   if (entry.slip) frame.contact_slip = values<float>(group, "contact_slip", count);

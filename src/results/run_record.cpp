@@ -80,11 +80,13 @@ std::string RunRecord::to_json() const {
             {"kinetic_over_internal_forming", of(kinetic_over_internal_forming)},
             {"kinetic_peak", json::array()},
             {"stages", json::array()},
+            {"limit_ratio", json::array()},
             {"notes", notes},
             {"history_time", history_time},
             {"history_tools", json::array()},
             {"history_reactions", json::array()}};
   for (const auto& [level, most] : kinetic_peak.levels) j["kinetic_peak"].push_back({level, most});
+  for (const Peak& ratio : limit_ratio) j["limit_ratio"].push_back(of(ratio));
   for (const StageRecord& s : stages) j["stages"].push_back(of(s));
   for (const FeltAt& tool : history_tools) j["history_tools"].push_back(of(tool));
   for (const FeltAt& reaction : history_reactions) j["history_reactions"].push_back(of(reaction));
@@ -107,6 +109,7 @@ RunRecord RunRecord::from_json(const std::string& text) {
     record.kinetic_over_internal_formed = number(j.at("kinetic_over_internal_formed"));
     record.kinetic_over_internal_forming = number(j.at("kinetic_over_internal_forming"));
     for (const json& level : j.at("kinetic_peak")) record.kinetic_peak.levels[level.at(0)] = level.at(1);
+    for (const json& ratio : j.at("limit_ratio")) record.limit_ratio.push_back(peak(ratio));
     for (const json& s : j.at("stages")) record.stages.push_back(stage(s));
     record.notes = j.at("notes").get<std::vector<std::string>>();
     record.history_time = j.at("history_time");

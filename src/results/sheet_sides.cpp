@@ -39,4 +39,22 @@ std::pair<std::string, std::string> sides_of_sheet(const BodyModel& body, bool a
   return {};
 }
 
+std::array<int, 3> joined_corners(const BodyModel& body, int facet) {
+  std::array<int, 3> corners = body.mesh.surface[facet].nodes;
+  if (corners[2] < 0) corners[2] = corners[1];
+  for (int& n : corners) n += body.first_node;
+  return corners;
+}
+
+std::vector<int> facets_within(const Mesh& mesh, const std::string& set) {
+  const std::vector<int>& nodes = mesh.sets.at(set);
+  const auto in_set = [&](int node) { return std::binary_search(nodes.begin(), nodes.end(), node); };
+  std::vector<int> facets;
+  for (std::size_t i = 0; i < mesh.surface.size(); ++i) {
+    const std::array<int, 3>& corners = mesh.surface[i].nodes;
+    if (std::all_of(corners.begin(), corners.begin() + mesh.dimension, in_set)) facets.push_back(static_cast<int>(i));
+  }
+  return facets;
+}
+
 }  // namespace forming_sim

@@ -28,6 +28,9 @@ ResultHeader take_header(const Simulation& simulation, const Scene& scene, const
     header.bodies.push_back(body.name);
     const auto [bottom, top] = sides_of_sheet(body, model.axisymmetric);
     header.sheet_sides.push_back(top.empty() ? "" : bottom + " " + top);
+    std::vector<std::array<double, 2>>& curve = header.forming_limits.emplace_back();
+    if (const auto& limit = body.material.forming_limit)
+      for (std::size_t i = 0; i < limit->minor_strains.size(); ++i) curve.push_back({limit->minor_strains[i], limit->major_strains[i]});
     for (int e = 0; e < body.element_count; ++e) header.element_body[body.first_element + e] = static_cast<int>(b);
     for (const auto& [name, nodes] : body.mesh.sets) {
       std::vector<int>& joined = header.sets[body.name + "/" + name];
@@ -62,6 +65,11 @@ Frame take_frame(const Simulation& simulation, const Measures& measures) {
     frame.surface_strain.push_back(static_cast<float>(strain.major));
     frame.surface_strain_minor.push_back(static_cast<float>(strain.minor));
   }
+  for (const SurfaceStrain& strain : measures.limits.strain) {
+    frame.membrane_strain.push_back(static_cast<float>(strain.major));
+    frame.membrane_strain_minor.push_back(static_cast<float>(strain.minor));
+  }
+  frame.limit_ratio = single(measures.limits.ratio);
   frame.thickness = single(measures.thickness_of_nodes);
   frame.thinning = single(measures.thinning_of_nodes);
   frame.contact_pressure = single(simulation.contact_pressure());

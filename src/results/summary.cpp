@@ -256,6 +256,21 @@ Json damages(const Model& model, const Measures& now) {
   return list;
 }
 
+Json forming_limits(const Model& model, const std::vector<Peak>& before, const FormingLimits::State& now) {
+  Json list = Json::array();
+  const std::vector<const BodyModel*> bodies = with_forming_limit(model);
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    Peak most = k < before.size() ? before[k] : Peak();
+    most.rise_to(now.greatest[k]);
+    Json of{{"body", bodies[k]->name}};
+    of.update(maximum(most, model));
+    of["at_end"] = maximum(now.greatest[k], model);
+    of["beyond"] = number(now.beyond[k]);
+    list.push_back(of);
+  }
+  return list;
+}
+
 std::optional<double> smaller(const std::optional<double>& a, const std::optional<double>& b) {
   if (!a || !b) return a ? a : b;
   return std::min(*a, *b);
@@ -301,6 +316,7 @@ Json summarize(const Simulation& simulation, const Scene& scene, const RunRecord
                   {"explicit_stable_dt_s", contact.explicit_stable_dt > 0 ? number(contact.explicit_stable_dt) : Json(nullptr)}};
   j["plastic_strain"] = maximum(now.plastic_strain, model);
   j["damage"] = damages(model, now);
+  j["forming_limit"] = forming_limits(model, record.limit_ratio, now.limits);
   Peak strain = record.surface_strain, thinning = record.thinning;
   strain.rise_to(now.surface_strain);
   thinning.rise_to(now.thinning);

@@ -1,80 +1,21 @@
 #include "forming_sim/results/thickness.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unsupported/Eigen/BVH>
 
-#include "forming_sim/contact/closest.h"
-#include "forming_sim/contact/grid.h"
 #include "forming_sim/contact/tools.h"
+#include "forming_sim/results/facet_grid.h"
+#include "forming_sim/results/nearest_point.h"
 #include "forming_sim/results/sheet_sides.h"
 
 namespace forming_sim {
 namespace {
 
-/// What is in a tree; KdBVH and BVMinimize find bounding_box through the namespace.
-struct PlacedNode {
-  Vec3 x;
-  int index;
-};
-Eigen::AlignedBox3d bounding_box(const PlacedNode& node) { return Eigen::AlignedBox3d(node.x); }
-
-/// What BVMinimize asks for: the distance from one point; keeps which node was the nearest.
-struct NearestNode {
-  using Scalar = double;
-  Vec3 point;
-  double least = std::numeric_limits<double>::infinity();
-  int index = -1;
-  double minimumOnVolume(const Eigen::AlignedBox3d& box) const { return box.exteriorDistance(point); }
-  double minimumOnObject(const PlacedNode& node) {
-    const double distance = (node.x - point).norm();
-    if (distance < least) least = distance, index = node.index;
-    return distance;
-  }
-};
-
 constexpr double kNear = 5;          ///< thicknesses: so far from below a node at the start every facet counts
 constexpr double kStraight = 0.999;  ///< cosine to the normal of a facet farther off, from inside: a sheet that is sheared by more
 
-using NodeTree = Eigen::KdBVH<double, 3, PlacedNode>;
-int nearest_node(const NodeTree& tree, const Vec3& point) {
-  NearestNode nearest{point};
-  Eigen::BVMinimize(tree, nearest);
-  return nearest.index;
-}
-
 }  // namespace
-
-/// The bottom of a sheet at these positions.
-class Thickness::BottomGrid {
- public:
-  BottomGrid(const Sheet& sheet, const NodeField& positions) : sheet_(sheet), positions_(positions) {
-    std::vector<Box> boxes;
-    Box all;
-    double size = 0;
-    for (const auto& facet : sheet.bottom) {
-      boxes.push_back(Box::of(positions[facet[0]], positions[facet[1]], positions[facet[2]]));
-      all.add(boxes.back());
-      size += (boxes.back().high - boxes.back().low).norm() / sheet.bottom.size();
-    }
-    grid_.emplace(std::move(boxes), all, std::max(size, std::numeric_limits<double>::min()));
-  }
-  Closest closest(const Node& p, int facet) const {
-    const auto& c = sheet_.bottom[facet];
-    return closest_on_facet(sheet_.corners, p, positions_[c[0]], positions_[c[1]], positions_[c[2]]);
-  }
-  /// The least of what `count` makes of facets and their distances, m. near: a facet that may be near p.
-  template <class Count> double nearest(const Node& p, int near, Count&& count) const {
-    return grid_->nearest(p, std::sqrt(closest(p, near).squared), [&](int facet) { return count(facet, std::sqrt(closest(p, facet).squared)); });
-  }
-
- private:
-  const Sheet& sheet_;
-  const NodeField& positions_;
-  std::optional<Grid> grid_;
-};
 
 Thickness::Thickness(const Model& model) {
   NodeField start;
@@ -84,32 +25,21 @@ Thickness::Thickness(const Model& model) {
     for (const Vec3& X : reference) start.push_back(node(X));
     const auto [bottom_name, top_name] = sides_of_sheet(body, model.axisymmetric);
     if (top_name.empty()) continue;
-    const std::vector<int> &bottom = mesh.sets.at(bottom_name), &top = mesh.sets.at(top_name);
     Sheet sheet;
     sheet.body = static_cast<int>(&body - model.bodies.data());
     sheet.first_node = body.first_node;
     sheet.corners = mesh.dimension;
-    const auto in_bottom = [&](int node) { return std::binary_search(bottom.begin(), bottom.end(), node); };
-    for (const Facet& facet : mesh.surface) {
-      std::array<int, 3> nodes = facet.nodes;
-      if (nodes[2] < 0) nodes[2] = nodes[1];
-      if (!in_bottom(nodes[0]) || !in_bottom(nodes[1]) || !in_bottom(nodes[2])) continue;
-      for (int& node : nodes) node += body.first_node;
-      sheet.bottom.push_back(nodes);
-    }
+    for (const int facet : facets_within(mesh, bottom_name)) sheet.bottom.push_back(joined_corners(body, facet));
     if (sheet.bottom.empty()) continue;
-    std::vector<PlacedNode> top_nodes, facets;  // these by their first nodes
-    for (int node : top) {
-      top_nodes.push_back({reference[node], static_cast<int>(sheet.top.size())});
+    for (int node : mesh.sets.at(top_name)) {
+      sheet.top_start.push_back(reference[node]);
       sheet.top.push_back(body.first_node + node);
     }
-    for (std::size_t i = 0; i < sheet.bottom.size(); ++i) facets.push_back({reference[sheet.bottom[i][0] - body.first_node], static_cast<int>(i)});
-    const NodeTree top_tree(top_nodes.begin(), top_nodes.end()), bottom_tree(facets.begin(), facets.end());
-    for (const Vec3& X : reference) sheet.above.push_back(nearest_node(top_tree, X));
-    for (const PlacedNode& node : top_nodes) sheet.below.push_back(nearest_node(bottom_tree, node.x));
-    for (const PlacedNode& node : top_nodes) sheet.top_start.push_back(node.x);
+    for (const auto& nodes : sheet.bottom) sheet.bottom_start.push_back(reference[nodes[0] - body.first_node]);
+    const NearestPoint top_node(sheet.top_start), bottom_facet(sheet.bottom_start);
+    for (const Vec3& X : reference) sheet.above.push_back(top_node.to(X));
+    for (const Vec3& X : sheet.top_start) sheet.below.push_back(bottom_facet.to(X));
     sheet.stands.assign(sheet.top.size(), 1);
-    for (const PlacedNode& facet : facets) sheet.bottom_start.push_back(facet.x);
     sheet.reach.assign(sheet.top.size(), std::numeric_limits<double>::infinity());
     sheets_.push_back(std::move(sheet));
   }
@@ -142,7 +72,7 @@ bool Thickness::find_overhangs(const Model& model, const NodeField& start, Sheet
     const Node normal = facet_normal(sheet.corners, place(facet.nodes[0]), place(facet.nodes[1]), place(facet.nodes[sheet.corners - 1]));
     for (auto n = facet.nodes.begin(); n != last; ++n) outward[*n] += normal;
   }
-  const BottomGrid bottom(sheet, start);
+  const FacetGrid bottom(sheet.corners, sheet.bottom, start);
   bool any = false;
   for (std::size_t i = 0; i < top.size(); ++i) {
     const double thickness = start_[sheet.top[i]], length = outward[top[i]].norm();
@@ -166,7 +96,7 @@ std::vector<double> Thickness::at(const NodeField& positions) const {
   for (const Sheet& sheet : sheets_) {
     if (!std::all_of(sheet.top.begin(), sheet.top.end(), known)) continue;
     if (!std::all_of(sheet.bottom.begin(), sheet.bottom.end(), [&](const auto& c) { return known(c[0]) && known(c[1]) && known(c[2]); })) continue;
-    const BottomGrid bottom(sheet, positions);
+    const FacetGrid bottom(sheet.corners, sheet.bottom, positions);
     std::vector<double> of_top;
     for (std::size_t i = 0; i < sheet.top.size(); ++i) {
       const Node& p = positions[sheet.top[i]];

@@ -54,6 +54,7 @@ class Writer {
       attribute("thickness", "Scalar", "Node", nodes, 1, 4, path + "thickness");
       attribute("thinning", "Scalar", "Node", nodes, 1, 4, path + "thinning");
     }
+    if (frame.limit) attribute("limit_ratio", "Scalar", "Node", nodes, 1, 4, path + "limit_ratio");
     attribute("plastic_strain", "Scalar", "Cell", elements, 1, 4, path + "plastic_strain");
     attribute("stress", "Matrix", "Cell", elements, 6, 4, path + "stress");
     attribute("mises", "Scalar", "Cell", elements, 1, 4, path + "mises");

@@ -62,6 +62,10 @@ void print_summary(const SimulateFormingResult& result) {
     row(("damage of " + damage.body).c_str(), damage.max, 1, (std::string(damage_unit(damage.criterion)) == "Pa" ? "Pa, " + damage.criterion : damage.criterion).c_str());
     if (damage.critical > 0) row("of the critical one", damage.max / damage.critical, 100, "%");
   }
+  for (const BodyFormingLimit& limit : s.forming_limit) {
+    row(("forming limit of " + limit.body).c_str(), limit.max, 100, "% of it at most");
+    row("beyond it", limit.beyond, 100, "% of the sheet");
+  }
   row("springback", s.springback_deg, 1, "deg");
   row("energy balance error", s.energies.balance_error, 100, "%");
   row("kinetic over internal", s.kinetic_over_internal_forming, 100, "% (the most while forming)");

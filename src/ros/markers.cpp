@@ -12,7 +12,7 @@ using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
 const std::vector<std::string>& MarkerOptions::colours() {
-  static const std::vector<std::string> words{"plastic_strain", "contact_pressure", "contact_gap", "contact_slip", "thinning", "damage"};
+  static const std::vector<std::string> words{"plastic_strain", "contact_pressure", "contact_gap", "contact_slip", "thinning", "damage", "limit_ratio"};
   return words;
 }
 
@@ -122,6 +122,7 @@ std::vector<double> RunMarkers::values(const RunFrame& frame) const {
   const std::vector<double>& field = options_.colour_by == "contact_pressure" ? frame.contact_pressure
                                      : options_.colour_by == "contact_gap"    ? frame.contact_gap
                                      : options_.colour_by == "contact_slip"   ? frame.contact_slip
+                                     : options_.colour_by == "limit_ratio"    ? frame.limit_ratio
                                                                               : frame.thinning;
   std::vector<double> drawn;
   for (const int n : sheet_.drawn_nodes()) drawn.push_back(field.empty() || std::isnan(field[n]) ? 0 : field[n]);

@@ -102,6 +102,19 @@ std::string make_output_directory(const std::string& given, const std::string& o
   return fs::absolute(path).lexically_normal().string();
 }
 
+std::string fault_of_root(const std::string& output_root) {
+  try {
+    fs::path there = fs::absolute(local_path(output_root, Code::output_error));
+    std::error_code unknown;
+    while (!fs::exists(there, unknown) && there.has_relative_path()) there = there.parent_path();
+    if (!fs::is_directory(there, unknown)) return there.string() + " is no directory";
+    if (access(there.c_str(), W_OK | X_OK) != 0) return "cannot write in the directory " + there.string();
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
 bool is_readable_file(const std::string& path) {
   std::error_code unknown;
   return fs::is_regular_file(path, unknown) && access(path.c_str(), R_OK) == 0;

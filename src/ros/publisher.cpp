@@ -125,8 +125,6 @@ void RunPublisher::publish_strain(const RunFrame& frame, const std_msgs::Header&
 }
 
 bool RunPublisher::wants_contact() const { return contact_.getNumSubscribers() > 0 || options_.markers.colour_by.rfind("contact_", 0) == 0; }
-bool RunPublisher::wants_thinning() const { return options_.markers.colour_by == "thinning"; }
-bool RunPublisher::wants_damage() const { return options_.markers.colour_by == "damage"; }
 
 void RunPublisher::publish_contact(const RunFrame& frame, const std_msgs::Header& header, bool always) {
   if ((!always && contact_.getNumSubscribers() == 0) || frame.contact_gap.empty()) return;

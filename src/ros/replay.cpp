@@ -50,6 +50,7 @@ RunFrame run_frame(const Frame& stored) {
   frame.contact_gap.assign(stored.contact_gap.begin(), stored.contact_gap.end());
   frame.contact_slip.assign(stored.contact_slip.begin(), stored.contact_slip.end());
   frame.damage.assign(stored.damage.begin(), stored.damage.end());
+  frame.limit_ratio.assign(stored.limit_ratio.begin(), stored.limit_ratio.end());
   frame.thinning.assign(stored.thinning.begin(), stored.thinning.end());
   for (const FrameTool& pose : stored.tools) {
     ToolStatus status;

@@ -77,6 +77,8 @@ FormingServer::FormingServer(const ros::NodeHandle& node)
     refuse_parameter(node_, "threads", std::to_string(threads_), "give 1 to " + std::to_string(kMostThreads) + " threads, or 0 for one a processor");
   read_parameter(node_, "output_root", "a directory", output_root_);
   if (output_root_.empty()) output_root_ = default_output_root();
+  if (const std::string why = fault_of_root(output_root_); !why.empty())
+    ROS_WARN("parameter %s: given %s; %s: goals without an output_directory will be rejected", node_.resolveName("output_root").c_str(), output_root_.c_str(), why.c_str());
   // In threads of their own: a service that meshes a large part holds up no cancel.
   ros::NodeHandle services(node_);
   services.setCallbackQueue(&service_queue_);
@@ -299,7 +301,7 @@ void FormingServer::finish(Goal& goal, const Answer& answer) {
 
 bool FormingServer::on_validate(ValidateScene::Request& request, ValidateScene::Response& response) {
   const GivesBack memory;
-  const Prepared prepared = prepare(request.scene, "", 1);
+  const Prepared prepared = prepare(request.scene, request.scene_text, 1);
   response.valid = prepared.faults.empty();
   response.faults = fault_messages(prepared.faults);
   response.notes = prepared.notes;
@@ -309,7 +311,7 @@ bool FormingServer::on_validate(ValidateScene::Request& request, ValidateScene::
 bool FormingServer::on_estimate(EstimateRun::Request& request, EstimateRun::Response& response) {
   const GivesBack memory;
   const int threads = choose_threads(request.threads, threads_);
-  Prepared prepared = prepare(request.scene, "", threads);
+  Prepared prepared = prepare(request.scene, request.scene_text, threads);
   if (prepared.faults.empty()) {
     try {
       const Estimate estimate = estimate_run(*prepared.simulation);

@@ -95,6 +95,14 @@ RunSummary read_summary(const std::string& directory) {
     of.critical = damage.at("critical").is_number() ? damage.at("critical").get<double>() : 0;
     summary.damage.push_back(of);
   }
+  for (const json& limit : root.value("forming_limit", json::array())) {
+    BodyFormingLimit of;
+    of.body = limit.value("body", "");
+    of.max = number(limit, "/max");
+    of.position = point_message(Vec3(number(limit, "/where/position/0"), number(limit, "/where/position/1"), number(limit, "/where/position/2")));
+    of.beyond = number(limit, "/beyond");
+    summary.forming_limit.push_back(of);
+  }
   summary.kinetic_over_internal_forming = number(root, "/energy_J/kinetic_over_internal_forming");
   summary.warnings = root.value("warnings", std::vector<std::string>());
   return summary;

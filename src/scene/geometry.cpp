@@ -19,6 +19,7 @@
 #include "forming_sim/mesh/sweep.h"
 #include "forming_sim/mesh/trim.h"
 #include "forming_sim/parallel/interrupt.h"
+#include "forming_sim/results/sheet_sides.h"
 #include "approach.h"
 #include "formed_body.h"
 #include "rules.h"
@@ -291,6 +292,15 @@ void check_springback_nodes(const Scene& scene, const std::vector<Mesh>& bodies,
   check(scene.output.springback->reference_from, scene.output.springback->reference_to, "reference_to");
 }
 
+/// A forming limit is one of a sheet, and asks for both of its sides.
+void check_sides(const BodyConfig& config, const BodyModel& body, const std::string& path, bool axisymmetric, std::vector<Fault>& faults) {
+  if (!config.material.forming_limit || body.mesh.nodes.empty()) return;
+  const auto [bottom, top] = sides_of_sheet(body, axisymmetric);
+  if (top.empty() || facets_within(body.mesh, bottom).empty() || facets_within(body.mesh, top).empty())
+    faults.push_back({Code::invalid_scene, path + ".material.forming_limit", "the limit of a body without two sides",
+                      "name the faces of its two sides as sets bottom and top, of a tube inside and outside (its sets are " + one_of(set_names(body.mesh), ", ") + "): the strains of the middle between them are compared with the curve"});
+}
+
 void add_body(const BodyConfig& config, Mesh mesh, std::optional<FormedMemory> formed, Model& model) {
   BodyModel body;
   body.name = config.name;
@@ -347,7 +357,10 @@ Geometry make_geometry(const Scene& scene, const std::vector<Fault>& known) {
   check_springback_nodes(scene, bodies, known, geometry.faults);
   check_sizes(scene, bodies, tools, geometry.faults, geometry.model.notes);
   if (known.empty()) tell_odd_values(scene, geometry.model.notes);
-  for (std::size_t i = 0; i < bodies.size(); ++i) add_body(scene.bodies[i], std::move(bodies[i]), std::move(formed[i]), geometry.model);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    add_body(scene.bodies[i], std::move(bodies[i]), std::move(formed[i]), geometry.model);
+    check_sides(scene.bodies[i], geometry.model.bodies.back(), body_path(i), scene.axisymmetric, geometry.faults);
+  }
   for (std::size_t i = 0; i < tools.size(); ++i) geometry.model.tools.push_back(tool_model(scene.tools[i], std::move(tools[i])));
   if (known.empty() && geometry.faults.empty()) approach_tools(scene, geometry.model, geometry.faults);
   return geometry;

@@ -90,6 +90,17 @@ void check_hardening(const HardeningConfig& hardening, const std::string& path, 
   }
 }
 
+void check_forming_limit(const FormingLimitConfig& curve, const std::string& path, FaultList& faults) {
+  const std::vector<double>&minor = curve.minor_strains, &major = curve.major_strains;
+  for (std::size_t i = 1; i < minor.size(); ++i) {
+    if (minor[i] > minor[i - 1]) continue;
+    faults.add(path + ".minor_strains", number_text(minor[i]) + " after " + number_text(minor[i - 1]), "give strictly increasing minor strains");
+    break;
+  }
+  if (minor.size() != major.size() && !minor.empty() && !major.empty())
+    faults.add(path + ".major_strains", std::to_string(major.size()) + " strains", "give one for each of the " + std::to_string(minor.size()) + " minor_strains");
+}
+
 void check_one_point(const BodyConfig& body, const std::string& path, FaultList& faults) {
   const std::string* pattern = body.blank ? &body.blank->pattern : body.mesh ? &body.mesh->pattern : nullptr;
   if (!pattern || *pattern != "one_point") return;
@@ -124,6 +135,7 @@ void check_material(const BodyConfig& body, const std::string& path, int dimensi
   if (material.anisotropy && body.blank && body.blank->shape == "tube") faults.add(here + ".anisotropy", "r values of a tube", "leave them out: they have one sheet_normal, and that of a wall turns around");
   if (material.rate_dependence) check_rate(material, here, faults);
   if (material.damage && !material.yields()) faults.add(here + ".damage", "damage without hardening", "give hardening, or layers that have one: damage grows with plastic flow");
+  if (material.forming_limit) check_forming_limit(*material.forming_limit, here + ".forming_limit", faults);
   if (material.layers.empty()) return;
   if (material.hardening) faults.add(here, "both hardening and layers", "give one of them: each layer has a hardening of its own");
   if (material.layers.size() > kMaxLayers) {

@@ -60,6 +60,11 @@ Metal does not part here, however far it is strained: to blank or to pierce a sh
 crack it has come tells `damage`: the integral of Cockcroft and Latham, as it is or normalized, or that of Rice and Tracey, of each element along its way,
 through all operations; with the `critical` value of the metal a run says when and where it was reached. It is asked for from the first operation on: what is not summed there is not known later.
 
+How near a sheet has come to necking tells `forming_limit`: its limit curve as two lists of true strains, `minor_strains` and `major_strains`. The strains of the middle
+between the two sides of the sheet are compared with it, from when it was flat, through all operations: bending alone comes to no limit. A run that goes beyond the curve says when and where.
+The limit is that of straight paths of strain, as curves are measured; where a sheet is strained in one direction and then in another it may neck before or after. A neck is a
+thing of the thickness and of the mesh: what comes after the limit is the forming of a sheet that holds.
+
 A fast flow raises the yield stress with `rate_dependence`: after Cowper and Symonds, Johnson and Cook, or a power of the plastic strain rate. A scene whose tools
 move faster than in the press, to take fewer steps, says how many times with `speed_up`.
 
@@ -211,6 +216,7 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | `contact` | `crossings` (must be 0), `halvings`, `min_gap_over_h0`, `h0_m`; `sweeps_per_step`: what finding the forces took, of the steps in which anything is near, and `share_at_max_sweeps`, the fraction of these steps that ended at `contact.max_sweeps`, with forces that still changed (by how much in all: `docs/contact.md`, patch); with `contact.method: explicit` `explicit_stable_dt_s`, the smallest step up to which its layer was stable |
 | `plastic_strain` | the largest equivalent plastic strain and where it is |
 | `damage` | of each body whose material has it the criterion, its unit, the largest of its elements at the end with its place, and the `critical` value |
+| `forming_limit` | of each body whose material has one the largest ratio of the strains of its middle to the curve over the rows of the history, where and when, `at_end`, and the part of the sheet `beyond` it at the end |
 | `surface_strain` | the largest principal logarithmic strain on the surface; faces in planes of symmetry are none |
 | `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom`, of a tube of `outside` from `inside`, of a strip that is twice as high as long (no bar about the axis) of `right` from `left` |
 | `thinning` | the largest 1 - t/t0 of a node of `top` (or of the other outer side, see `thickness_m`), t its thickness, t0 that of the start, of a formed part that of its blank; where and when it is |

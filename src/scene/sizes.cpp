@@ -16,9 +16,13 @@ constexpr double kLargest = 100, kSmallest = 1e-6;  // m
 constexpr double kRatio = 200;                      // of a tool to the bodies
 constexpr double kOddRatio = 20;                    // likewise: taken, and told
 constexpr double kOddSize = 5;                      // of a body from a mesh, m: likewise
+constexpr double kOddThickness = 0.3;               // of a blank, m: likewise
 
 /// Largest extent along an axis, m; 0 without nodes.
 double extent(const Mesh& mesh) { return mesh.nodes.empty() ? 0 : bounds(mesh).sizes().maxCoeff(); }
+
+/// Smallest extent along an axis, m; 0 without nodes.
+double least_extent(const Mesh& mesh) { return mesh.nodes.empty() ? 0 : bounds(mesh).sizes().head(mesh.dimension).minCoeff(); }
 
 /// Shortest edge of the surface, m; infinite without one.
 double shortest_edge(const Mesh& mesh) {
@@ -63,6 +67,8 @@ void check_sizes(const Scene& scene, const std::vector<Mesh>& bodies, const std:
     all_known = all_known && size > 0;
     if (size > kOddSize && size <= kLargest && scene.bodies[i].mesh)
       notes.push_back("body " + scene.bodies[i].name + " measures " + in_metres(size) + ": " + right_scale(*scene.bodies[i].mesh, size, size / kOddSize));
+    if (const double least = least_extent(bodies[i]); scene.bodies[i].blank && least > kOddThickness && size <= kLargest)
+      notes.push_back("body " + scene.bodies[i].name + " measures " + in_metres(size) + " and " + in_metres(least) + " where it is thinnest: give lengths in metres, 0.001 for a millimetre");
     check_extent(scene.bodies[i].mesh, size, join_path("bodies", i) + (scene.bodies[i].blank ? ".blank" : ""), faults);
   }
   for (std::size_t i = 0; i < tools.size(); ++i) {

@@ -226,32 +226,14 @@ const std::vector<double>& Simulation::contact_slip() const {
   return impl_->contact ? impl_->contact->slip() : none;
 }
 
-namespace {
-SurfaceStrain in_order(double a, double b) { return {std::max(a, b), std::min(a, b)}; }
-}  // namespace
-
 std::vector<SurfaceStrain> Simulation::surface_strain() const {
   const Impl& s = *impl_;
   std::vector<SurfaceStrain> strain;
   strain.reserve(s.surface.size());
-  for (const Facet& f : s.surface) {
-    const Vec3 A = vec3(s.reference[f.nodes[1]] - s.reference[f.nodes[0]]), a = vec3(s.x[f.nodes[1]] - s.x[f.nodes[0]]);
-    if (s.model.dimension == 2) {
-      const auto middle = [&](const NodeField& at) { return at[f.nodes[0]][0] + at[f.nodes[1]][0]; };
-      const double across = s.model.axisymmetric ? std::log(middle(s.x) / middle(s.reference)) : 0;
-      strain.push_back(in_order(std::log(a.norm() / A.norm()), across));
-      continue;
-    }
-    const Vec3 B = vec3(s.reference[f.nodes[2]] - s.reference[f.nodes[0]]), b = vec3(s.x[f.nodes[2]] - s.x[f.nodes[0]]);
-    // C = E^-T (edges now) E^-1 in the facet's initial plane; its eigenvalues are the squares of the stretches,
-    // their product that of the areas
-    Eigen::Matrix2d initial, now;
-    initial << A.dot(A), A.dot(B), A.dot(B), B.dot(B);
-    now << a.dot(a), a.dot(b), a.dot(b), b.dot(b);
-    const Eigen::Matrix2d C = initial.inverse() * now;
-    const double middle = 0.5 * C.trace(), apart = 0.5 * (C(0, 0) - C(1, 1));
-    const double largest = middle + std::sqrt(std::max(0.0, apart * apart + C(0, 1) * C(1, 0)));
-    strain.push_back({0.5 * std::log(largest), 0.5 * std::log(now.determinant() / initial.determinant() / largest)});
+  for (const Facet& facet : s.surface) {
+    std::array<Vec3, 3> X, x;
+    for (int k = 0; k < s.model.dimension; ++k) X[k] = vec3(s.reference[facet.nodes[k]]), x[k] = vec3(s.x[facet.nodes[k]]);
+    strain.push_back(s.model.dimension == 2 ? strain_of_segment(X, x, s.model.axisymmetric) : strain_of_triangle(X, x));
   }
   return strain;
 }

@@ -56,7 +56,7 @@ const std::vector<Declared>& declared() {
 TEST(Declarations, AreAllReached) {
   int types = 0;
   for (const Declared& d : declared()) types = std::max(types, d.type);
-  EXPECT_EQ(types, 28);  // Scene, Body, Tool, Approach, Blank, Mesh, Formed, Trim, Set, ProfilePiece, Profile, Hardening, Layer, Anisotropy, RateDependence, Damage, Material, Contact, Pair,
+  EXPECT_EQ(types, 29);  // Scene, Body, Tool, Approach, Blank, Mesh, Formed, Trim, Set, ProfilePiece, Profile, Hardening, Layer, Anisotropy, RateDependence, Damage, FormingLimit, Material, Contact, Pair,
                          // Boundary, Pressure, Load, Motion, TimeStep, Stage, Output, Probe, Springback
   EXPECT_GT(declared().size(), 100u);
 }

@@ -20,7 +20,7 @@ dimension: 3
 bodies:
   - name: plate
     blank: {shape: plate, length: 4e-3, width: 2e-3, thickness: 1e-3, cells_along: 4, cells_across: 2, cells_through: 1}
-    material: {density: 2710, youngs_modulus: 70e9, poissons_ratio: 0.3}
+    material: {density: 2710, youngs_modulus: 70e9, poissons_ratio: 0.3, forming_limit: {minor_strains: [-0.2, 0], major_strains: [0.4, 0.2]}}
 tools:
   - {name: floor, normal: [0, 0, 1], friction: 0.1}
   - name: press
@@ -77,6 +77,10 @@ class Plots(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         # Pressed from above it grows sideways, all over.
         self.assertIn('beyond the limit: 100 % of the sheet', run.stdout)
+        # That of the scene, by the strains of the middle.
+        run = self.plot('plot_forming_limit.py')
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn('beyond the limit: 0 % of the sheet', run.stdout)
         run = self.plot('plot_forming_limit.py', '--set', 'side')
         self.assertEqual(run.returncode, 1)
         self.assertIn('back, bottom, front, left, right, top', run.stderr)

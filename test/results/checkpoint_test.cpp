@@ -27,6 +27,7 @@ Checkpoint example_checkpoint() {
   record.angle_formed_deg = -89.5;
   record.surface_strain = {0.3, 12, Vec3(1, 2, 3), 1e-3};
   record.thinning = {0.2, 7, Vec3(4, 5, 6), 2e-3};
+  record.limit_ratio = {{0.9, 3, Vec3(7, 6, 5), 4e-3}};
   record.pressed = {0.3, 8, Vec3(7, 8, 9), 3e-3};
   record.stages.push_back({"form", "form", 1e-3, 1, 2, 3});
   record.history_tools = {{{Vec3(0, -1, 0), Vec3(0, 0, 2), 3}, Vec3(4, 5, 6)}};
@@ -63,6 +64,9 @@ TEST(Checkpoint, IsLoadedAsSaved) {
   EXPECT_EQ(record.surface_strain.position, Vec3(1, 2, 3));
   EXPECT_EQ(record.thinning.value, 0.2);
   EXPECT_EQ(record.pressed.value, 0.3);
+  ASSERT_EQ(record.limit_ratio.size(), 1u);
+  EXPECT_EQ(record.limit_ratio[0].value, 0.9);
+  EXPECT_EQ(record.limit_ratio[0].position, Vec3(7, 6, 5));
   EXPECT_EQ(record.thinning.position, Vec3(4, 5, 6));
   EXPECT_EQ(record.stages[0].kinetic_over_internal(), 0.2);
   EXPECT_EQ(record.history_tools[0].felt.impulse, Vec3(0, -1, 0));

@@ -72,6 +72,7 @@ inline Frame example_frame(const ResultHeader& header, int index) {
     frame.contact_gap.push_back(static_cast<float>(1e-3 * example_value(index, i)));
     frame.contact_slip.push_back(static_cast<float>(1e-4 * example_value(index, i)));
     frame.thickness.push_back(static_cast<float>(1e-3 * example_value(index, i)));
+    frame.limit_ratio.push_back(static_cast<float>(0.7 * example_value(index, i)));
     frame.thinning.push_back(static_cast<float>(0.1 * example_value(index, i)));
   }
   for (std::size_t e = 0; e < header.elements.size(); ++e) {
@@ -84,6 +85,8 @@ inline Frame example_frame(const ResultHeader& header, int index) {
   frame.damage_unit = "1";
   frame.surface_strain.assign(header.surface.size(), static_cast<float>(index));
   frame.surface_strain_minor.assign(header.surface.size(), static_cast<float>(-0.5 * index));
+  frame.membrane_strain.assign(header.surface.size(), static_cast<float>(0.3 * index));
+  frame.membrane_strain_minor.assign(header.surface.size(), static_cast<float>(-0.2 * index));
   frame.tools.resize(2);
   frame.tools[0].position = Vec3(0, 0.01 * (index / 2), 0);  // it rests every other frame
   frame.tools[0].force = Vec3(0, 100 + index, 0);

@@ -54,7 +54,7 @@ def compare(reader_class, path, result):
         for field in ("plastic_strain", "stress", "mises", "volume_ratio", "damage"):
             shown = vtk_to_numpy(blank.GetCellData().GetArray(field))
             assert np.array_equal(shown, frame[field][:]), (reader_class.__name__, name, field)
-        for field in ("velocities", "contact_pressure", "contact_gap", "contact_slip", "thickness", "thinning"):
+        for field in ("velocities", "contact_pressure", "contact_gap", "contact_slip", "thickness", "thinning", "limit_ratio"):
             assert np.array_equal(vtk_to_numpy(blank.GetPointData().GetArray(field)), frame[field][:]), (reader_class.__name__, name, field)
         for index, (_, tool) in zip(present, blocks[1:]):
             assert tool.GetNumberOfCells() == len(result["tools"][index]["facets"])

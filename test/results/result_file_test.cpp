@@ -37,6 +37,9 @@ void expect_frame(const Frame& frame, const ResultHeader& header, int index) {
   EXPECT_EQ(frame.contact_slip, expected.contact_slip);
   EXPECT_EQ(frame.surface_strain, expected.surface_strain);
   EXPECT_EQ(frame.surface_strain_minor, expected.surface_strain_minor);
+  EXPECT_EQ(frame.membrane_strain, expected.membrane_strain);
+  EXPECT_EQ(frame.membrane_strain_minor, expected.membrane_strain_minor);
+  EXPECT_EQ(frame.limit_ratio, expected.limit_ratio);
   EXPECT_EQ(frame.thickness, expected.thickness);
   EXPECT_EQ(frame.thinning, expected.thinning);
   ASSERT_EQ(frame.tools.size(), 2u);

@@ -210,6 +210,15 @@ TEST(RosMarkers, ThinningColoursTheSheetsAndNothingElse) {
   }
 }
 
+TEST(RosMarkers, ThePartOfTheFormingLimitColoursTheSheets) {
+  const RunShape shape = section(2, 2);
+  RunFrame frame = at_rest(shape);
+  coloured(shape, frame, "limit_ratio", "limit ratio", "0");
+  frame.limit_ratio.assign(frame.positions.size(), std::nan(""));
+  frame.limit_ratio[4] = 0.9;
+  coloured(shape, frame, "limit_ratio", "limit ratio", "0.9");
+}
+
 TEST(RosMarkers, DamageColoursTheBodiesThatHaveIt) {
   const RunShape shape = section(2, 2);
   RunFrame frame = at_rest(shape);

@@ -391,36 +391,40 @@ class ServiceTest(ServerTest):
     def test_validate_scene(self):
         validate = rospy.ServiceProxy('/forming_server/validate_scene', ValidateScene)
         validate.wait_for_service(10)
-        good = validate(scenes.message(scenes.pressed_strip()))
+        good = validate(scene=scenes.message(scenes.pressed_strip()))
         self.assertTrue(good.valid)
         self.assertEqual(good.faults, [])
         scene = scenes.pressed_strip()
         scene['bodies'][0]['material']['density'] = 7.85
-        odd = validate(scenes.message(scene))
+        odd = validate(scene=scenes.message(scene))
         self.assertTrue(odd.valid)
         self.assertEqual(len(odd.notes), len(good.notes) + 1, odd.notes)
         self.assertEqual(sum('the density of body' in note for note in odd.notes), 1, odd.notes)
         scene['dimension'] = 7
         scene['tools'][0]['friction'] = 11.0
-        bad = validate(scenes.message(scene))
+        bad = validate(scene=scenes.message(scene))
         self.assertFalse(bad.valid)
         for field in ('dimension', 'tools[0].friction'):
             self.assertIn(field, [fault.field for fault in bad.faults])
+        as_text = validate(scene_text=yaml.safe_dump(scene))
+        self.assertEqual([fault.field for fault in as_text.faults], [fault.field for fault in bad.faults])
 
     def test_estimate_run(self):
         estimate = rospy.ServiceProxy('/forming_server/estimate_run', EstimateRun)
         estimate.wait_for_service(10)
-        answer = estimate(scenes.message(scenes.pressed_strip()), 1)
+        answer = estimate(scene=scenes.message(scenes.pressed_strip()), threads=1)
         self.assertTrue(answer.valid)
         self.assertEqual(answer.estimate.elements, 80)
         _, result = run(scenes.pressed_strip())
         self.assertAlmostEqual(answer.estimate.steps / result.summary.steps, 1, delta=0.3)
         self.assertGreater(answer.estimate.wall_time_s, 0)
         self.assertGreater(answer.estimate.memory_bytes, 0)
+        as_text = estimate(scene_text=yaml.safe_dump(scenes.pressed_strip()), threads=1)
+        self.assertEqual((as_text.valid, as_text.estimate.steps), (True, answer.estimate.steps))
         scene = scenes.pressed_strip()
         scene['dimension'] = 7
-        self.assertFalse(estimate(scenes.message(scene), 1).valid)
-        many = estimate(scenes.message(scenes.pressed_strip()), 100000)
+        self.assertFalse(estimate(scene=scenes.message(scene), threads=1).valid)
+        many = estimate(scene=scenes.message(scenes.pressed_strip()), threads=100000)
         self.assertFalse(many.valid)
         self.assertEqual([fault.field for fault in many.faults], ['threads'])
 

@@ -93,6 +93,16 @@ struct DamageConfig {
   }
 };
 
+/// How far a sheet may be stretched before it necks (material/forming_limit.h).
+struct FormingLimitConfig {
+  std::vector<double> minor_strains, major_strains;
+
+  template <class Visitor> static void declare(Visitor&& visit) {
+    visit(FORMING_SIM_FIELD(minor_strains), Field().unit("1").at_least(-3).at_most(3).required().doc("the smaller principal strains of the points of the curve, true (logarithmic), strictly increasing: from uniaxial tension, below 0, over plane strain, 0, to stretching in all directions"));
+    visit(FORMING_SIM_FIELD(major_strains), Field().unit("1").above(0).at_most(3).required().doc("the larger principal strain at which the sheet begins to neck, one for each minor strain, true; straight lines between the points, level beyond them"));
+  }
+};
+
 /// An elastic, elastic-plastic or hyperelastic solid.
 struct MaterialConfig {
   double density = 0;
@@ -104,6 +114,7 @@ struct MaterialConfig {
   std::optional<AnisotropyConfig> anisotropy;  ///< absent: none
   std::optional<RateDependenceConfig> rate_dependence;  ///< absent: none
   std::optional<DamageConfig> damage;        ///< absent: none is summed
+  std::optional<FormingLimitConfig> forming_limit;  ///< absent: not known
   double h1 = 0, h2 = 0, bulk_modulus = 0;   ///< hyperelastic
 
   double mu() const { return law == "hyperelastic" ? h1 + 2 * h2 : youngs_modulus / (2 * (1 + poissons_ratio)); }
@@ -125,6 +136,7 @@ struct MaterialConfig {
     visit(FORMING_SIM_FIELD(anisotropy), Field().when("law", {"green_elastic"}).doc("Hill's quadratic yield stress of 1948 in place of von Mises', with this hardening or these layers; absent: all directions yield alike"));
     visit(FORMING_SIM_FIELD(rate_dependence), Field().when("law", {"green_elastic", "paper", "classical"}).doc("fast flow raises the yield stress, that of every layer by its own rate; absent: it does not"));
     visit(FORMING_SIM_FIELD(damage), Field().when("law", {"green_elastic", "paper", "classical"}).doc("tells how near to a crack flow brings the metal, and changes nothing of it; absent: not summed"));
+    visit(FORMING_SIM_FIELD(forming_limit), Field().when("law", {"green_elastic", "paper", "classical"}).doc("the forming limit curve of the sheet: a run tells how near to it the strains of the middle of the sheet come, and where; absent: not known"));
     visit(FORMING_SIM_FIELD(h1), Field().unit("Pa").above(0).required().when("law", {"hyperelastic"}).doc("h1 of (3.74); the shear modulus at rest is h1 + 2 h2"));
     visit(FORMING_SIM_FIELD(h2), Field().unit("Pa").at_least(0).when("law", {"hyperelastic"}).doc("h2 of (3.74)"));
     visit(FORMING_SIM_FIELD(bulk_modulus), Field().unit("Pa").above(0).required().when("law", {"hyperelastic"}).doc("bulk modulus K"));

@@ -30,6 +30,7 @@ struct ResultHeader {
   std::vector<int> element_body;             ///< index of the body, per element
   std::vector<std::string> bodies;
   std::vector<std::string> sheet_sides;      ///< per body the sets that its thickness is between, "bottom top"; "" of what is no sheet
+  std::vector<std::vector<std::array<double, 2>>> forming_limits;  ///< per body the points of its curve, minor and major strain; empty of what has none
   NodeField initial_positions;               ///< m
   std::vector<Facet> surface;
   std::map<std::string, std::vector<int>> sets;  ///< "body/set": nodes
@@ -58,6 +59,8 @@ struct Frame {
   std::vector<float> damage;           ///< material/damage.h, per element; NaN of bodies without, empty where none has it
   std::string damage_unit;
   std::vector<float> surface_strain, surface_strain_minor;  ///< principal log strains in the surface, the larger and the smaller, per surface facet
+  std::vector<float> membrane_strain, membrane_strain_minor;  ///< the same of the middle of sheets with a forming limit (results/forming_limits.h), per surface facet; NaN elsewhere, empty where no body has one
+  std::vector<float> limit_ratio;      ///< of the forming limit, per node; likewise
   std::vector<float> thickness, thinning;  ///< of sheets, m and 1, per node; NaN elsewhere, empty where no body is a sheet (results/thickness.h)
   std::vector<float> contact_pressure; ///< normal, Pa, per node; 0 inside, below 0 where a tie pulls
   std::vector<float> contact_gap;      ///< to the nearest other surface, m, per node; empty where nothing can meet
@@ -75,7 +78,7 @@ struct FrameEntry {
   long step = 0;
   bool interrupted = false;
   std::vector<bool> tools_present;
-  bool gap = false, slip = false, sheet = false, damage = false;  ///< has contact_gap, contact_slip, thickness and thinning, damage
+  bool gap = false, slip = false, sheet = false, damage = false, limit = false;  ///< has contact_gap, contact_slip, thickness and thinning, damage, limit_ratio
 };
 
 }  // namespace forming_sim

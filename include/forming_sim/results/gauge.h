@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "forming_sim/results/forming_limits.h"
 #include "forming_sim/results/probe.h"
 #include "forming_sim/results/run_record.h"
 #include "forming_sim/results/thickness.h"
@@ -18,6 +19,7 @@ struct Measures {
   std::optional<double> thickness;    ///< smallest of the sheets, m
   Peak thinning;                      ///< greatest of the sheets, now
   std::vector<Peak> damage;           ///< greatest of each body that with_damage() names, now
+  FormingLimits::State limits;        ///< of the bodies that with_forming_limit() names, now
   std::vector<ProbeValue> probes;     ///< in the order of Gauge::probes()
 };
 
@@ -33,6 +35,7 @@ class Gauge {
   std::vector<Probe> probes_;
   std::vector<int> asked_;  ///< elements of the probes, one probe's after the other's
   Thickness sheets_;
+  FormingLimits limits_;
   std::vector<int> top_;  ///< nodes of the sheets
   Measures measures_;
   long step_ = -1;

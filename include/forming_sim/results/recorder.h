@@ -24,6 +24,8 @@ class Recorder : public Observer {
   void tell_great_strain(const Simulation& simulation, int stage);
   void tell_short_steps(const Simulation& simulation, int stage);
   void tell_damage(const Simulation& simulation);
+  void tell_forming_limit(const Simulation& simulation);
+  void tell_once(const std::string& told, const std::string& more);
   const OutputConfig output_;
   Schedule schedule_;
   Gauge& gauge_;

@@ -67,6 +67,7 @@ struct FeltAt {
 struct RunRecord {
   std::optional<double> thickness_initial, thickness_min;  ///< m; absent without sets top and bottom
   Peak surface_strain, thinning;                           ///< over all times of the history
+  std::vector<Peak> limit_ratio;                           ///< of the bodies with a forming limit, over all times of the history
   Peak pressed;                                            ///< -tr sigma/3 over the bulk modulus, of metals, over all frames
   Peak pressed_cells;                                      ///< how many there were, over all frames
   SpannedCorner spanned;                                   ///< over all frames

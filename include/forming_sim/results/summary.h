@@ -19,6 +19,8 @@
 //   plastic_strain {max, where}                      at the end (it never decreases)
 //   damage [{body, criterion, unit, max, where, critical}]
 //                   of bodies whose material has it, at the end (it never decreases); critical: null where it is not given
+//   forming_limit [{body, max, where, at_end {max, where}, beyond}]
+//                   of bodies whose material has one, parts of it; max: over all rows of the history; beyond: the part of the sheet that is above 1 at the end
 //   surface_strain {max, where, at_end_of_forming {max, where}, at_end {max, where}}
 //                   max: over all rows of the history; forming ends with the last form stage
 //   thickness_m {initial, min}                       smallest at the start, smallest over the history

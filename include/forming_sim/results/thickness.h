@@ -41,7 +41,6 @@ class Thickness {
     std::vector<char> stands;                ///< per node of top: some of bottom was below it; else it has no thickness
     std::vector<double> reach;               ///< per node of top: of a facet that counts, from start to start, m
   };
-  class BottomGrid;
   bool find_overhangs(const Model& model, const NodeField& start, Sheet& sheet) const;
   std::vector<Sheet> sheets_;
   std::vector<double> start_;  ///< at() of the start

@@ -2,9 +2,11 @@
 // Watches a run for ROS: topics and feedback, at most publish_rate times a second.
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "forming_sim/results/forming_limits.h"
 #include "forming_sim/results/thickness.h"
 #include "forming_sim/ros/publisher.h"
 #include "forming_sim/ros/status.h"
@@ -34,6 +36,7 @@ class RosObserver : public Observer {
   Feedback feedback_;
   EtaClock clock_;
   Thickness sheets_;
+  std::optional<FormingLimits> limits_;  ///< from begin() on
   bool begun_ = false;
 };
 

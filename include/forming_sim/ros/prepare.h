@@ -28,6 +28,9 @@ Prepared prepare(const SceneSpec& message, const std::string& scene_text, int th
 /// Throws Error(output_error).
 std::string make_output_directory(const std::string& given, const std::string& output_root, const std::string& scene);
 
+/// Why no run can have a directory of its own under `output_root`; empty: it can. Makes nothing.
+std::string fault_of_root(const std::string& output_root);
+
 /// Path of the checkpoint file that a goal names, empty where it names none; adds a fault where the run that is prepared cannot go on from it.
 std::string check_resume(const std::string& given, Prepared& prepared);
 

@@ -38,9 +38,8 @@ class RunPublisher {
   bool is_due() const { return std::chrono::steady_clock::now() >= next_; }
   /// Does anybody look at the fields of contact?
   bool wants_contact() const;
-  /// Is the sheet coloured by its thinning?
-  bool wants_thinning() const;
-  bool wants_damage() const;
+  /// Is the sheet coloured by this field?
+  bool colours_by(const char* field) const { return options_.markers.colour_by == field; }
   /// Sends what somebody listens to; `always`: also to the latched topics that
   /// nobody listens to yet.
   /// Messages are built only here; nothing waits for a subscriber.

@@ -34,6 +34,7 @@ struct RunFrame {
   std::vector<double> contact_pressure, contact_gap, contact_slip;  ///< per node, Pa, m, m; empty where not asked for, and where nothing can meet or rub
   std::vector<double> damage;               ///< per element; empty where not asked for and where no material has it (material/damage.h)
   std::vector<double> thinning;             ///< per node; empty where not asked for and where no body is a sheet (results/thickness.h)
+  std::vector<double> limit_ratio;          ///< per node; empty where not asked for and where no material has a forming limit (results/forming_limits.h)
   std::vector<ToolStatus> tools;            ///< as RunShape::tools
   /// False where a position or a strain is not a finite number.
   bool is_finite() const;

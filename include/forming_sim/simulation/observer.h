@@ -67,12 +67,6 @@ struct StepLimitCost {
   double share = 0;                  ///< of the steps, those that were longer than time_step.limit node allows
 };
 
-/// Principal logarithmic strains in the surface, of one of its facets. Plane strain: the one along the section and 0;
-/// axisymmetric: those along the section and around the circle.
-struct SurfaceStrain {
-  double major = 0, minor = 0;
-};
-
 struct ContactStatus {
   long halvings = 0;      ///< steps halved by the continuous check so far
   long sweeps = 0;        ///< contact.method implicit: in all steps so far

@@ -9,6 +9,7 @@
 #include "forming_sim/contact/contact.h"
 #include "forming_sim/element/elements.h"
 #include "forming_sim/simulation/model.h"
+#include "forming_sim/mesh/surface_strain.h"
 #include "forming_sim/simulation/observer.h"
 #include "forming_sim/simulation/plan.h"
 #include "forming_sim/tensor/vec.h"
