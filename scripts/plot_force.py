@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the force on a tool over its stroke, from the history.csv of a run."""
+"""Draws the force on a tool, from the history.csv of a run: over its stroke; of a tool that rests over that of the tool that moves most, or over time."""
 import argparse
 import csv
 import os
@@ -16,6 +16,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from result_fields import write_picture
 
 AXES = "xyz"
+RESTS = 0.01  # of the longest way
 
 
 def read_columns(path):
@@ -57,11 +58,23 @@ def travel(positions):
     return axis, displacement[:, axis]
 
 
+def way_of(name, all_tools, times):
+    """(values in mm or ms, label) of what the force on a tool is drawn over: its own stroke, where it rests that of the tool that moves most, where all rest the time."""
+    ways = {tool: np.abs(travel(positions)[1]).max() for tool, (positions, _) in all_tools.items()}
+    mover = max(ways, key=ways.get)
+    if ways[mover] == 0:
+        return 1e3 * times, "time [ms]"
+    mover = name if ways[name] > RESTS * ways[mover] else mover
+    axis, displacement = travel(all_tools[mover][0])
+    direction = np.sign(displacement[np.argmax(np.abs(displacement))])
+    return 1e3 * direction * displacement, f"stroke of {mover} along {AXES[axis]} [mm]"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("history", help="history.csv of a run")
     parser.add_argument("--tool", help="name of the tool; default: the one that moves most")
-    parser.add_argument("--axis", choices=list(AXES), help="direction of stroke and force; default: along which the tool moves most")
+    parser.add_argument("--axis", choices=list(AXES), help="direction of the force; default: in which it is largest")
     parser.add_argument("--output", help="PNG to write; default: force.png beside the history")
     options = parser.parse_args()
 
@@ -72,12 +85,11 @@ def main():
     name = options.tool or max(all_tools, key=lambda t: np.abs(travel(all_tools[t][0])[1]).max())
     if name not in all_tools:
         sys.exit(f"--tool: given {name}; the tools are {', '.join(all_tools)}")
-    positions, forces = all_tools[name]
-    axis = AXES.index(options.axis) if options.axis else travel(positions)[0]
-    displacement = positions[:, axis] - positions[0, axis]
-    direction = np.sign(displacement[np.argmax(np.abs(displacement))]) or 1.0
-    stroke = 1e3 * direction * displacement
-    force = -direction * forces[:, axis] * 1e-3  # what the tool has to push with
+    forces = all_tools[name][1]
+    axis = AXES.index(options.axis) if options.axis else int(np.argmax(np.abs(forces).max(axis=0)))
+    way, label = way_of(name, all_tools, columns["time_s"])
+    peak = int(np.argmax(np.abs(forces[:, axis])))
+    force = 1e-3 * (np.sign(forces[peak, axis]) or 1.0) * forces[:, axis]  # the largest is positive
 
     plane_strain = any(column.endswith("_N_per_m") for column in columns)
     figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
@@ -87,15 +99,14 @@ def main():
     for colour, stage in zip(colours, names):
         rows = np.flatnonzero(stages == stage)
         rows = np.arange(max(rows[0] - 1, 0), rows[-1] + 1)  # join the line to the stage before
-        if np.ptp(stroke[rows]) > 0.01 * np.ptp(stroke):  # a stage in which the tool moves this way
-            axes.plot(stroke[rows], force[rows], color=colour, linewidth=1.6, label=stage)
-    peak = int(np.argmax(force))
+        if np.ptp(way[rows]) > RESTS * np.ptp(way):  # a stage in which it goes on
+            axes.plot(way[rows], force[rows], color=colour, linewidth=1.6, label=stage)
     unit = "N/mm" if plane_strain else "kN"
-    axes.plot(stroke[peak], force[peak], "o", color="tab:red", markersize=5,
-              label=f"peak {force[peak]:.4g} {unit} at {stroke[peak]:.3g} mm")
+    axes.plot(way[peak], force[peak], "o", color="tab:red", markersize=5,
+              label=f"peak {force[peak]:.4g} {unit} at {way[peak]:.3g} {label[-3:-1]}")
     axes.axhline(0, color="0.6", linewidth=0.8)
-    axes.set_xlabel(f"stroke of {name} along {AXES[axis]} [mm]")
-    axes.set_ylabel(f"force on {name}" + (" per width" if plane_strain else "") + f" [{unit}]")
+    axes.set_xlabel(label)
+    axes.set_ylabel(f"force on {name} along {AXES[axis]}" + (" per width" if plane_strain else "") + f" [{unit}]")
     axes.grid(alpha=0.3)
     axes.legend(frameon=False)
     output = options.output or os.path.join(os.path.dirname(options.history), "force.png")

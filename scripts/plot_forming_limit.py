@@ -136,11 +136,11 @@ def main():
             print(f"outside of the curve's range: {100 * weight[shown & ~under].sum() / weight[shown].sum():.3g} % of the sheet")
         high = max(high, np.interp(np.clip(0, limit_minor[0], limit_minor[-1]), limit_minor, limit_major))
     axes.set_xlim(1.15 * low, 1.6 * max(minor[shown].max(), 0.05))
-    axes.set_ylim(min(1.1 * major[shown].min(), 0), 1.15 * high)
+    axes.set_ylim(min(1.1 * major[shown].min(), -0.02 * high), 1.15 * high)
     axes.set_xlabel(f"smaller principal strain of the {surface} (true)")
     axes.set_ylabel(f"larger principal strain of the {surface} (true)")
     axes.set_title(heading, fontsize=10)
-    axes.legend(frameon=False, fontsize=9)
+    axes.legend(frameon=False, fontsize=9, loc="center left", bbox_to_anchor=(1, 0.5))
     output = options.output or os.path.join(os.path.dirname(options.result), "forming_limit.png")
     write_picture(figure, output, dpi=150)
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Draws a field over the deformed section of a run, with the tools, from its result.h5.
 
-In dimension 2 the section is the model; in 3D it is a cut normal to y, half way
-along the blank's width. Tools that have left are drawn pale where they last stood.
+In dimension 2 the section is the model; in 3D it is a cut normal to y, beside the plane of
+symmetry of a half or quarter, else half way along the blank's width. Tools that have left are drawn pale where they last stood.
 """
 import argparse
 import os
@@ -18,6 +18,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from result_fields import add_options, opened, pick_frame, read_on, title, write_picture
 
+NEAR = 1e-3  # of the blank's size
 
 def cut(points, simplices, axis, at):
     """Cuts triangles or tetrahedra at coordinate `at`: (polygons in the other two axes, index of each one's simplex)."""
@@ -66,11 +67,21 @@ def tool_lines(result, frame, axis, at):
     return segments, left, planes
 
 
+def where_to_cut(result, points, axis):
+    """Beside the plane of symmetry of a half or quarter; else half way, a little off, where a mesh has its nodes."""
+    at = points[:, "xyz".index(axis)]
+    for body in result["bodies"].values():
+        for group in body["sets"].values():
+            if group.attrs["name"] == "symmetry_" + axis:
+                return at[group["nodes"][:]].mean()
+    return at.min() + 0.5003 * (at.max() - at.min())
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add_options(parser)
     parser.add_argument("--axis", choices=list("xyz"), default="y", help="3D: the cut is normal to this axis")
-    parser.add_argument("--at", type=float, help="3D: where to cut, in metres; default: half way through the blank")
+    parser.add_argument("--at", type=float, help="3D: where to cut, in metres; default: beside the set symmetry_AXIS of a half or quarter, else half way through the blank")
     options = parser.parse_args()
 
     with opened(options.result) as result:
@@ -79,18 +90,22 @@ def main():
         values, label = read_on(frame, result["topology"], options.field, elements, np.arange(len(elements)))
         axis, at, names = None, 0.0, "xy"
         if result.attrs["dimension"] == 2:
+            if options.at is not None:
+                sys.exit(f"--at: given {options.at}; the result is a section itself, there is nothing to cut")
             polygons = list(points[elements][:, :, :2])
         else:
             axis = "xyz".index(options.axis)
             names = "xyz".replace(options.axis, "")
             low, high = points[:, axis].min(), points[:, axis].max()
-            # A little off the middle, where a mesh has its nodes.
-            at = options.at if options.at is not None else low + 0.5003 * (high - low)
+            at = where_to_cut(result, points, options.axis) if options.at is None else options.at
+            if low - NEAR * (high - low) <= at <= high + NEAR * (high - low):  # on an end: a little inside
+                at = float(np.clip(at, low + NEAR * (high - low), high - NEAR * (high - low)))
             polygons, crossed = cut(points, elements, axis, at)
             values = values[crossed]
             if not polygons:
                 sys.exit(f"--at: given {at}; the blank lies between {low:.6g} and {high:.6g} m")
         segments, left, planes = tool_lines(result, frame, axis, at)
+        turned = result.attrs["axisymmetric"]
         heading = title(result, frame)
         if axis is not None:
             heading += f", cut at {options.axis} = {1e3 * at:.4g} mm"
@@ -119,7 +134,7 @@ def main():
     axes.set_xlim(low[0] - margin, high[0] + margin)
     axes.set_ylim(low[1] - margin, high[1] + margin)
     axes.set_aspect("equal")
-    axes.set_xlabel(f"{names[0]} [mm]")
+    axes.set_xlabel("radius x [mm]" if turned else f"{names[0]} [mm]")
     axes.set_ylabel(f"{names[1]} [mm]")
     axes.set_title(heading, fontsize=10)
     figure.colorbar(blank, ax=axes, label=label, shrink=0.8)

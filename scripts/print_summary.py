@@ -8,8 +8,10 @@ import sys
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("directory", help="where the run's files are")
+    parser.add_argument("directory", help="where the run's files are, or its summary.json")
     directory = parser.parse_args().directory
+    if os.path.basename(directory) == "summary.json":
+        directory = os.path.dirname(directory) or "."
     path = os.path.join(directory, "summary.json")
     try:
         with open(path) as file:

@@ -23,6 +23,11 @@ const std::map<std::string, Command> kCommands{{"calibrate", {calibrate, 3}}, {"
                                                {"material", {material, 2}},   {"paper", {paper, 1}},     {"speed", {speed, 1, printed_as_it_ran}}, {"speed-error", {speed_error, 16, printed_as_it_ran}},
                                                {"stability", {stability, 16}}};
 
+int refuse(const std::string& why) {
+  std::fprintf(stderr, "forming_bench: %s; see forming_bench --help\n", why.c_str());
+  return 2;
+}
+
 int usage(std::FILE* to) {
   std::fprintf(to,
                "usage: forming_bench COMMAND [ARGUMENT...] [--output DIR]\n"
@@ -59,16 +64,22 @@ int usage(std::FILE* to) {
 int main(int argc, char** argv) {
   if (argc == 2 && (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0)) return usage(stdout);
   const auto command = argc > 1 ? kCommands.find(argv[1]) : kCommands.end();
-  if (command == kCommands.end()) return usage(stderr);
+  if (argc < 2) return usage(stderr);
+  if (command == kCommands.end()) {
+    std::string names;
+    for (const auto& [name, unused] : kCommands) names += (names.empty() ? "" : ", ") + name;
+    return refuse(std::string("there is no command ") + argv[1] + "; the commands are " + names);
+  }
   Request request;
   for (int i = 2; i < argc; ++i) {
     const bool output = std::strcmp(argv[i], "--output") == 0;
-    if (output && i + 1 == argc) return usage(stderr);
+    if (output && i + 1 == argc) return refuse("--output needs a directory");
     if (output) request.directory = argv[++i];
-    else if (argv[i][0] == '-') return usage(stderr);
+    else if (argv[i][0] == '-') return refuse(std::string("the option ") + argv[i] + " does not exist");
     else request.arguments.emplace_back(argv[i]);
   }
-  if (request.arguments.size() > command->second.most_arguments) return usage(stderr);
+  if (const std::size_t most = command->second.most_arguments; request.arguments.size() > most)
+    return refuse(command->first + " takes " + (most == 0 ? "no arguments" : "at most " + std::to_string(most)) + ", given " + request.arguments[most] + " beyond them");
   try {
     if (!request.directory.empty()) std::filesystem::create_directories(request.directory);  // what cannot be kept is not begun
     const std::vector<Row> rows = command->second.run(request);

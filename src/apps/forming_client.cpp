@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
       std::printf("%s\n", forming_sim::package_version());
       return 0;
     }
-  ros::init(argc, argv, "forming_client", ros::init_options::NoSigintHandler | ros::init_options::AnonymousName);
+  if (!forming_sim::init_node(argc, argv, "forming_client", ros::init_options::AnonymousName)) return 64;
   forming_sim::ClientRequest request;
   try {
     request = forming_sim::read_arguments(argc, argv);

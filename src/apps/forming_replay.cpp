@@ -10,7 +10,7 @@
 #include "forming_sim/ros/signals.h"
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "forming_replay", ros::init_options::NoSigintHandler);
+  if (!forming_sim::init_node(argc, argv, "forming_replay")) return 64;
   forming_sim::catch_stop_signals();
   const std::string given = argc == 2 ? argv[1] : "";
   const bool help = given == "--help" || given == "-h";

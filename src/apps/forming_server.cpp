@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
       std::printf("usage: forming_server [ROS remappings]\nA ROS node; it needs a master. launch/forming.launch starts it and tells its parameters.\n");
       return 0;
     }
-  ros::init(argc, argv, "forming_server", ros::init_options::NoSigintHandler);
+  if (!forming_sim::init_node(argc, argv, "forming_server")) return 64;
   if (argc > 1) {  // what ROS did not take
     std::fprintf(stderr, "forming_server: the argument %s does not exist; see forming_server --help\n", argv[1]);
     return 64;

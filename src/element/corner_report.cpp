@@ -4,6 +4,7 @@
 #include "element/group.h"
 #include "forming_sim/config/fault.h"
 #include "forming_sim/element/corner_guard.h"
+#include "forming_sim/mesh/measure.h"
 
 namespace forming_sim {
 namespace {
@@ -53,8 +54,7 @@ void Elements::report_corner_inversion(const NodeField& x) const {
         const int n = g.node(cell, least.corner);
         std::ostringstream what;
         what << "one-point cell " << g.order[cell] << " of body " << g.body << " (elements " << g.element(cell, 0) << " to "
-             << g.element(cell, g.parts - 1) << ") turned inside out at its corner at node " << n << " at ("
-             << vec3(x[n]).transpose() << ") m: the corner has " << least.q << " of its first share in the " << (dimension_ == 2 ? "area" : "volume")
+             << g.element(cell, g.parts - 1) << ") turned inside out at its corner at node " << n << " at " << place(vec3(x[n])) << ": the corner has " << least.q << " of its first share in the " << (dimension_ == 2 ? "area" : "volume")
              << " of the cell; a finer mesh there, larger tool radii, slower tools or pattern fine avoid it";
         throw Error(Code::mesh_error, what.str());
       };

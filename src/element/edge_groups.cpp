@@ -6,6 +6,7 @@
 #include "element/group.h"
 #include "forming_sim/config/fault.h"
 #include "forming_sim/element/edge_points.h"
+#include "forming_sim/mesh/measure.h"
 #include "forming_sim/parallel/interrupt.h"
 
 namespace forming_sim {
@@ -132,8 +133,8 @@ void Elements::report_edge_inversion(const NodeField& x) const {
       if (!(ratio[cell] <= 0)) continue;
       const std::array<int, 2> ends = g.edge_ends[cell];
       std::ostringstream what;
-      what << "the elements of body " << g.body << " around the edge from node " << ends[0] << " to node " << ends[1] << " at ("
-           << vec3(x[ends[0]]).transpose() << ") m are so distorted that their mean turned inside out: V/V0 = " << ratio[cell]
+      what << "the elements of body " << g.body << " around the edge from node " << ends[0] << " to node " << ends[1] << " at "
+           << place(vec3(x[ends[0]])) << " are so distorted that their mean turned inside out: V/V0 = " << ratio[cell]
            << "; a finer mesh there, larger tool radii or slower tools avoid it";
       throw Error(Code::mesh_error, what.str());
     }

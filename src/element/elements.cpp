@@ -16,6 +16,7 @@
 #include "forming_sim/element/one_point.h"
 #include "forming_sim/mesh/cell_order.h"
 #include "forming_sim/mesh/cell_tables.h"
+#include "forming_sim/mesh/measure.h"
 #include "forming_sim/material/law.h"
 #include "forming_sim/parallel/interrupt.h"
 #include "forming_sim/parallel/stage_clock.h"
@@ -405,11 +406,11 @@ void Elements::check_upright(const NodeField& x) const {
     what << "element " << e << " of body " << groups_[locate(static_cast<int>(e)).group].body << " (nodes";
     for (int a = 0; a <= dimension_; ++a) what << ' ' << simplices_[e][a];
     if (std::isfinite(ratio))
-      what << ") turned inside out at (" << vec3(x[simplices_[e][0]]).transpose() << ") m: V/V0 = " << ratio
+      what << ") turned inside out at " << place(vec3(x[simplices_[e][0]])) << ": V/V0 = " << ratio
            << "; a finer mesh there, larger tool radii or slower tools avoid it";
     else
-      what << ") has no volume that is a number at (" << vec3(x[simplices_[e][0]]).transpose()
-           << ") m: it was pushed or driven farther in a step than numbers reach; look for a boundary, a pressure, a load, gravity or an initial velocity in other units than m, s, Pa";
+      what << ") has no volume that is a number at " << place(vec3(x[simplices_[e][0]]))
+           << ": it was pushed or driven farther in a step than numbers reach; look for a boundary, a pressure, a load, gravity or an initial velocity in other units than m, s, Pa";
     throw Error(Code::mesh_error, what.str());
   }
   report_corner_inversion(x);

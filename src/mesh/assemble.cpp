@@ -1,6 +1,7 @@
 // From what a mesh file or a message says to a body: splits, sets, checks.
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "forming_sim/config/fault.h"
@@ -13,7 +14,6 @@
 namespace forming_sim {
 namespace {
 
-constexpr double kFlat = 1e-9;         // of the body's size: z of a body of dimension 2
 constexpr std::size_t kNamed = 5;      // cells named in a message
 
 [[noreturn]] void refuse(const RawMesh& raw, const std::string& what) {
@@ -45,6 +45,22 @@ void lay_flat(RawMesh& raw) {
       twice_area += a.x() * b.y() - a.y() * b.x();
     }
     if (twice_area < 0) std::reverse(cell.nodes + 1, cell.nodes + n);
+  }
+}
+
+/// A mirrored mesh, all of whose cells are inverted, is one of its mirror image with its cells turned round.
+void turn_mirrored(RawMesh& raw) {
+  const auto volume = [&](const RawCell& cell) {  // of a corner: that of no corner is of another sign in a cell that is good
+    constexpr int kAtFirst[][3] = {{1, 2, 3}, {1, 3, 4}, {1, 2, 3}, {1, 3, 4}};  // tetrahedron, hexahedron, wedge, pyramid
+    const int* next = kAtFirst[static_cast<int>(cell.kind) - static_cast<int>(RawKind::tetrahedron)];
+    const Vec3& o = raw.points[cell.nodes[0]];
+    return (raw.points[cell.nodes[next[0]]] - o).cross(raw.points[cell.nodes[next[1]]] - o).dot(raw.points[cell.nodes[next[2]]] - o);
+  };
+  if (std::any_of(raw.cells.begin(), raw.cells.end(), [&](const RawCell& cell) { return !(volume(cell) < 0); })) return;
+  for (RawCell& cell : raw.cells) {
+    std::swap(cell.nodes[1], cell.nodes[cell.kind == RawKind::tetrahedron || cell.kind == RawKind::wedge ? 2 : 3]);
+    if (cell.kind == RawKind::hexahedron) std::swap(cell.nodes[5], cell.nodes[7]);
+    if (cell.kind == RawKind::wedge) std::swap(cell.nodes[4], cell.nodes[5]);
   }
 }
 
@@ -175,6 +191,18 @@ void check_cells(const RawMesh& raw, const Mesh& mesh, const std::vector<long lo
   refuse(raw, text.str());
 }
 
+/// Two cells with the same nodes; none: nullopt.
+std::optional<std::pair<long long, long long>> repeated_cells(const RawMesh& raw) {
+  std::map<std::vector<int>, long long> known;
+  for (const RawCell& cell : raw.cells) {
+    std::vector<int> nodes(cell.nodes, cell.nodes + shape_of(cell.kind).corners);
+    std::sort(nodes.begin(), nodes.end());
+    const auto [found, fresh] = known.emplace(std::move(nodes), cell.tag);
+    if (!fresh) return std::pair(found->second, cell.tag);
+  }
+  return std::nullopt;
+}
+
 void lay_sets(const RawMesh& raw, const Centres& centres, Mesh& mesh) {
   std::vector<char> used(mesh.nodes.size(), 0);
   for (const Cells& block : mesh.cells)
@@ -237,6 +265,7 @@ const RawShape& shape_of(RawKind kind) {
 Mesh assemble(RawMesh raw) {
   check_points(raw);
   if (raw.dimension == 2) lay_flat(raw);
+  else turn_mirrored(raw);
   check_kinds_apart(raw);
   Mesh mesh;
   mesh.dimension = raw.dimension;
@@ -248,6 +277,7 @@ Mesh assemble(RawMesh raw) {
     find_surface(mesh);
     check_volumes(mesh);
   } catch (const Error& error) {
+    if (const auto twice = repeated_cells(raw)) refuse(raw, "cells " + std::to_string(twice->first) + " and " + std::to_string(twice->second) + " have the same nodes; remove repeated cells");
     const std::string what = error.what();  // "mesh: ...": the source takes the place of the first word
     throw Error(error.code(), raw.source + what.substr(what.find(':')));
   }

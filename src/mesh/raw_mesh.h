@@ -8,6 +8,8 @@
 
 namespace forming_sim {
 
+constexpr double kFlat = 1e-9;  ///< of the size of a body of dimension 2: z of its nodes, at most
+
 /// What a source may hold; corners in the order of mesh.h. As wide as a tag, so that a RawCell has no padding.
 enum class RawKind : long long { point, line, triangle, quadrilateral, tetrahedron, hexahedron, wedge, pyramid };
 struct RawShape {

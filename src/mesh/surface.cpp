@@ -25,10 +25,10 @@ struct Candidate {
 
 [[noreturn]] void refuse_shared(const Mesh& mesh, const Candidate& c, int times) {
   std::ostringstream text;
-  text << "mesh: the facet of nodes";
+  text << "mesh: the facet between";
   for (int n : c.facet.nodes)
-    if (n >= 0) text << ' ' << n;
-  text << " near " << place(mesh.nodes[c.facet.nodes[0]]) << " belongs to " << times
+    if (n >= 0) text << ' ' << place(mesh.nodes[n]);
+  text << " belongs to " << times
        << " elements; a facet lies between two elements or on the surface, so remove repeated or overlapping cells";
   throw Error(Code::mesh_error, text.str());
 }
@@ -88,9 +88,9 @@ bool same_side(const Mesh& mesh, const Candidate* one, const Candidate* other) {
   return false;
 }
 
-[[noreturn]] void refuse_folded(const Mesh& mesh, const Facet& a, const Facet& b) {
+[[noreturn]] void refuse_folded(const Mesh& mesh, const Facet& a) {
   std::ostringstream text;
-  text << "mesh: elements " << a.element << " and " << b.element << " near " << place(mesh.nodes[a.nodes[0]])
+  text << "mesh: two elements near " << place(mesh.nodes[a.nodes[0]])
        << " lie on the same side of the facet they share; the mesh is folded there, or one of them has a negative volume";
   throw Error(Code::mesh_error, text.str());
 }
@@ -110,7 +110,7 @@ void find_surface(Mesh& mesh) {
     const std::size_t of_a_side = all[i].key[0] >= 0 ? 2 : 1, sides = (end - i) / of_a_side;
     if (sides > 2) refuse_shared(mesh, all[i], static_cast<int>(sides));
     if (sides == 1) once.insert(once.end(), all.begin() + i, all.begin() + end);
-    else if (same_side(mesh, &all[i], &all[end - of_a_side])) refuse_folded(mesh, all[i].facet, all[end - 1].facet);
+    else if (same_side(mesh, &all[i], &all[end - of_a_side])) refuse_folded(mesh, all[i].facet);
     i = end;
   }
   std::sort(once.begin(), once.end(), [](const Candidate& a, const Candidate& b) { return a.order < b.order; });

@@ -24,7 +24,7 @@ std::string offline_usage() {
   forming_offline --schema [markdown]       every field that a scene may have
   forming_offline --help | --version
 
-  --output DIR     where result.h5, result.xdmf, history.csv and summary.json go
+  --output DIR     where result.h5, result.xdmf, surface.xdmf, history.csv and summary.json go
   --threads N      threads of the solver; all cores unless given; changes no result
   --resume FILE    goes on from a checkpoint of the same scene
   --quiet          no progress line, no notes, no warnings and no table at the end: summary.json has them

@@ -21,7 +21,7 @@ void Fields::on_start(const Simulation& simulation) {
       if (last) last_step_ = last->step;
       if (!last || schedule_.due_between(last->time, simulation.time()))
         record_.notes.push_back("result.h5 holds no frames between " + (last ? number_text(last->time) : "0") + " s and the checkpoint, " + number_text(simulation.time()) + " s: it is that of a shorter first part");
-      xdmf_.emplace(file_->header(), "result.h5");
+      open_xdmf();
       write_xdmf();
       return;
     }
@@ -29,7 +29,7 @@ void Fields::on_start(const Simulation& simulation) {
   }
   const double time = longest_time(scene_.stages), frames = std::min(schedule_.times(time), time / simulation.dt());
   file_.emplace(path, std::move(header), static_cast<std::size_t>(std::min(1e5, frames + static_cast<double>(scene_.stages.size()) + 2)));
-  xdmf_.emplace(file_->header(), "result.h5");
+  open_xdmf();
   write(simulation);
 }
 
@@ -69,10 +69,16 @@ void Fields::write(const Simulation& simulation, bool interrupted) {
   if (Clock::now() >= xdmf_due_) write_xdmf();
 }
 
+void Fields::open_xdmf() {
+  xdmf_.emplace(file_->header(), "result.h5", Xdmf::Shows::bodies);
+  surface_xdmf_.emplace(file_->header(), "result.h5", Xdmf::Shows::surface);
+}
+
 // All of it is written each time. So with the first frame after a second, and for no more than a hundredth of the time of a run.
 void Fields::write_xdmf() {
   const Clock::time_point start = Clock::now();
   replace_file(in_directory(directory_, "result.xdmf"), xdmf_->text(file_->frames()));
+  replace_file(in_directory(directory_, "surface.xdmf"), surface_xdmf_->text(file_->frames()));
   frames_in_xdmf_ = file_->frames().size();
   const Clock::time_point end = Clock::now();
   xdmf_due_ = end + std::max<Clock::duration>(std::chrono::seconds(1), 100 * (end - start));

@@ -45,6 +45,7 @@ void write_tools(Hdf5Group tools, const ResultHeader& header) {
     }
     tool.write("points", shape.points[0].data(), {shape.points.size(), 3}, "m");
     write_ints(tool, "facets", flatten(shape.facets, header.dimension), header.dimension);
+    write_ints(tool, "body", std::vector<std::int32_t>(shape.facets.size(), -1 - static_cast<int>(i)));
   }
 }
 
@@ -62,13 +63,15 @@ void write_header(Hdf5Group root, const ResultHeader& header, std::size_t frames
   write_ints(topology, "elements", flatten(header.elements, header.dimension + 1), header.dimension + 1);
   write_ints(topology, "body", header.element_body);
   std::vector<std::array<int, 3>> facets;
-  std::vector<std::int32_t> owners;
+  std::vector<std::int32_t> owners, bodies;
   for (const Facet& facet : header.surface) {
     facets.push_back(facet.nodes);
     owners.push_back(facet.element);
+    bodies.push_back(header.element_body[facet.element]);
   }
   write_ints(topology, "surface", flatten(facets, header.dimension), header.dimension);
   write_ints(topology, "surface_element", owners);
+  write_ints(topology, "surface_body", bodies);
   topology.write("initial_positions", coordinates(header.initial_positions).data(),
                  {header.initial_positions.size(), 3}, "m");
   write_bodies(root.create("bodies"), header);

@@ -65,7 +65,11 @@ void note_refusal(const Scene& scene, const std::string& directory, const std::v
   try {
     make_output_directory(directory);
     const DirectoryLock lock(directory);
-    write_summary(directory, summarize_refusal(scene, faults, code, message));
+    nlohmann::ordered_json summary = summarize_refusal(scene, faults, code, message);
+    std::error_code none;
+    if (std::filesystem::exists(in_directory(directory, "result.h5"), none))
+      summary["warnings"] = {"the other files in this directory, result.h5 among them, are of an earlier run"};
+    write_summary(directory, summary);
   } catch (const Error&) {
     // The reason of the refusal is told to the caller; it matters more.
   }

@@ -32,7 +32,7 @@ std::string escaped(const std::string& text) {
 /// Writes frames one below the other.
 class Writer {
  public:
-  Writer(const ResultHeader& header, const std::string& h5_name) : header_(header), h5_(escaped(h5_name)) {
+  Writer(const ResultHeader& header, const std::string& h5_name, Xdmf::Shows shows) : header_(header), h5_(escaped(h5_name)), shows_(shows) {
     out_.precision(17);
   }
   std::string text() const { return out_.str(); }
@@ -41,10 +41,44 @@ class Writer {
     out_ << "<Grid Name=\"" << frame.name << "\" GridType=\"Collection\" CollectionType=\"Spatial\">\n"
          << "<Time Value=\"" << frame.time << "\"/>\n";
     const std::string path = "/frames/" + frame.name + "/";
-    const std::size_t elements = header_.elements.size(), nodes = header_.initial_positions.size();
-    out_ << "<Grid Name=\"blank\" GridType=\"Uniform\">\n";
-    topology(header_.dimension == 2 ? "Triangle" : "Tetrahedron", header_.dimension + 1, elements,
-             "/topology/elements");
+    if (shows_ == Xdmf::Shows::bodies) bodies(frame, path);
+    else surface(frame, path);
+    for (std::size_t i = 0; i < header_.tools.size(); ++i)
+      if (frame.tools_present.at(i) && !header_.tools[i].points.empty()) tool(i, path);
+    out_ << "</Grid>\n";
+  }
+
+ private:
+  void bodies(const FrameEntry& frame, const std::string& path) {
+    const std::size_t elements = header_.elements.size();
+    out_ << "<Grid Name=\"" << (header_.bodies.size() == 1 ? escaped(header_.bodies[0]) : "bodies") << "\" GridType=\"Uniform\">\n";
+    topology(header_.dimension == 2 ? "Triangle" : "Tetrahedron", header_.dimension + 1, elements, "/topology/elements");
+    nodes(frame, path);
+    attribute("plastic_strain", "Scalar", "Cell", elements, 1, 4, path + "plastic_strain");
+    attribute("stress", "Matrix", "Cell", elements, 6, 4, path + "stress");
+    attribute("mises", "Scalar", "Cell", elements, 1, 4, path + "mises");
+    attribute("volume_ratio", "Scalar", "Cell", elements, 1, 4, path + "volume_ratio");
+    if (frame.damage) attribute("damage", "Scalar", "Cell", elements, 1, 4, path + "damage");
+    number("body", elements, "/topology/body");
+    out_ << "</Grid>\n";
+  }
+
+  void surface(const FrameEntry& frame, const std::string& path) {
+    const std::size_t facets = header_.surface.size();
+    out_ << "<Grid Name=\"surface\" GridType=\"Uniform\">\n";
+    topology(header_.dimension == 2 ? "Polyline" : "Triangle", header_.dimension, facets, "/topology/surface");
+    nodes(frame, path);
+    for (const char* strain : {"surface_strain", "surface_strain_minor"}) attribute(strain, "Scalar", "Cell", facets, 1, 4, path + strain);
+    if (frame.limit)
+      for (const char* strain : {"membrane_strain", "membrane_strain_minor"}) attribute(strain, "Scalar", "Cell", facets, 1, 4, path + strain);
+    number("element", facets, "/topology/surface_element");
+    number("body", facets, "/topology/surface_body");
+    out_ << "</Grid>\n";
+  }
+
+  /// Where they are, and what lives on them.
+  void nodes(const FrameEntry& frame, const std::string& path) {
+    const std::size_t nodes = header_.initial_positions.size();
     geometry(nodes, path + "positions");
     attribute("velocities", "Vector", "Node", nodes, 3, 8, path + "velocities");
     attribute("contact_pressure", "Scalar", "Node", nodes, 1, 4, path + "contact_pressure");
@@ -55,27 +89,23 @@ class Writer {
       attribute("thinning", "Scalar", "Node", nodes, 1, 4, path + "thinning");
     }
     if (frame.limit) attribute("limit_ratio", "Scalar", "Node", nodes, 1, 4, path + "limit_ratio");
-    attribute("plastic_strain", "Scalar", "Cell", elements, 1, 4, path + "plastic_strain");
-    attribute("stress", "Matrix", "Cell", elements, 6, 4, path + "stress");
-    attribute("mises", "Scalar", "Cell", elements, 1, 4, path + "mises");
-    attribute("volume_ratio", "Scalar", "Cell", elements, 1, 4, path + "volume_ratio");
-    if (frame.damage) attribute("damage", "Scalar", "Cell", elements, 1, 4, path + "damage");
-    out_ << "<Attribute Name=\"body\" AttributeType=\"Scalar\" Center=\"Cell\">\n";
-    item(elements, 1, "Int", 4, "/topology/body");
-    out_ << "</Attribute>\n</Grid>\n";
-    for (std::size_t i = 0; i < header_.tools.size(); ++i)
-      if (frame.tools_present.at(i) && !header_.tools[i].points.empty()) tool(i, path);
-    out_ << "</Grid>\n";
   }
 
- private:
+  /// Of each cell.
+  void number(const char* name, std::size_t count, const std::string& path) {
+    out_ << "<Attribute Name=\"" << name << "\" AttributeType=\"Scalar\" Center=\"Cell\">\n";
+    item(count, 1, "Int", 4, path);
+    out_ << "</Attribute>\n";
+  }
+
   void tool(std::size_t index, const std::string& frame_path) {
     const ToolShape& shape = header_.tools[index];
-    const std::string number = std::to_string(index);
+    const std::string index_text = std::to_string(index);
     out_ << "<Grid Name=\"tool " << escaped(shape.name) << "\" GridType=\"Uniform\">\n";
     topology(header_.dimension == 2 ? "Polyline" : "Triangle", header_.dimension, shape.facets.size(),
-             "/tools/" + number + "/facets");
-    geometry(shape.points.size(), frame_path + "tools/" + number + "/points");
+             "/tools/" + index_text + "/facets");
+    geometry(shape.points.size(), frame_path + "tools/" + index_text + "/points");
+    number("body", shape.facets.size(), "/tools/" + index_text + "/body");
     out_ << "</Grid>\n";
   }
 
@@ -108,13 +138,14 @@ class Writer {
 
   const ResultHeader& header_;
   std::string h5_;
+  Xdmf::Shows shows_;
   std::ostringstream out_;
 };
 
 }  // namespace
 
 std::string Xdmf::text(const std::vector<FrameEntry>& frames) {
-  Writer writer(header_, h5_name_);
+  Writer writer(header_, h5_name_, shows_);
   for (; written_ < frames.size(); ++written_) writer.write(frames[written_]);
   grids_ += writer.text();
   return "<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf Version=\"2.0\">\n<Domain>\n<Grid Name=\"" + escaped(header_.scene_name) +

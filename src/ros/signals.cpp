@@ -6,6 +6,8 @@
 #include <string>
 
 #include <ros/console.h>
+#include <ros/exceptions.h>
+#include <ros/init.h>
 #include <ros/master.h>
 #include <ros/time.h>
 #include <ros/xmlrpc_manager.h>
@@ -22,6 +24,16 @@ extern "C" void forming_sim_on_stop(int) {
 }
 
 }  // namespace
+
+bool init_node(int& argc, char** argv, const char* program, unsigned options) {
+  try {
+    ros::init(argc, argv, program, options | ros::init_options::NoSigintHandler);
+    return true;
+  } catch (const ros::Exception& error) {
+    std::fprintf(stderr, "%s: %s; a word NAME:=VALUE remaps a topic or sets a parameter, as in _threads:=2; files and options are given without \":=\"\n", program, error.what());
+    return false;
+  }
+}
 
 void catch_stop_signals() {
   std::signal(SIGINT, forming_sim_on_stop);

@@ -110,7 +110,7 @@ RunSummary read_summary(const std::string& directory) {
 
 std::vector<std::string> run_files(const std::string& directory, bool formed) {
   std::vector<std::string> files;
-  for (const std::string name : {"result.h5", "result.xdmf", "history.csv", "summary.json", "checkpoint.h5", "formed.h5"}) {
+  for (const std::string name : {"result.h5", "result.xdmf", "surface.xdmf", "history.csv", "summary.json", "checkpoint.h5", "formed.h5"}) {
     if (name == "formed.h5" && !formed) continue;  // that of another run
     if (is_readable_file(directory + "/" + name)) files.push_back(name);
   }

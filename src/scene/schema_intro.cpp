@@ -194,7 +194,7 @@ Into the directory of `--output`:
 | file | content |
 |---|---|
 | `result.h5` | the mesh once, and the fields of every frame, with units as attributes and the text of the scene; readable up to the last complete frame, whatever ends the run |
-| `result.xdmf` | opens `result.h5` in ParaView and VTK |
+| `result.xdmf`, `surface.xdmf` | open `result.h5` in ParaView and VTK: bodies and tools; the surface of the bodies with its strains |
 | `history.csv` | a row per `history_interval`: time, energies, for every tool its force, place, moment about its place and, if it has an axle, how far it has turned about that, extremes, and for every probe its position, velocity and mean stress (xx yy zz xy yz zx), where boundaries hold or drive it the force and moment that they push with; the first line names the columns, with units |
 | `summary.json` | the result in figures |
 | `formed.h5` | with `output.formed`: the bodies as the run leaves them, for a next scene |

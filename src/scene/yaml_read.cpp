@@ -87,8 +87,10 @@ Scene read_scene_file(const std::string& path, std::vector<Fault>& faults) {
   std::ifstream file(path, std::ios::binary);
   std::string text, part(1 << 16, '\0');
   while (text.size() <= kMost && file.read(part.data(), static_cast<std::streamsize>(part.size())).gcount() > 0) text.append(part, 0, static_cast<std::size_t>(file.gcount()));
-  if (text.empty() || fs::is_directory(path, problem))
-    throw Error(Code::output_error, "The scene file '" + path + "' cannot be read; give the path of a YAML file that exists and is not empty.");
+  if (text.empty() || fs::is_directory(path, problem)) {
+    const char* why = fs::is_directory(path, problem) ? "is a directory" : !fs::exists(path, problem) ? "does not exist" : !file.is_open() ? "cannot be opened for reading; check its permissions" : "is empty";
+    throw Error(Code::output_error, "The scene file '" + path + "' " + why + "; give the path of a YAML file.");
+  }
   if (text.size() > kMost) throw Error(Code::output_error, "The scene file '" + path + "' is longer than 256 MiB; give the path of a YAML file.");
   const fs::path whole = fs::absolute(path, problem);  // empty where the working directory is gone
   return read_scene(text, (problem ? fs::path(path) : whole).parent_path().string(), faults);

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "forming_sim/mesh/import.h"
+#include "forming_sim/mesh/measure.h"
 #include "mesh/mesh_test_tools.h"
 #include "mesh/msh_texts.h"
 #include "support/bodies.h"
@@ -398,12 +399,25 @@ TEST(MeshImportBody, CellsOnBothSidesCutAFaceAlike) {
   }
 }
 
+// Its cells are all inverted; those of other meshes are told by their numbers.
+TEST(MeshImportBody, AMirroredMeshIsTurnedRound) {
+  EXPECT_NEAR(volume(body_mesh(given("hexahedron", kCube, {4, 5, 6, 7, 0, 1, 2, 3}), "")), 1, 1e-12);
+  EXPECT_NEAR(volume(body_mesh(given("wedge", {kCube[0], kCube[1], kCube[2], kCube[4], kCube[5], kCube[6]}, {3, 4, 5, 0, 1, 2}), "")), 0.5, 1e-12);
+  EXPECT_NEAR(volume(body_mesh(given("pyramid", {kCube[0], kCube[1], kCube[2], kCube[3], kCube[4]}, {0, 3, 2, 1, 4}), "")), 1. / 3, 1e-12);
+  EXPECT_NEAR(volume(body_mesh(given("tetrahedron", {kCube[0], kCube[1], kCube[2], kCube[4]}, {0, 2, 1, 3}), "")), 1. / 6, 1e-12);
+}
+
+TEST(MeshImportBody, RepeatedCellsAreNamed) {
+  const std::string text = error_of([&] { body_mesh(given("hexahedron", kCube, {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7}), ""); });
+  EXPECT_TRUE(has(text, "cells 0 and 1 have the same nodes")) << text;
+}
+
 TEST(MeshImportBody, InlineNonsenseIsRefusedByItsField) {
   const auto refused = [](const MeshConfig& c) { return error_of([&] { body_mesh(c, ""); }); };
   EXPECT_TRUE(has(refused(given("", kCube, {0, 1, 2, 3})), "mesh.cell_type: given \"\""));
   EXPECT_TRUE(has(refused(given("hexahedron", kCube, {0, 1, 2})), "mesh.cells: given 3 indices; 8 per hexahedron"));
   EXPECT_TRUE(has(refused(given("triangle", kCube, {0, 1, 8})), "mesh.cells[2]: given 8; the points are numbered from 0 to 7"));
-  EXPECT_TRUE(has(refused(given("hexahedron", kCube, {4, 5, 6, 7, 0, 1, 2, 3})), "1 of 1 cells are inverted"));
+  EXPECT_TRUE(has(refused(given("hexahedron", kCube, {0, 2, 1, 3, 4, 6, 5, 7})), "1 of 1 cells are inverted"));
   EXPECT_TRUE(has(refused(given("tetrahedron", kCube, {0, 1, 3, 4})), "inline mesh: node 2 at (1, 1, 0) m belongs to no cell"));
   MeshConfig config = given("hexahedron", kCube, {0, 1, 2, 3, 4, 5, 6, 7});
   config.points[6].z() = std::nan("");

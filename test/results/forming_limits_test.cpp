@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "forming_sim/mesh/generate.h"
+#include "forming_sim/mesh/measure.h"
 #include "forming_sim/results/forming_limits.h"
 
 namespace forming_sim {
@@ -70,23 +71,23 @@ TEST(FormingLimits, TheMiddleOfABentSheetIsStretchedByItsPullAlone) {
   for (const std::string pattern : {"fine", "coarse", "one_point"}) {
     const Model model = sheet(3, false, pattern);
     const FormingLimits limits(model);
-    const double R = 5e-3, stretched = 1.1, across = 0.97, angle = stretched / R;  // radians a metre
-    const double middle = model.bodies[1].mesh.nodes.empty() ? 0 : kThickness / 2;
-    const auto low = std::min_element(model.bodies[1].mesh.nodes.begin(), model.bodies[1].mesh.nodes.end(), [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); })->z();
+    const double R = 5e-3, across = 0.97, angle = 1.1 / R;  // radians a metre
+    const double low = bounds(model.bodies[1].mesh).min().z();
     const NodeField x = moved(model, [&](const Vec3& X) {
-      const double r = R + (X.z() - low - middle), a = angle * X.x();
+      const double r = R + (X.z() - low - kThickness / 2), a = angle * X.x();
       return Vec3(r * std::sin(a), across * X.y(), r * std::cos(a));
     });
     const FormingLimits::State state = limits.at(x);
     const Range r = range(state);
     const double cell = kLength / 20, chord = std::log(2 * R * std::sin(0.5 * angle * cell) / cell);
-    EXPECT_NEAR(r.least_major, chord, 1e-9) << pattern;
-    EXPECT_NEAR(r.most_major, chord, 1e-9) << pattern;
-    EXPECT_NEAR(r.least_minor, std::log(across), 1e-9) << pattern;
-    EXPECT_NEAR(r.most_minor, std::log(across), 1e-9) << pattern;
+    const double near = pattern == "fine" ? 2e-3 : 1e-9;  // the middles of its faces lie on the circle, off the chords
+    EXPECT_NEAR(r.least_major, chord, near) << pattern;
+    EXPECT_NEAR(r.most_major, chord, near) << pattern;
+    EXPECT_NEAR(r.least_minor, std::log(across), near) << pattern;
+    EXPECT_NEAR(r.most_minor, std::log(across), near) << pattern;
     EXPECT_GT(std::log((R + kThickness / 2) / R), 0.09);  // what bending does to a side
     ASSERT_EQ(state.greatest.size(), 1u);
-    EXPECT_NEAR(state.greatest[0].value, chord / 0.2, 1e-8);
+    EXPECT_NEAR(state.greatest[0].value, chord / 0.2, 5 * near);
     EXPECT_EQ(state.beyond[0], 0);
     EXPECT_GE(state.greatest[0].element, model.bodies[1].first_element);
   }
@@ -119,9 +120,7 @@ TEST(FormingLimits, ARingIsStretchedAroundToo) {
 // The outer half by radius has three quarters of the disc.
 TEST(FormingLimits, WhatIsBeyondIsAPartOfTheArea) {
   const Model model = sheet(2, true);
-  double first = 1e9;
-  for (const Vec3& X : model.bodies[1].mesh.nodes) first = std::min(first, X.x());
-  ASSERT_EQ(first, 0);
+  ASSERT_EQ(bounds(model.bodies[1].mesh).min().x(), 0);
   const NodeField x = moved(model, [](const Vec3& X) { return Vec3(X.x() < kLength / 2 + 1e-9 ? X.x() : kLength / 2 + 1.5 * (X.x() - kLength / 2), X.y(), 0); });
   EXPECT_NEAR(FormingLimits(model).at(x).beyond[0], 0.75, 1e-9);
 }

@@ -1,4 +1,4 @@
-"""Reads result.xdmf and compares what it shows with result.h5.
+"""Reads result.xdmf and surface.xdmf and compares what they show with result.h5.
 
 First every reference of the file is followed with h5py, then VTK's two readers
 are asked. They are in ParaView's VTK (package python3-paraview), not in Debian's
@@ -29,7 +29,7 @@ def leaves(data):
     return found
 
 
-def compare(reader_class, path, result):
+def compare(reader_class, path, result, cells, fields):
     reader = reader_class()
     reader.SetFileName(path)
     reader.UpdateInformation()
@@ -46,18 +46,20 @@ def compare(reader_class, path, result):
         present = [i for i in sorted(frame["tools"]) if frame["tools"][i].attrs["present"] and "points" in frame["tools"][i]]
         assert len(blocks) == 1 + len(present), (name, [n for n, _ in blocks])
         blank = blocks[0][1]
-        assert blank.GetNumberOfCells() == len(result["topology/elements"])
-        corners = [blank.GetCell(1).GetPointId(k) for k in range(result["topology/elements"].shape[1])]
-        assert corners == list(result["topology/elements"][1]), corners
+        assert blank.GetNumberOfCells() == len(result[cells])
+        last = len(result[cells]) - 1
+        corners = [blank.GetCell(last).GetPointId(k) for k in range(result[cells].shape[1])]
+        assert corners == list(result[cells][last]), corners
         assert np.array_equal(vtk_to_numpy(blank.GetPoints().GetData()), frame["positions"][:].astype(
             vtk_to_numpy(blank.GetPoints().GetData()).dtype))
-        for field in ("plastic_strain", "stress", "mises", "volume_ratio", "damage"):
+        for field in fields:
             shown = vtk_to_numpy(blank.GetCellData().GetArray(field))
             assert np.array_equal(shown, frame[field][:]), (reader_class.__name__, name, field)
         for field in ("velocities", "contact_pressure", "contact_gap", "contact_slip", "thickness", "thinning", "limit_ratio"):
             assert np.array_equal(vtk_to_numpy(blank.GetPointData().GetArray(field)), frame[field][:]), (reader_class.__name__, name, field)
         for index, (_, tool) in zip(present, blocks[1:]):
             assert tool.GetNumberOfCells() == len(result["tools"][index]["facets"])
+            assert set(vtk_to_numpy(tool.GetCellData().GetArray("body"))) == {-1 - int(index)}
             assert np.allclose(vtk_to_numpy(tool.GetPoints().GetData()), frame["tools"][index]["points"][:], rtol=1e-6)
     print(reader_class.__name__, "shows", len(names), "frames as in the file")
 
@@ -78,9 +80,11 @@ def check_references(path, result):
 def main():
     directory = sys.argv[1]
     with h5py.File(directory + "/result.h5", "r") as result:
-        check_references(directory + "/result.xdmf", result)
+        for file in ("result.xdmf", "surface.xdmf"):
+            check_references(f"{directory}/{file}", result)
         for reader in (vtkXdmfReader, vtkXdmf3Reader):
-            compare(reader, directory + "/result.xdmf", result)
+            compare(reader, directory + "/result.xdmf", result, "topology/elements", ("plastic_strain", "stress", "mises", "volume_ratio", "damage"))
+            compare(reader, directory + "/surface.xdmf", result, "topology/surface", ("surface_strain", "surface_strain_minor", "membrane_strain", "membrane_strain_minor"))
 
 
 try:
@@ -91,6 +95,7 @@ try:
     from vtkmodules.vtkIOXdmf3 import vtkXdmf3Reader
 except ImportError:
     with h5py.File(sys.argv[1] + "/result.h5", "r") as opened:
-        check_references(sys.argv[1] + "/result.xdmf", opened)
+        for name in ("result.xdmf", "surface.xdmf"):
+            check_references(f"{sys.argv[1]}/{name}", opened)
     sys.exit(77)
 main()

@@ -44,7 +44,7 @@ class ServiceTest(ServerTest):
         self.assertEqual([t.name for t in status.tools], ['press'])
         self.assertEqual(status.crossings, 0)
         self.assertGreater(status.min_thickness_m, 0)
-        for name in ('result.h5', 'result.xdmf', 'history.csv', 'summary.json'):
+        for name in ('result.h5', 'result.xdmf', 'surface.xdmf', 'history.csv', 'summary.json'):
             self.assertIn(name, result.files)
             self.assertGreater(os.path.getsize(os.path.join(result.directory, name)), 0)
         summary = json.loads(result.summary.json)

@@ -1,5 +1,5 @@
 #pragma once
-// result.h5 and result.xdmf of a run: a frame at the start, at every output
+// result.h5, result.xdmf and surface.xdmf of a run: a frame at the start, at every output
 // interval, at the end of every stage, and where the run ended.
 #include <chrono>
 #include <optional>
@@ -28,6 +28,7 @@ class Fields : public Observer {
  private:
   using Clock = std::chrono::steady_clock;
   void write(const Simulation& simulation, bool interrupted = false);
+  void open_xdmf();
   void write_xdmf();
   const Scene& scene_;
   std::string meaning_;
@@ -38,7 +39,7 @@ class Fields : public Observer {
   RunRecord& record_;
   std::optional<ResultFile> file_;
   long last_step_ = -1;
-  std::optional<Xdmf> xdmf_;
+  std::optional<Xdmf> xdmf_, surface_xdmf_;
   std::size_t frames_in_xdmf_ = 0;  ///< of the file
   Clock::time_point xdmf_due_;
 };

@@ -6,9 +6,10 @@
 //   /topology/body          n int32, index into the attribute names of /bodies
 //   /topology/surface       m x 2|3 int32, boundary facets, normal outwards
 //   /topology/surface_element  m int32, the element of each facet
+//   /topology/surface_body  m int32, its body
 //   /topology/initial_positions  nodes x 3, m (z = 0 in dimension 2)
 //   /bodies/<index>         attributes name, thickness_between ("bottom top"); forming_limit, minor and major strains; sets/<index>: attribute name, nodes, int32
-//   /tools/<index>          attribute name; points (m), facets, or plane_point and plane_normal
+//   /tools/<index>          attribute name; points (m), facets and their number body, -1, -2, ... by the tool, or plane_point and plane_normal
 //   /frames/NNNNNN          attributes time, step, stage, interrupted; positions, velocities, plastic_strain,
 //                           contact_pressure, contact_gap where anything can meet, contact_slip
 //                           where anything rubs, stress (xx yy zz xy yz zx), mises, volume_ratio, surface_strain, surface_strain_minor, damage where a body has it,

@@ -9,7 +9,7 @@
 
 namespace forming_sim {
 
-/// result.h5 and result.xdmf, history.csv, checkpoint.h5, summary.json in a
+/// result.h5 with result.xdmf and surface.xdmf, history.csv, checkpoint.h5, summary.json in a
 /// directory that is there. Owns what the observers share; `scene` must outlive it.
 /// Add the observers in their order; the summary is the last.
 struct RunFiles {

@@ -11,7 +11,7 @@
 namespace forming_sim {
 
 /// Validates the scene, makes the directory, runs it and leaves result.h5,
-/// result.xdmf, history.csv, summary.json and checkpoint.h5 there.
+/// result.xdmf, surface.xdmf, history.csv, summary.json and checkpoint.h5 there.
 /// resume_file: a checkpoint.h5 to go on from; "": from the start.
 /// extra: further observers, called after those of the files, so that they find the
 /// files complete at the end. Not owned.

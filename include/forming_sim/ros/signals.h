@@ -3,7 +3,9 @@
 
 namespace forming_sim {
 
-/// Call it after ros::init with ros::init_options::NoSigintHandler. A limit of file sizes is a full disk from then on: the write says so.
+/// ros::init without its handler of SIGINT, with more `options`. Words NAME:=VALUE that are no names of ROS are told on stderr; false then.
+bool init_node(int& argc, char** argv, const char* program, unsigned options = 0);
+/// Call it after init_node(). A limit of file sizes is a full disk from then on: the write says so.
 void catch_stop_signals();
 /// The shutdown that rosnode kill asks for, or the master when another node takes the name, is such a signal from now on, and its reason is told. Call it while a
 /// ros::NodeHandle lives: ROS itself would close the topics at once, and no result went out.
