@@ -69,10 +69,12 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
   m.body_shifts = part_bodies(m.layer, setup, m.features, x, m.warnings);
   const Sides sides = find_sides(m.layer, m.features, x, at_start);
   m.sides = sides.of_facet;
-  set_back(kOutside * m.layer, sides, setup, m.features, m.tools, m.warnings);
-  check_start(m.layer, m.sides, setup, x, at_start, m.features, m.tools, m.warnings);
+  m.flush = Flush(m.layer, m.features, sides.of_facet, at_start);
+  set_back(kOutside * m.layer, sides, m.flush, setup, m.features, m.tools, m.warnings);
+  check_start(m.layer, m.sides, m.flush, setup, x, at_start, m.features, m.tools, m.warnings);
   m.tools.place_all(m.features, at_start, place);  // set back
-  if (setup.dimension == 3) find_level_parts(m.features);
+  find_level_parts(m.features);
+  m.flush.mark(at_start, m.features);
   keep_ties(m.features, x, place, at_start, m.ties);
   if (m.method == Impl::Method::geometric) m.know_sides();
   m.tool_index = std::make_unique<ToolIndex>(m.features, m.features.place, std::vector<bool>(setup.tools.size(), true));

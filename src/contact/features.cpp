@@ -233,7 +233,7 @@ Features build_features(const ContactSetup& setup, const NodeField& x) {
 
 void find_level_parts(Features& f) {
   constexpr double kLevel = 1e-6;  // slope
-  f.level_vertex.assign(f.place.size(), true);
+  f.level_vertex.assign(f.place.size(), f.dimension == 3);
   for (Features::Edge& edge : f.edges) {
     if (!f.rigid(edge.node[0])) continue;
     const auto at = [&](int v) { return vec3(f.place[v - f.body_nodes]); };

@@ -35,6 +35,7 @@ struct Contact::Impl {
   Features features;
   std::vector<int> body_vertices;  ///< on surfaces
   ToolSet tools;
+  Flush flush;
   std::vector<Tie> ties;
   std::vector<std::string> body_names;
   std::vector<Vec3> body_shifts;

@@ -214,8 +214,9 @@ class Phase {
     const bool askew = pack.outside[l] == 0;
     if (distance > range_.reach || !(distance > 0) || !offered(askew, distance)) return;
     const double s = pack.s[l], t = pack.t[l];
-    out_.pairs.emplace_back(PairKey::make(PairKey::edge_edge, e.first, 0, e.second), e.own, e.surface, distance, askew,
-                            node(pack.normal[0][l], pack.normal[1][l], pack.normal[2][l]));
+    const Node normal = node(pack.normal[0][l], pack.normal[1][l], pack.normal[2][l]);
+    if (f_.edges[e.second].is_over_joint(t, normal, kWedge)) return;
+    out_.pairs.emplace_back(PairKey::make(PairKey::edge_edge, e.first, 0, e.second), e.own, e.surface, distance, askew, normal);
     ContactPair& pair = out_.pairs.back();
     pair.link({e.node[0], e.node[1], e.node[2], e.node[3]}, 1 - s, s, t - 1, -t);
     const bool first_on_held = leave_to_held(work_, 0, 2, pair), second_on_held = leave_to_held(work_, 2, 4, pair);
@@ -255,10 +256,19 @@ class Phase {
       const Closest::Feature type = hits_[i].closest.feature;
       const int all = type == Closest::face ? 1 : type == Closest::edge ? f_.edges[id].facets : f_.facets_at_vertex[id];
       if (count < all) continue;
-      add(list, g, hits_[i]);
       nearest_held = nearest_held || hits_[i].closest.squared <= near2;
+      if (!lies_over_joint(hits_[i])) add(list, g, hits_[i]);
     }
-    if (!nearest_held) add(list, g, hits_[nearest]);
+    if (!nearest_held && !lies_over_joint(hits_[nearest])) add(list, g, hits_[nearest]);
+  }
+
+  /// The vertex is still on the other side of a joint of two tools, of which this is the edge: the other tool has it.
+  bool lies_over_joint(const Hit& hit) const {
+    const Closest& c = hit.closest;
+    if (f_.joint_vertex.empty() || c.feature == Closest::face) return false;
+    const int id = static_cast<int>(hit.feature & 0xffffffffu);
+    if (c.feature == Closest::edge) return f_.edges[id].is_over_joint(c.weight[c.which == 2 ? 2 : c.which + 1], c.apart, kWedge);
+    return f_.rigid(id) && dot3(c.apart, f_.joint_vertex[id - f_.body_nodes]) > kWedge * hit.distance;
   }
 
   void add(const NearList& list, const NearList::VertexGroup& g, const Hit& hit) {

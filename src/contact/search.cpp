@@ -82,6 +82,7 @@ void Contact::Impl::check_reach(const NodeField& x, double radius) const {
 }
 
 void Contact::Impl::ensure_list(const NodeField& x, double reach, double step_bound) {
+  if (flush.mark(motion, features)) listed = false;
   const bool same = listed && std::equal(motion.begin(), motion.end(), listed_present.begin(), listed_present.end(), [](const ToolMotion& tool, bool was) { return tool.present == was; });
   if (same) {
     if (used + reach <= list.radius) return;

@@ -303,13 +303,14 @@ std::vector<Vec3> part_bodies(double layer, const ContactSetup& setup, const Fea
   return shifts;
 }
 
-void check_start(double layer, const std::vector<int>& sides, const ContactSetup& setup, const NodeField& x,
+void check_start(double layer, const std::vector<int>& sides, const Flush& flush, const ContactSetup& setup, const NodeField& x,
                  const std::vector<ToolMotion>& at_start, Features& f, ToolSet& tools, std::vector<std::string>& warnings) {
   const Start start(layer, sides, setup, x, f, tools);
   std::vector<std::pair<double, std::string>> refused;  // with how deep it lies, m; what is all inside first
   NodeField place;
   tools.place_all(f, at_start, place);
-  std::vector<bool> told(setup.tools.size(), false);
+  std::vector<bool> told(setup.tools.size(), false), too_near = told;
+  std::vector<std::vector<StartGap>> gaps_of(setup.tools.size());
   std::vector<std::string> laid_on;
   tools.touching.assign(setup.tools.size(), false);
   for (size_t t = 0; t < setup.tools.size(); ++t) {
@@ -331,14 +332,31 @@ void check_start(double layer, const std::vector<int>& sides, const ContactSetup
     }
     tools.touching[t] = touches;
     if (touches && !close) laid_on.push_back("tool " + setup.tools[t].name);
-    if (!close || told[t]) continue;
+    too_near[t] = close;
+    gaps_of[t] = gaps;
+  }
+  for (size_t t = 0; t < setup.tools.size(); ++t) {
+    const std::vector<int> together = flush.together(static_cast<int>(t));
+    if (together.front() != static_cast<int>(t)) continue;
+    const auto any = [&](const std::vector<bool>& of) { return std::any_of(together.begin(), together.end(), [&](int one) { return of[one]; }); };
+    if (!any(too_near) || any(told)) continue;
+    std::vector<StartGap> gaps;
+    std::vector<std::string> names;
+    for (const int one : together) {
+      gaps.insert(gaps.end(), gaps_of[one].begin(), gaps_of[one].end());
+      names.push_back(setup.tools[one].name);
+    }
     const Node shift = start.back_off(gaps);
-    if (shift.isZero(0) || shift.norm() > 8 * layer) continue;  // no way out: left as it is, the check below decides
-    const Vec3 local = at_start[t].rotation0.transpose() * vec3(shift);
-    for (int v : f.surfaces[f.bodies + t].vertices) f.place[v - f.body_nodes] += node(local);
-    if (tools.is_plane[t]) tools.point[t] += local;
+    if (shift.isZero(0) || shift.norm() > 8 * layer) continue;  // no way out: left as they are, the check below decides
+    for (const int one : together) {
+      const Vec3 local = at_start[one].rotation0.transpose() * vec3(shift);
+      for (int v : f.surfaces[f.bodies + one].vertices) f.place[v - f.body_nodes] += node(local);
+      if (tools.is_plane[one]) tools.point[one] += local;
+    }
+    const bool alone = names.size() == 1;
     std::ostringstream text;
-    text << "tool " << setup.tools[t].name << " touches or overlaps a body at the start: it was backed off by " << length_and_direction(vec3(shift));
+    text << (alone ? "tool " : "tools ") << one_of(names, " and ") << (alone ? " touches or overlaps a body at the start: it was" : " touch or overlap a body at the start: together they were")
+         << " backed off by " << length_and_direction(vec3(shift));
     warnings.push_back(text.str());
   }
   if (!laid_on.empty()) {

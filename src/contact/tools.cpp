@@ -46,18 +46,18 @@ std::vector<bool> ToolSet::present(const std::vector<ToolMotion>& motion) {
   return is;
 }
 
-void set_back(double layer, const Sides& sides, const ContactSetup& setup, Features& f, ToolSet& tools,
+void set_back(double layer, const Sides& sides, const Flush& flush, const ContactSetup& setup, Features& f, ToolSet& tools,
               std::vector<std::string>& warnings) {
   // Least-squares mitre: the displacement u of a vertex with m.u = -layer for the
-  // normals m of all facets around it, and at the rim of a facet that has no side for the
+  // normals m of all facets around it, 0 of those that lie back to back with another tool, and at the rim of a facet that has no side for the
   // direction m that points out of it: a blade ends at its edge.
   std::vector<Mat3> a(f.place.size(), Mat3::Zero());
   std::vector<Vec3> b(f.place.size(), Vec3::Zero());
   for (size_t t = 0; t < setup.tools.size(); ++t) {
     const auto& s = f.surfaces[f.bodies + t];
-    const auto add = [&](int v, double weight, const Vec3& m) {
+    const auto add = [&](int v, double weight, const Vec3& m, double by) {
       a[v - f.body_nodes] += weight * m * m.transpose();
-      b[v - f.body_nodes] -= weight * layer * m;
+      b[v - f.body_nodes] -= weight * by * m;
     };
     for (int i = s.first_facet; i < s.last_facet; ++i) {
       const auto& c = f.facets[i];
@@ -70,14 +70,14 @@ void set_back(double layer, const Sides& sides, const ContactSetup& setup, Featu
           const Node u = at((k + 1) % 3) - at(k), v = at((k + 2) % 3) - at(k);
           weight = std::atan2(cross3(u, v).norm(), dot3(u, v));
         }
-        add(c[k], weight, m);
+        add(c[k], weight, m, flush.covers(i) ? 0 : layer);
         if (side != 0) continue;
-        if (f.dimension == 2 && f.facets_at_vertex[c[k]] == 1) add(c[k], 1, vec3(at(k) - at(1 - k)).normalized());
+        if (f.dimension == 2 && f.facets_at_vertex[c[k]] == 1) add(c[k], 1, vec3(at(k) - at(1 - k)).normalized(), layer);
         if (f.dimension == 3 && f.edges[f.facet_edges[i][k]].facets == 1) {
           const Vec3 u = vec3(at((k + 1) % 3) - at(k)), v = vec3(at((k + 2) % 3) - at(k));
           const Vec3 out = u.cross(u.cross(v)).normalized();
-          add(c[k], 1, out);
-          add(c[(k + 1) % 3], 1, out);
+          add(c[k], 1, out, layer);
+          add(c[(k + 1) % 3], 1, out, layer);
         }
       }
     }

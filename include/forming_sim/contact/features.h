@@ -37,7 +37,13 @@ struct Features {
     int facets = 0;                   ///< number of facets at this edge
     int facet[2] = {-1, -1};          ///< the first two of them
     int opposite[2] = {-1, -1};       ///< their third corners
-    bool level = false;               ///< of a tool: inside of a plane part of it (find_level_parts)
+    bool level = false;               ///< of a tool: inside of a plane part of it (find_level_parts), or of one that goes on in another tool
+    Node joint = Node::Zero();        ///< of a joint with another tool (contact/flush.h) the way over it, out of this tool; else 0
+    double joint_first = 0, joint_last = 0;  ///< which part of the edge, of its way from node[0] to node[1]
+    /// Something at `apart` from its point at s is still on the other side of a joint, where the other tool has it. slope: of the way there, at least.
+    bool is_over_joint(double s, const Node& apart, double slope) const {
+      return s >= joint_first && s <= joint_last && apart.head<3>().dot(joint.head<3>()) > slope * apart.head<3>().norm();
+    }
   };
 
   int dimension = 3;
@@ -59,7 +65,8 @@ struct Features {
   std::vector<int> first_neighbour;
   std::vector<int> vertex_surface;              ///< -1: on no surface
   std::vector<double> area;                     ///< of body vertices: the area they stand for at set-up, m^2 (2D: per metre of width; axisymmetric: of the whole circle)
-  std::vector<bool> level_vertex;               ///< of tools: all its edges are level; index: vertex - body_nodes
+  std::vector<bool> level_vertex;               ///< of tools: all its edges are level, or it lies inside of a joint; index: vertex - body_nodes
+  NodeField joint_vertex;                       ///< of tools, as Edge::joint; empty where there are no joints; index: vertex - body_nodes
   NodeField place;                              ///< of tool vertices in the tool's frame; index: vertex - body_nodes
   double smallest_edge = 0, mean_edge = 0;      ///< of the bodies' surfaces
 
@@ -105,7 +112,7 @@ Features build_features(const ContactSetup& setup, const NodeField& x);
 
 /// Finds the edges of tools between two facets that lie in one plane, to a slope of 1e-6, and the vertices that have no
 /// others: what a body's edge or facet is nearest to inside of a plane part it is nearest to with its own vertices, or at that
-/// part's border, so that level edges and vertices need not be met. From `place` as it stands; to be called when tools are set back.
+/// part's border, so that level edges and vertices need not be met. From `place` as it stands; to be called when tools are set back. In dimension 2 there are none.
 void find_level_parts(Features& f);
 
 }  // namespace forming_sim

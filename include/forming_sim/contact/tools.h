@@ -6,6 +6,7 @@
 
 #include "forming_sim/contact/encounters.h"
 #include "forming_sim/contact/features.h"
+#include "forming_sim/contact/flush.h"
 
 namespace forming_sim {
 
@@ -39,8 +40,8 @@ constexpr double kOutside = 1 + 1e-6;
 
 /// Moves the tools' vertices (features.place) and planes by `layer` away from
 /// the bodies, so that every facet moves by `layer` along its normal.
-/// Warns of patches with bodies on both sides, which stay where they are but for their rim.
-void set_back(double layer, const Sides& sides, const ContactSetup& setup, Features& features, ToolSet& tools,
+/// Warns of patches with bodies on both sides, which stay where they are but for their rim. Where facets of two tools lie back to back they stay there.
+void set_back(double layer, const Sides& sides, const Flush& flush, const ContactSetup& setup, Features& features, ToolSet& tools,
               std::vector<std::string>& warnings);
 
 /// How the bodies stand to each other at the start.
@@ -56,9 +57,9 @@ std::vector<Vec3> part_bodies(double layer, const ContactSetup& setup, const Fea
                               std::vector<std::string>& warnings);
 
 /// Backs off tools that overlap a body by no more than 2 layers (before they
-/// were set back), reported in warnings.
+/// were set back), those that hang together as one, reported in warnings.
 /// Throws Error(initial_penetration) with the deeper ones.
-void check_start(double layer, const std::vector<int>& sides, const ContactSetup& setup, const NodeField& x,
+void check_start(double layer, const std::vector<int>& sides, const Flush& flush, const ContactSetup& setup, const NodeField& x,
                  const std::vector<ToolMotion>& at_start, Features& features, ToolSet& tools, std::vector<std::string>& warnings);
 
 }  // namespace forming_sim
