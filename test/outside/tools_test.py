@@ -338,6 +338,26 @@ class Tools(SceneRun):
         self.assertTrue(any('body upper touches another body' in note for note in summary['warnings']), summary['warnings'])
         self.assertGreater(summary['bodies'][1]['momentum'][1], 0, 'it should have bounced')
 
+    def test_a_joint_of_two_tools_that_stand_flush_is_no_edge(self):
+        """A pressed block slides over it as over one tool, however many layers it goes in a step; where one part sinks the other keeps its edge."""
+        def part(name, low, high, **more):
+            points = [[x, y, z] for z in (-0.004, 0.0) for y in (-0.004, 0.010) for x in (low, high)]
+            return dict({'name': name, 'friction': 0.3, 'mesh': {'points': points, 'cells': [corner for facet in FACETS for corner in facet], 'cell_type': 'triangle', 'unit_scale': 1.0}}, **more)
+        block = {'name': 'b', 'material': dict(ALUMINIUM), 'blank': {'shape': 'plate', 'pattern': 'one_point', 'length': 0.006, 'width': 0.006, 'thickness': 0.002, 'cells_along': 6, 'cells_across': 6, 'cells_through': 2},
+                 'boundaries': [{'set': 'top', 'kind': 'velocity', 'axes': ['x', 'y'], 'profile': 'smooth', 'times': [0, 2e-5, 8e-5], 'velocities': [[0, 0, 0], [0, 0, 0], [20, 0, 0]]}],
+                 'pressures': [{'set': 'top', 'profile': 'smooth', 'times': [0, 2e-5], 'values': [0, 20e6]}]}
+        sinks = {'kind': 'trajectory', 'profile': 'linear', 'times': [0, 8e-5, 1.4e-4, 3e-4], 'positions': [[0, 0, 0], [0, 0, 0], [0, 0, -0.001], [0, 0, -0.001]]}
+        forces = {}
+        for case, tools in (('one', [part('one', -0.001, 0.020)]), ('two', [part('left', -0.001, 0.007), part('right', 0.007, 0.020)]),
+                            ('sinking', [part('left', -0.001, 0.007, motion=sinks), part('right', 0.007, 0.020)])):
+            summary = self.run_scene(scene(block, dimension=3, duration=1.6e-4, tools=tools, output={'frames': 2, 'history_interval': 5e-7}))
+            self.assertEqual(summary['contact']['crossings'], 0, case)
+            forces[case] = [sum(float(row['tool_%s_force_x_N' % tool['name']]) for tool in tools) for row in self.history() if float(row['time_s']) > 9e-5]
+        for case in ('one', 'two'):
+            self.assertAlmostEqual(min(forces[case]) / 216, 1, delta=0.005)
+            self.assertAlmostEqual(max(forces[case]) / 216, 1, delta=0.005)
+        self.assertGreater(max(forces['sinking']), 2 * 216)
+
     def test_a_layer_below_the_rounding_of_places_is_refused(self):
         data = scene(body('strip'), tools=[{'name': 'table', 'normal': [0, 1]}], contact={'layer': 1e-16})
         with open(self.path('scene.yaml'), 'w') as file:
