@@ -206,7 +206,7 @@ class BadInput(OwnDirectory):
         self.refused(cells(0, 1, 1, 2), 'bodies[0].mesh')
         self.refused(cells(0, 1, 2, 3, points=SQUARE[:3] + [[0.0, math.nan, 0.0]]), 'bodies[0].mesh', 'nan')
         corners = [[0.0, 0.0, 0.0], [0.01, 0.0, 0.0], [0.0, 0.01, 0.0], [0.0, 0.0, 0.01], [0.0, 0.0, -0.01]]
-        solid = self.body(points=corners, cells=[0, 2, 1, 3, 0, 1, 2, 4], cell_type='tetrahedron')
+        solid = self.body(points=corners, cells=[0, 2, 1, 3, 0, 2, 1, 4], cell_type='tetrahedron')
         solid['dimension'] = 3
         self.refused(solid, 'bodies[0].mesh', 'inverted', 'positive volume')
         self.refused(cells(0, 1, 2, 3, kind='pentagon'), 'bodies[0].mesh.cell_type', 'pentagon')

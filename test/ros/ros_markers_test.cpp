@@ -213,10 +213,10 @@ TEST(RosMarkers, ThinningColoursTheSheetsAndNothingElse) {
 TEST(RosMarkers, ThePartOfTheFormingLimitColoursTheSheets) {
   const RunShape shape = section(2, 2);
   RunFrame frame = at_rest(shape);
-  coloured(shape, frame, "limit_ratio", "limit ratio", "0");
+  coloured(shape, frame, "limit_ratio", "limit_ratio", "0");
   frame.limit_ratio.assign(frame.positions.size(), std::nan(""));
   frame.limit_ratio[4] = 0.9;
-  coloured(shape, frame, "limit_ratio", "limit ratio", "0.9");
+  coloured(shape, frame, "limit_ratio", "limit_ratio", "0.9");
 }
 
 TEST(RosMarkers, DamageColoursTheBodiesThatHaveIt) {

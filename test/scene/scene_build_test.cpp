@@ -172,13 +172,13 @@ TEST(SceneBuild, VelocitiesAreNumbersEverywhere) {
   expect_geometry_fault(scene, "bodies[0].initial_velocity_field", "'1/(x - 0.01)' is inf at (0.01, 0, 0) m");
 }
 
-TEST(SceneBuild, InvertedCellsAndMissingFiles) {
+TEST(SceneBuild, FlatCellsAndMissingFiles) {
   Scene scene = plate_scene();
   scene.bodies[0].blank.reset();
   MeshConfig mesh;
   mesh.unit_scale = 0.01;
-  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  mesh.cells = {0, 2, 1, 3};
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  mesh.cells = {0, 1, 2, 3};
   mesh.cell_type = "tetrahedron";
   scene.bodies[0].mesh = mesh;
   expect_geometry_fault(scene, "bodies[0].mesh", "volume");
