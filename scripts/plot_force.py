@@ -59,15 +59,15 @@ def travel(positions):
 
 
 def way_of(name, all_tools, times):
-    """(values in mm or ms, label) of what the force on a tool is drawn over: its own stroke, where it rests that of the tool that moves most, where all rest the time."""
+    """(values, unit, label) of what the force on a tool is drawn over: its own stroke, where it rests that of the tool that moves most, where all rest the time."""
     ways = {tool: np.abs(travel(positions)[1]).max() for tool, (positions, _) in all_tools.items()}
     mover = max(ways, key=ways.get)
     if ways[mover] == 0:
-        return 1e3 * times, "time [ms]"
+        return 1e3 * times, "ms", "time"
     mover = name if ways[name] > RESTS * ways[mover] else mover
     axis, displacement = travel(all_tools[mover][0])
     direction = np.sign(displacement[np.argmax(np.abs(displacement))])
-    return 1e3 * direction * displacement, f"stroke of {mover} along {AXES[axis]} [mm]"
+    return 1e3 * direction * displacement, "mm", f"stroke of {mover} along {AXES[axis]}"
 
 
 def main():
@@ -87,9 +87,10 @@ def main():
         sys.exit(f"--tool: given {name}; the tools are {', '.join(all_tools)}")
     forces = all_tools[name][1]
     axis = AXES.index(options.axis) if options.axis else int(np.argmax(np.abs(forces).max(axis=0)))
-    way, label = way_of(name, all_tools, columns["time_s"])
+    way, way_unit, label = way_of(name, all_tools, columns["time_s"])
     peak = int(np.argmax(np.abs(forces[:, axis])))
-    force = 1e-3 * (np.sign(forces[peak, axis]) or 1.0) * forces[:, axis]  # the largest is positive
+    sign = np.sign(forces[peak, axis]) or 1.0
+    force = 1e-3 * sign * forces[:, axis]  # the largest is positive
 
     plane_strain = any(column.endswith("_N_per_m") for column in columns)
     figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
@@ -103,10 +104,10 @@ def main():
             axes.plot(way[rows], force[rows], color=colour, linewidth=1.6, label=stage)
     unit = "N/mm" if plane_strain else "kN"
     axes.plot(way[peak], force[peak], "o", color="tab:red", markersize=5,
-              label=f"peak {force[peak]:.4g} {unit} at {way[peak]:.3g} {label[-3:-1]}")
+              label=f"peak {force[peak]:.4g} {unit} at {way[peak]:.3g} {way_unit}")
     axes.axhline(0, color="0.6", linewidth=0.8)
-    axes.set_xlabel(label)
-    axes.set_ylabel(f"force on {name} along {AXES[axis]}" + (" per width" if plane_strain else "") + f" [{unit}]")
+    axes.set_xlabel(f"{label} [{way_unit}]")
+    axes.set_ylabel(f"force on {name} along {'-' if sign < 0 else ''}{AXES[axis]}" + (" per width" if plane_strain else "") + f" [{unit}]")
     axes.grid(alpha=0.3)
     axes.legend(frameon=False)
     output = options.output or os.path.join(os.path.dirname(options.history), "force.png")

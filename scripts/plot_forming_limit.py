@@ -4,7 +4,7 @@ facet of the sheets, the larger over the smaller, true strains. Of bodies whose 
 
 The sheet is the facets whose nodes are all in the set `top` or all in `bottom` of their body (or in the other two sides that its thickness is between, as `inside` and `outside` of a tube); --set
 chooses others, and shows the strains of the surface itself. A limit curve, given as a CSV of rows "minor,major" in true strain, is drawn with it, and
-what share of its area at the start lies beyond it is printed.
+what share of the area that it had when the run began lies beyond it is printed.
 """
 import argparse
 import csv

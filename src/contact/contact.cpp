@@ -69,7 +69,7 @@ Contact::Contact(const ContactSetup& setup, const NodeField& at, const std::vect
   m.body_shifts = part_bodies(m.layer, setup, m.features, x, m.warnings);
   const Sides sides = find_sides(m.layer, m.features, x, at_start);
   m.sides = sides.of_facet;
-  m.flush = Flush(m.layer, m.features, sides.of_facet, at_start);
+  m.flush = Flush(m.layer, m.features, sides.of_facet, x, at_start);
   set_back(kOutside * m.layer, sides, m.flush, setup, m.features, m.tools, m.warnings);
   check_start(m.layer, m.sides, m.flush, setup, x, at_start, m.features, m.tools, m.warnings);
   m.tools.place_all(m.features, at_start, place);  // set back

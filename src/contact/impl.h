@@ -35,7 +35,6 @@ struct Contact::Impl {
   Features features;
   std::vector<int> body_vertices;  ///< on surfaces
   ToolSet tools;
-  Flush flush;
   std::vector<Tie> ties;
   std::vector<std::string> body_names;
   std::vector<Vec3> body_shifts;
@@ -51,6 +50,7 @@ struct Contact::Impl {
   std::vector<int> held_of;
   double damping = 0;       ///< of the kick, 1/s
   double inertia = 1;       ///< 1 + a/2: by so much the workspace's masses are heavier, since damping acts on what contact does too
+  Flush flush;              ///< which writes what of the features is about joints
   // ---- what the next step depends on
   PairRecords records;
   double thickest = 0;      ///< of their layers, at least `layer`

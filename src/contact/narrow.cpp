@@ -215,7 +215,7 @@ class Phase {
     if (distance > range_.reach || !(distance > 0) || !offered(askew, distance)) return;
     const double s = pack.s[l], t = pack.t[l];
     const Node normal = node(pack.normal[0][l], pack.normal[1][l], pack.normal[2][l]);
-    if (f_.edges[e.second].is_over_joint(t, normal, kWedge)) return;
+    if (lies_over(f_.edges[e.second], t, distance * normal)) return;
     out_.pairs.emplace_back(PairKey::make(PairKey::edge_edge, e.first, 0, e.second), e.own, e.surface, distance, askew, normal);
     ContactPair& pair = out_.pairs.back();
     pair.link({e.node[0], e.node[1], e.node[2], e.node[3]}, 1 - s, s, t - 1, -t);
@@ -267,8 +267,14 @@ class Phase {
     const Closest& c = hit.closest;
     if (f_.joint_vertex.empty() || c.feature == Closest::face) return false;
     const int id = static_cast<int>(hit.feature & 0xffffffffu);
-    if (c.feature == Closest::edge) return f_.edges[id].is_over_joint(c.weight[c.which == 2 ? 2 : c.which + 1], c.apart, kWedge);
-    return f_.rigid(id) && dot3(c.apart, f_.joint_vertex[id - f_.body_nodes]) > kWedge * hit.distance;
+    if (c.feature == Closest::edge) return lies_over(f_.edges[id], c.weight[c.which == 2 ? 2 : c.which + 1], c.apart);
+    const int joint = f_.rigid(id) ? f_.joint_vertex[id - f_.body_nodes] : -1;
+    return joint >= 0 && f_.joint_parts[joint].is_over(0, c.apart, kWedge);
+  }
+  bool lies_over(const Features::Edge& edge, double s, const Node& apart) const {
+    for (int j = 0; j < edge.joints; ++j)
+      if (f_.joint_parts[edge.first_joint + j].is_over(s, apart, kWedge)) return true;
+    return false;
   }
 
   void add(const NearList& list, const NearList::VertexGroup& g, const Hit& hit) {

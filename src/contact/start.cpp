@@ -303,7 +303,7 @@ std::vector<Vec3> part_bodies(double layer, const ContactSetup& setup, const Fea
   return shifts;
 }
 
-void check_start(double layer, const std::vector<int>& sides, const Flush& flush, const ContactSetup& setup, const NodeField& x,
+void check_start(double layer, const std::vector<int>& sides, Flush& flush, const ContactSetup& setup, const NodeField& x,
                  const std::vector<ToolMotion>& at_start, Features& f, ToolSet& tools, std::vector<std::string>& warnings) {
   const Start start(layer, sides, setup, x, f, tools);
   std::vector<std::pair<double, std::string>> refused;  // with how deep it lies, m; what is all inside first
@@ -335,29 +335,36 @@ void check_start(double layer, const std::vector<int>& sides, const Flush& flush
     too_near[t] = close;
     gaps_of[t] = gaps;
   }
-  for (size_t t = 0; t < setup.tools.size(); ++t) {
-    const std::vector<int> together = flush.together(static_cast<int>(t));
-    if (together.front() != static_cast<int>(t)) continue;
-    const auto any = [&](const std::vector<bool>& of) { return std::any_of(together.begin(), together.end(), [&](int one) { return of[one]; }); };
-    if (!any(too_near) || any(told)) continue;
+  /// Moves these as one; false where there is no way out.
+  const auto back_off = [&](const std::vector<int>& those) {
     std::vector<StartGap> gaps;
     std::vector<std::string> names;
-    for (const int one : together) {
-      gaps.insert(gaps.end(), gaps_of[one].begin(), gaps_of[one].end());
-      names.push_back(setup.tools[one].name);
+    for (const int t : those) {
+      gaps.insert(gaps.end(), gaps_of[t].begin(), gaps_of[t].end());
+      names.push_back(setup.tools[t].name);
     }
     const Node shift = start.back_off(gaps);
-    if (shift.isZero(0) || shift.norm() > 8 * layer) continue;  // no way out: left as they are, the check below decides
-    for (const int one : together) {
-      const Vec3 local = at_start[one].rotation0.transpose() * vec3(shift);
-      for (int v : f.surfaces[f.bodies + one].vertices) f.place[v - f.body_nodes] += node(local);
-      if (tools.is_plane[one]) tools.point[one] += local;
+    if (shift.isZero(0) || shift.norm() > 8 * layer) return false;
+    for (const int t : those) {
+      const Vec3 local = at_start[t].rotation0.transpose() * vec3(shift);
+      for (int v : f.surfaces[f.bodies + t].vertices) f.place[v - f.body_nodes] += node(local);
+      if (tools.is_plane[t]) tools.point[t] += local;
     }
     const bool alone = names.size() == 1;
     std::ostringstream text;
     text << (alone ? "tool " : "tools ") << one_of(names, " and ") << (alone ? " touches or overlaps a body at the start: it was" : " touch or overlap a body at the start: together they were")
          << " backed off by " << length_and_direction(vec3(shift));
     warnings.push_back(text.str());
+    return true;
+  };
+  for (size_t t = 0; t < setup.tools.size(); ++t) {
+    const std::vector<int> together = flush.together(static_cast<int>(t));
+    const auto any = [&](const std::vector<bool>& of) { return std::any_of(together.begin(), together.end(), [&](int one) { return of[one]; }); };
+    if (together.front() != static_cast<int>(t) || !any(too_near)) continue;
+    if (!any(told) && back_off(together)) continue;
+    if (together.size() > 1) flush.part(together);
+    for (const int one : together)
+      if (together.size() > 1 && too_near[one] && !told[one]) back_off({one});  // where there is no way it is left as it is, the check below decides
   }
   if (!laid_on.empty()) {
     const bool one = laid_on.size() == 1;

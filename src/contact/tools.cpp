@@ -49,7 +49,7 @@ std::vector<bool> ToolSet::present(const std::vector<ToolMotion>& motion) {
 void set_back(double layer, const Sides& sides, const Flush& flush, const ContactSetup& setup, Features& f, ToolSet& tools,
               std::vector<std::string>& warnings) {
   // Least-squares mitre: the displacement u of a vertex with m.u = -layer for the
-  // normals m of all facets around it, 0 of those that lie back to back with another tool, and at the rim of a facet that has no side for the
+  // normals m of all facets around it, 0 of those that face the other tool of a joint, and at the rim of a facet that has no side for the
   // direction m that points out of it: a blade ends at its edge.
   std::vector<Mat3> a(f.place.size(), Mat3::Zero());
   std::vector<Vec3> b(f.place.size(), Vec3::Zero());
@@ -70,7 +70,7 @@ void set_back(double layer, const Sides& sides, const Flush& flush, const Contac
           const Node u = at((k + 1) % 3) - at(k), v = at((k + 2) % 3) - at(k);
           weight = std::atan2(cross3(u, v).norm(), dot3(u, v));
         }
-        add(c[k], weight, m, flush.covers(i) ? 0 : layer);
+        add(c[k], weight, m, flush.faces_joint(i, c[k]) ? 0 : layer);
         if (side != 0) continue;
         if (f.dimension == 2 && f.facets_at_vertex[c[k]] == 1) add(c[k], 1, vec3(at(k) - at(1 - k)).normalized(), layer);
         if (f.dimension == 3 && f.edges[f.facet_edges[i][k]].facets == 1) {

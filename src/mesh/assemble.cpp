@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "forming_sim/config/fault.h"
+#include "forming_sim/config/words.h"
 #include "forming_sim/mesh/cell_tables.h"
 #include "forming_sim/mesh/measure.h"
 #include "forming_sim/mesh/seams.h"
@@ -14,10 +15,17 @@
 namespace forming_sim {
 namespace {
 
+constexpr double kFlat = 1e-9;         // of the body's size: z of a body of dimension 2
 constexpr std::size_t kNamed = 5;      // cells named in a message
 
 [[noreturn]] void refuse(const RawMesh& raw, const std::string& what) {
   throw Error(Code::mesh_error, raw.source + ": " + what);
+}
+
+/// What is wrong with the group where one is wanted, else with the source.
+[[noreturn]] void refuse_group(const RawMesh& raw, const std::string& what) {
+  if (raw.group.empty()) refuse(raw, what);
+  throw SceneError({{Code::mesh_error, "group", given_text(raw.group), what}});
 }
 
 void check_points(const RawMesh& raw) {
@@ -33,8 +41,8 @@ void lay_flat(RawMesh& raw) {
   for (std::size_t p = 0; p < raw.points.size(); ++p) {
     double& z = raw.points[p].z();
     if (std::abs(z) > kFlat * box.diagonal().norm())
-      refuse(raw, "node " + std::to_string(raw.point_tags[p]) + " of a mesh of triangles and quadrilaterals lies at " +
-                      place(raw.points[p]) + "; a body of dimension 2 lies in z = 0, and a solid one needs tetrahedra or hexahedra");
+      refuse_group(raw, "node " + std::to_string(raw.point_tags[p]) + " of a mesh of triangles and quadrilaterals lies at " + place(raw.points[p]) +
+                            "; a body of dimension 2 lies in z = 0, and a solid one needs tetrahedra or hexahedra" + (raw.volumes.empty() ? "" : ": groups of these are " + raw.volumes));
     z = 0;
   }
   for (RawCell& cell : raw.cells) {
@@ -57,6 +65,7 @@ void turn_mirrored(RawMesh& raw) {
     return (raw.points[cell.nodes[next[0]]] - o).cross(raw.points[cell.nodes[next[1]]] - o).dot(raw.points[cell.nodes[next[2]]] - o);
   };
   if (std::any_of(raw.cells.begin(), raw.cells.end(), [&](const RawCell& cell) { return !(volume(cell) < 0); })) return;
+  if (raw.note.empty()) raw.note = raw.source + " has no cell that is not inverted: it was taken as a mirrored mesh, and its cells were turned round";
   for (RawCell& cell : raw.cells) {
     std::swap(cell.nodes[1], cell.nodes[cell.kind == RawKind::tetrahedron || cell.kind == RawKind::wedge ? 2 : 3]);
     if (cell.kind == RawKind::hexahedron) std::swap(cell.nodes[5], cell.nodes[7]);
@@ -262,7 +271,7 @@ const RawShape& shape_of(RawKind kind) {
   return shapes[static_cast<int>(kind)];
 }
 
-Mesh assemble(RawMesh raw) {
+Mesh assemble(RawMesh& raw) {
   check_points(raw);
   if (raw.dimension == 2) lay_flat(raw);
   else turn_mirrored(raw);

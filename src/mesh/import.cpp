@@ -76,8 +76,9 @@ Mesh load_body_mesh(const MeshConfig& config, const std::string& base_directory,
     refuse("mesh.pattern: given \"" + config.pattern + "\"; fine or one_point is needed");
   const auto finish = [&](RawMesh raw) {
     raw.one_point = config.pattern == "one_point";
+    Mesh mesh = assemble(raw);
     if (!raw.note.empty()) notes.push_back(raw.note);
-    return assemble(std::move(raw));
+    return mesh;
   };
   if (config.url.empty()) return finish(read_inline(config, config.cell_type));
   const std::string ending = ending_of(config.url);

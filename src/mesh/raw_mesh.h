@@ -8,8 +8,6 @@
 
 namespace forming_sim {
 
-constexpr double kFlat = 1e-9;  ///< of the size of a body of dimension 2: z of its nodes, at most
-
 /// What a source may hold; corners in the order of mesh.h. As wide as a tag, so that a RawCell has no padding.
 enum class RawKind : long long { point, line, triangle, quadrilateral, tetrahedron, hexahedron, wedge, pyramid };
 struct RawShape {
@@ -27,6 +25,8 @@ struct RawCell {
 struct RawMesh {
   std::string source;                  ///< as messages name it
   std::string note;                    ///< what of it is taken otherwise than its author may expect; empty: nothing
+  std::string group;                   ///< the one that is wanted; empty: all
+  std::string volumes;                 ///< names of the source's groups of volumes, where a group is wanted
   std::string wrong_group;             ///< why the group that is wanted is no body; empty: it is, and the rest holds
   int dimension = 3;
   bool one_point = false;              ///< quadrilaterals and hexahedra stay whole, with one point each
@@ -37,7 +37,7 @@ struct RawMesh {
 };
 
 /// Splits the cells, lays the groups out as sets, finds the surface and checks
-/// everything. Throws Error(mesh_error).
-Mesh assemble(RawMesh raw);
+/// everything; turns a mirrored mesh round, which `note` then says. Throws Error(mesh_error), SceneError where its group is to blame.
+Mesh assemble(RawMesh& raw);
 
 }  // namespace forming_sim

@@ -25,9 +25,8 @@ struct Candidate {
 
 [[noreturn]] void refuse_shared(const Mesh& mesh, const Candidate& c, int times) {
   std::ostringstream text;
-  text << "mesh: the facet between";
-  for (int n : c.facet.nodes)
-    if (n >= 0) text << ' ' << place(mesh.nodes[n]);
+  text << "mesh: the facet with the corners";
+  for (int k = 0; k < mesh.dimension; ++k) text << (k == 0 ? " " : ", ") << place(mesh.nodes[c.facet.nodes[k]]);
   text << " belongs to " << times
        << " elements; a facet lies between two elements or on the surface, so remove repeated or overlapping cells";
   throw Error(Code::mesh_error, text.str());

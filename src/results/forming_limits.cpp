@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "forming_sim/config/fault.h"
 #include "forming_sim/material/forming_limit.h"
 #include "forming_sim/results/nearest_point.h"
 
@@ -31,6 +32,7 @@ FormingLimits::FormingLimits(const Model& model) : middle_(model, has_limit), di
       if (facet.body == one.index) nodes.insert(nodes.end(), facet.nodes.begin(), facet.nodes.end());
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    if (nodes.empty()) throw Error(Code::invalid_scene, "body " + body->name + " has a forming limit and no two sides: name sets bottom and top");
     std::vector<Vec3> points;
     for (const int n : nodes) points.push_back(X[n - body->first_node]);
     const NearestPoint tree(points);

@@ -6,7 +6,7 @@
 
 #include "forming_sim/results/facet_grid.h"
 #include "forming_sim/results/nearest_point.h"
-#include "forming_sim/results/sheet_sides.h"
+#include "forming_sim/element/sheet_sides.h"
 
 namespace forming_sim {
 namespace {
@@ -49,6 +49,7 @@ Membrane::Membrane(const Model& model, bool (*wanted)(const BodyModel&)) : dimen
     }
     first_facet += static_cast<int>(body.mesh.surface.size());
   }
+  for (const SideFacet& facet : facets_) middle_.push_back(middle(facet, reference_));
 }
 
 /// other: the side across from the facets `from` to before `to`.
@@ -86,8 +87,8 @@ std::array<Vec3, 3> Membrane::middle(const SideFacet& facet, const NodeField& po
 
 std::vector<SurfaceStrain> Membrane::at(const NodeField& positions) const {
   std::vector<SurfaceStrain> strains;
-  for (const SideFacet& facet : facets_) {
-    const std::array<Vec3, 3> X = middle(facet, reference_), x = middle(facet, positions);
+  for (std::size_t i = 0; i < facets_.size(); ++i) {
+    const std::array<Vec3, 3>&X = middle_[i], x = middle(facets_[i], positions);
     strains.push_back(dimension_ == 2 ? strain_of_segment(X, x, axisymmetric_) : strain_of_triangle(X, x));
   }
   return strains;

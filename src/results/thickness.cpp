@@ -7,7 +7,7 @@
 #include "forming_sim/contact/tools.h"
 #include "forming_sim/results/facet_grid.h"
 #include "forming_sim/results/nearest_point.h"
-#include "forming_sim/results/sheet_sides.h"
+#include "forming_sim/element/sheet_sides.h"
 
 namespace forming_sim {
 namespace {

@@ -19,7 +19,7 @@ RosObserver::RosObserver(RunPublisher& publisher, std::string scene, Feedback fe
 void RosObserver::begin(const Simulation& simulation) {
   clock_.start(simulation.progress(), now_s());
   sheets_ = Thickness(simulation.model());
-  limits_.emplace(simulation.model());
+  limits_ = FormingLimits(simulation.model());
   publisher_.start(shape_of(simulation, scene_));
   begun_ = true;
 }
@@ -51,7 +51,7 @@ void RosObserver::tell(const Simulation& simulation, bool always, Code code, con
     if (publisher_.colours_by("thinning")) frame.thinning = sheets_.thinning(thickness);
   }
   if (publisher_.colours_by("damage")) frame.damage = simulation.damage();
-  if (publisher_.colours_by("limit_ratio")) frame.limit_ratio = limits_->at(simulation.positions()).ratio;
+  if (publisher_.colours_by("limit_ratio")) frame.limit_ratio = limits_.at(simulation.positions()).ratio;
   RunStatus status = status_of(simulation, frame, scene_, clock_.left(simulation.progress(), now_s()), thinnest);
   status.header = publisher_.header();
   status.running = code == Code::none;

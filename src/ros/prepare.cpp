@@ -43,6 +43,13 @@ void check_text(const std::string& scene_text, const Scene& scene, std::vector<F
   }
 }
 
+/// Why nothing can be written in it; empty: it can.
+std::string fault_of_directory(const fs::path& path) {
+  std::error_code unknown;
+  if (!fs::is_directory(path, unknown)) return path.string() + " is no directory";
+  return access(path.c_str(), W_OK | X_OK) == 0 ? "" : "cannot write in the directory " + path.string();
+}
+
 }  // namespace
 
 Prepared prepare(const SceneSpec& message, const std::string& scene_text, int threads) {
@@ -92,13 +99,8 @@ std::string make_output_directory(const std::string& given, const std::string& o
   } else {
     fs::create_directories(path, error);
   }
-  std::error_code unknown;
-  if (error || !fs::is_directory(path, unknown)) {
-    throw Error(Code::output_error, "cannot make the directory " + path.string() + " (" + error.message() + ")");
-  }
-  if (access(path.c_str(), W_OK | X_OK) != 0) {
-    throw Error(Code::output_error, "cannot write in the directory " + path.string());
-  }
+  if (error) throw Error(Code::output_error, "cannot make the directory " + path.string() + " (" + error.message() + ")");
+  if (const std::string why = fault_of_directory(path); !why.empty()) throw Error(Code::output_error, why);
   return fs::absolute(path).lexically_normal().string();
 }
 
@@ -107,9 +109,7 @@ std::string fault_of_root(const std::string& output_root) {
     fs::path there = fs::absolute(local_path(output_root, Code::output_error));
     std::error_code unknown;
     while (!fs::exists(there, unknown) && there.has_relative_path()) there = there.parent_path();
-    if (!fs::is_directory(there, unknown)) return there.string() + " is no directory";
-    if (access(there.c_str(), W_OK | X_OK) != 0) return "cannot write in the directory " + there.string();
-    return "";
+    return fault_of_directory(there);
   } catch (const Error& error) {
     return error.what();
   }

@@ -19,7 +19,7 @@
 #include "forming_sim/mesh/sweep.h"
 #include "forming_sim/mesh/trim.h"
 #include "forming_sim/parallel/interrupt.h"
-#include "forming_sim/results/sheet_sides.h"
+#include "forming_sim/element/sheet_sides.h"
 #include "approach.h"
 #include "formed_body.h"
 #include "rules.h"

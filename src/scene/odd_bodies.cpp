@@ -7,7 +7,7 @@
 #include "forming_sim/mesh/generate.h"
 #include "forming_sim/mesh/measure.h"
 #include "forming_sim/mesh/seams.h"
-#include "forming_sim/results/sheet_sides.h"
+#include "forming_sim/element/sheet_sides.h"
 #include "geometry.h"
 
 namespace forming_sim {

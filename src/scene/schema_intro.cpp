@@ -109,7 +109,7 @@ In dimension 3 a profile lies in the x-z plane, looked at along y with z upwards
         - {to: [0.05, 0, 0], radius: 0.05}
 ```
 
-A tool that touches a body at the start is backed off by what the contact layer needs, and the run says by how much; a
+Tools that stand flush side by side, as the parts of a divided die, are one to what slides over their joint, as long as they stand so. A tool that touches a body at the start is backed off by what the contact layer needs, and the run says by how much; a
 body that starts inside a tool is refused. A tool with an `approach` is put where it first touches the bodies (or a `gap` before that) when it comes from
 far away along a line, wherever its position is on that: `approach: {along: [0, 0, -1]}` lays a holder or a punch on a sheet, or on a formed part whose height nobody knows, and strokes count from there.
 A tool that is needed again when it has been withdrawn is listed twice, the second time under another name, out of the way and with `since` in its motion. The motion of a tool is a trajectory (where it is at given times, from
@@ -194,7 +194,7 @@ Into the directory of `--output`:
 | file | content |
 |---|---|
 | `result.h5` | the mesh once, and the fields of every frame, with units as attributes and the text of the scene; readable up to the last complete frame, whatever ends the run |
-| `result.xdmf`, `surface.xdmf` | open `result.h5` in ParaView and VTK: bodies and tools; the surface of the bodies with its strains |
+| `result.xdmf`, `surface.xdmf` | open `result.h5` in ParaView and VTK: bodies and tools; the surface of the bodies with its strains, and tools |
 | `history.csv` | a row per `history_interval`: time, energies, for every tool its force, place, moment about its place and, if it has an axle, how far it has turned about that, extremes, and for every probe its position, velocity and mean stress (xx yy zz xy yz zx), where boundaries hold or drive it the force and moment that they push with; the first line names the columns, with units |
 | `summary.json` | the result in figures |
 | `formed.h5` | with `output.formed`: the bodies as the run leaves them, for a next scene |

@@ -46,43 +46,53 @@ struct Found {
 Found find(const World& world) {
   ContactSetup setup;
   setup.dimension = world.dimension;
+  setup.config = world.config;
   setup.bodies = world.bodies;
   setup.tools = world.tools;
   for (const Mesh& mesh : world.meshes) setup.tool_meshes.push_back(&mesh);
   Found found{build_features(setup, world.x), {}};
   const auto motion = world.motion(0, 0);
-  found.flush = Flush(kLayer, found.f, find_sides(kLayer, found.f, world.x, motion).of_facet, motion);
+  found.flush = Flush(kLayer, found.f, find_sides(kLayer, found.f, world.x, motion).of_facet, world.x, motion);
   find_level_parts(found.f);
   found.flush.mark(motion, found.f);
   return found;
 }
 
-std::map<int, int> joints_of(const Features& f, bool level) {  // per surface
+/// Per surface how many edges are joints, all of them or in part.
+std::map<int, int> joints_of(const Features& f, bool whole) {
   std::map<int, int> count;
   for (const Features::Edge& edge : f.edges)
-    if (!edge.joint.isZero(0) && edge.level == level) ++count[edge.surface];
+    if (edge.joints > 0 && edge.level == whole) ++count[edge.surface];
   return count;
 }
+int joint_vertices(const Features& f) {
+  int count = 0;
+  for (const int joint : f.joint_vertex) count += joint >= 0;
+  return count;
+}
+bool at_height(const Features& f, const Features::Edge& edge, double z) { return f.place[edge.node[0] - f.body_nodes][2] == z && f.place[edge.node[1] - f.body_nodes][2] == z; }
 
 const Mesh kLeft = block(Vec3(-1, -.5, -.5), Vec3(0, .5, 0)), kRight = block(Vec3(0, -.5, -.5), Vec3(1, .5, 0));
 
 }  // namespace
 
-TEST(ContactFlush, BlocksSideBySideAreOne) {
-  const World world = world_of(3, {kLeft, kRight});
-  Found found = find(world);
-  EXPECT_EQ(joints_of(found.f, true), (std::map<int, int>{{1, 4}, {2, 4}}));  // the four sides of the face that each has on the other
+TEST(ContactFlush, BlocksSideBySideAreOneWhereBodiesAre) {
+  const Found found = find(world_of(3, {kLeft, kRight}));
+  EXPECT_EQ(joints_of(found.f, true), (std::map<int, int>{{1, 1}, {2, 1}}));  // above; no body is below or beside them
   EXPECT_TRUE(joints_of(found.f, false).empty());
-  int covered = 0, inside = 0;
-  for (std::size_t i = 0; i < found.f.facets.size(); ++i) covered += found.flush.covers(static_cast<int>(i));
-  for (const Node& way : found.f.joint_vertex) {
-    inside += !way.isZero(0);
-    EXPECT_NEAR(std::abs(way[0]), way.isZero(0) ? 0 : 1, 1e-12);
-  }
-  EXPECT_EQ(covered, 4);
-  EXPECT_EQ(inside, 8);
+  EXPECT_EQ(joint_vertices(found.f), 0);  // its ends are corners
   EXPECT_EQ(found.flush.together(0), (std::vector<int>{0, 1}));
-  for (const Features::Edge& edge : found.f.edges) EXPECT_GE(edge.joint[0] * (edge.surface == 1 ? 1 : -1), 0);  // out of its tool
+  int facing = 0;
+  for (std::size_t i = 0; i < found.f.facets.size(); ++i)
+    for (const int v : found.f.facets[i]) facing += found.flush.faces_joint(static_cast<int>(i), v);
+  EXPECT_EQ(facing, 2 * 3);  // the two triangles of each face that looks at the other, at the ends of its edge above
+  for (const Features::Edge& edge : found.f.edges)
+    for (int j = 0; j < edge.joints; ++j) {
+      const Features::JointPart& part = found.f.joint_parts[edge.first_joint + j];
+      EXPECT_TRUE(at_height(found.f, edge, 0));
+      EXPECT_NEAR(part.way[0], edge.surface == 1 ? 1 : -1, 1e-12);  // out of its tool
+      EXPECT_LT(part.slack, .05 * kLayer);
+    }
 }
 
 TEST(ContactFlush, AsLongAsTheyStandToEachOtherAsAtTheStart) {
@@ -94,38 +104,76 @@ TEST(ContactFlush, AsLongAsTheyStandToEachOtherAsAtTheStart) {
   EXPECT_FALSE(found.flush.mark(motion, found.f));
   motion[1].position1.z() -= 0.02 * kLayer;  // one, in this step
   EXPECT_TRUE(found.flush.mark(motion, found.f));
-  EXPECT_TRUE(joints_of(found.f, true).empty());
-  EXPECT_TRUE(joints_of(found.f, false).empty());
-  for (const Node& way : found.f.joint_vertex) EXPECT_TRUE(way.isZero(0));
+  EXPECT_TRUE(joints_of(found.f, true).empty() && joints_of(found.f, false).empty());
   motion[1].position1.z() = 5;
   EXPECT_TRUE(found.flush.mark(motion, found.f));
   EXPECT_EQ(joints_of(found.f, true).size(), 2u);
   motion[0].present = false;
   EXPECT_TRUE(found.flush.mark(motion, found.f));
   EXPECT_TRUE(joints_of(found.f, true).empty());
+  motion[0].present = true;
+  motion[0].freedom[0].inverse_mass = 1;  // a force drives it from now on
+  found.flush.mark(motion, found.f);
+  EXPECT_TRUE(joints_of(found.f, true).empty());
+}
+
+TEST(ContactFlush, TheWayOverAJointTurnsWithTheTools) {
+  const World world = world_of(3, {kLeft, kRight});
+  Found found = find(world);
+  auto motion = world.motion(0, 0);
+  for (ToolMotion& tool : motion) tool.rotation1 = Eigen::AngleAxisd(.5, Vec3::UnitY()).toRotationMatrix();
+  EXPECT_FALSE(found.flush.mark(motion, found.f));
+  for (ToolMotion& tool : motion) tool.rotation0 = tool.rotation1;
+  EXPECT_FALSE(found.flush.mark(motion, found.f));
+  for (const Features::Edge& edge : found.f.edges)
+    if (edge.joints > 0) {
+      EXPECT_NEAR((vec3(found.f.joint_parts[edge.first_joint].way) - (edge.surface == 1 ? 1 : -1) * Vec3(std::cos(.5), 0, -std::sin(.5))).norm(), 0, 1e-12);
+    }
 }
 
 TEST(ContactFlush, BesideANarrowerOnePartOfTheEdge) {
-  const World world = world_of(3, {kLeft, block(Vec3(0, -.25, -.5), Vec3(1, .25, 0))});
-  const Found found = find(world);
-  EXPECT_EQ(joints_of(found.f, true), (std::map<int, int>{{2, 2}}));  // above and below; its sides are edges beside the other's face
-  EXPECT_EQ(joints_of(found.f, false), (std::map<int, int>{{1, 2}}));
+  const Found found = find(world_of(3, {kLeft, block(Vec3(0, -.25, -.5), Vec3(1, .25, 0))}));
+  EXPECT_EQ(joints_of(found.f, true), (std::map<int, int>{{2, 1}}));
+  EXPECT_EQ(joints_of(found.f, false), (std::map<int, int>{{1, 1}}));
   for (const Features::Edge& edge : found.f.edges)
-    if (!edge.joint.isZero(0) && edge.surface == 1) {
-      EXPECT_NEAR(edge.joint_first, .25, 2 * kLayer);
-      EXPECT_NEAR(edge.joint_last, .75, 2 * kLayer);
+    if (edge.joints > 0 && edge.surface == 1) {
+      EXPECT_NEAR(found.f.joint_parts[edge.first_joint].first, .25, 2 * kLayer);
+      EXPECT_NEAR(found.f.joint_parts[edge.first_joint].last, .75, 2 * kLayer);
     }
-  for (const Node& way : found.f.joint_vertex) EXPECT_TRUE(way.isZero(0));
+  EXPECT_EQ(joint_vertices(found.f), 2);  // corners of the narrower: what comes over the wider has that below it
+  for (std::size_t v = 0; v < found.f.joint_vertex.size(); ++v) EXPECT_FALSE(found.f.joint_vertex[v] >= 0 && found.f.level_vertex[v]);
 }
 
-TEST(ContactFlush, NotWithAStepNorAGap) {
-  const Found stepped = find(world_of(3, {kLeft, block(Vec3(0, -.5, -.5), Vec3(1, .5, -.2 * kLayer))}));
-  EXPECT_EQ(joints_of(stepped.f, true), (std::map<int, int>{{1, 3}, {2, 3}}));  // bottoms and sides go on in each other
-  const auto is_low = [&](int v) { return stepped.f.place[v - stepped.f.body_nodes][2] == -.5; };
-  for (const Features::Edge& edge : stepped.f.edges) {
-    EXPECT_TRUE(edge.joint.isZero(0) || is_low(edge.node[0]) || is_low(edge.node[1]));
-  }
+TEST(ContactFlush, ALongEdgeBesideTwo) {
+  const Found found = find(world_of(3, {kLeft, block(Vec3(0, -.5, -.5), Vec3(1, .1, 0)), block(Vec3(0, .1, -.4), Vec3(1, .5, 0))}));
+  EXPECT_EQ(joints_of(found.f, true), (std::map<int, int>{{1, 1}, {2, 2}, {3, 2}}));
+  EXPECT_TRUE(joints_of(found.f, false).empty());
+  EXPECT_EQ(joint_vertices(found.f), 2);  // of each of the two the corner where three meet
+  EXPECT_EQ(found.flush.together(2), (std::vector<int>{0, 1, 2}));
+}
+
+TEST(ContactFlush, FourAroundAPoint) {
+  std::vector<Mesh> tools;
+  for (const double x : {-1., 0.})
+    for (const double y : {-1., 0.}) tools.push_back(block(Vec3(x, y, -.5), Vec3(x + 1, y + 1, 0)));
+  const Found found = find(world_of(3, tools));
+  EXPECT_EQ(joints_of(found.f, true), (std::map<int, int>{{1, 2}, {2, 2}, {3, 2}, {4, 2}}));
+  EXPECT_EQ(joint_vertices(found.f), 4);
+  for (std::size_t v = 0; v < found.f.joint_vertex.size(); ++v) EXPECT_EQ(found.f.joint_vertex[v] >= 0, found.f.level_vertex[v] && found.f.place[v].norm() == 0);
+}
+
+TEST(ContactFlush, NotWithAStepNorAGapNorOtherBodies) {
+  EXPECT_FALSE(find(world_of(3, {kLeft, block(Vec3(0, -.5, -.5), Vec3(1, .5, -.2 * kLayer))})).flush.any());
   EXPECT_FALSE(find(world_of(3, {kLeft, block(Vec3(.2 * kLayer, -.5, -.5), Vec3(1, .5, 0))})).flush.any());
+  World world = world_of(3, {kLeft, kRight});
+  world.config.pairs.push_back({});
+  world.config.pairs[0].first = world.bodies[0].name, world.config.pairs[0].second = "tool 1", world.config.pairs[0].kind = "none";
+  EXPECT_FALSE(find(world).flush.any());
+}
+
+TEST(ContactFlush, ASliverBesideNothing) {  // shorter than two layers
+  const Mesh sliver = triangles({Vec3(.5, 0, 0), Vec3(.5 + kLayer, 0, 0), Vec3(.6, .3, 0), Vec3(.5, .4, 0)}, {{0, 1, 2}, {0, 2, 3}});
+  EXPECT_FALSE(find(world_of(3, {kLeft, sliver})).flush.any());
 }
 
 TEST(ContactFlush, OpenSurfacesGoOnAtTheirBorders) {
@@ -137,13 +185,50 @@ TEST(ContactFlush, OpenSurfacesGoOnAtTheirBorders) {
   };
   const Found found = find(world_of(3, {half(-1, 0), half(0, 1)}));
   EXPECT_EQ(joints_of(found.f, true), (std::map<int, int>{{1, 2}, {2, 2}}));
-  int inside = 0;
-  for (std::size_t v = 0; v < found.f.joint_vertex.size(); ++v)
-    if (!found.f.joint_vertex[v].isZero(0)) {
-      ++inside;
-      EXPECT_EQ(found.f.place[v][1], 0);  // of the ridge; the rims end there
+  EXPECT_EQ(joint_vertices(found.f), 2);
+  for (std::size_t v = 0; v < found.f.joint_vertex.size(); ++v) EXPECT_TRUE(found.f.joint_vertex[v] < 0 || found.f.place[v][1] == 0);  // of the ridge; the rims end there
+  EXPECT_FALSE(find(world_of(3, {half(-1, 0), half(.2 * kLayer, 1)})).flush.any());
+}
+
+// Of an exact fit between walls flush with their floor below: no joint on the side where the body is, and the walls are set back as ever.
+TEST(ContactFlush, AChannelOfThreeIsSetBackAsOne) {
+  World world;
+  world.dimension = 3;
+  world.config.layer = kLayer;
+  world.add_box(Vec3(-.3, -.3, 0), 2, 2, 1, .3, 2700, 5e9);
+  for (const Mesh& mesh : {block(Vec3(-.3, -.5, -.5), Vec3(.3, .5, 0)), block(Vec3(-1, -.5, -.5), Vec3(-.3, .5, .5)), block(Vec3(.3, -.5, -.5), Vec3(1, .5, .5))})
+    world.add_tool("tool " + std::to_string(world.tools.size()), mesh, 0, [](double) { return Vec3::Zero(); });
+  Contact contact = world.make();
+  world.take_shifts(contact);
+  for (int i = 0; i < 20; ++i) world.step(contact, 1e-5);
+  EXPECT_EQ(world.crossings, 0);
+  EXPECT_NEAR(world.exchanged, 0, 1e-12);
+}
+
+// Over a slit that a file's digits leave there.
+TEST(ContactFlush, NothingSinksIntoASlit) {
+  for (const int dimension : {2, 3}) {
+    const double half = .04 * kLayer;
+    const Vec3 low(-1, -.5, -.5), high(1, dimension == 2 ? 0 : .5, 0);
+    World world;
+    world.dimension = dimension;
+    world.config.layer = kLayer;
+    if (dimension == 3) world.add_box(Vec3(-.3, -.3, 1.5 * kLayer), 2, 2, 1, .3, 2700, 5e9);
+    else world.add_strip(Vec3(-.3, 1.5 * kLayer, 0), 2, 1, .3, .3, 2700, 5e9);
+    world.add_tool("left", block(low, Vec3(-half, high.y(), high.z()), dimension), 0, [](double) { return Vec3::Zero(); });
+    world.add_tool("right", block(Vec3(half, low.y(), low.z()), high, dimension), 0, [](double) { return Vec3::Zero(); });
+    EXPECT_TRUE(find(world).flush.any());
+    world.gravity = dimension == 2 ? Vec3(0, -1e4, 0) : Vec3(0, 0, -1e4);
+    Contact contact = world.make();
+    world.take_shifts(contact);
+    double lowest = 1;
+    for (int i = 0; i < 3000; ++i) {
+      world.step(contact, 1e-5);
+      for (const Node& x : world.x) lowest = std::min(lowest, x[dimension - 1]);
     }
-  EXPECT_EQ(inside, 2);
+    EXPECT_EQ(world.crossings, 0) << dimension;
+    EXPECT_GT(lowest, -kLayer) << dimension;  // where they are set back
+  }
 }
 
 TEST(ContactFlush, WhatSlidesOverAJointFeelsOneTool) {

@@ -125,7 +125,7 @@ TEST(MeshImportBody, AGroupIsTakenAsTheBody) {
   config.group = "edge";
   EXPECT_TRUE(has(error_of([&] { body_mesh(config, dir.str()); }), "so it is no body"));
   config.group = "group_7";
-  EXPECT_TRUE(has(error_of([&] { body_mesh(config, dir.str()); }), "holds a surface in space, which is no body; "));
+  EXPECT_TRUE(has(error_of([&] { body_mesh(config, dir.str()); }), "a body of dimension 2 lies in z = 0, and a solid one needs tetrahedra or hexahedra: groups of these are body"));
 }
 
 TEST(MeshImportBody, ASectionOfTrianglesAndQuadrilaterals) {

@@ -91,7 +91,7 @@ TEST(MeshShapes, AFacetOfThreeElementsIsNamed) {
   mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {0, 0, 2}};
   mesh.cells = {{CellKind::tetrahedron, {0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 2, 5}}};
   const std::string text = error_of([&] { find_surface(mesh); });
-  EXPECT_TRUE(has(text, "between (0, 0, 0) m (0, 1, 0) m (1, 0, 0) m")) << text;
+  EXPECT_TRUE(has(text, "the facet with the corners (0, 0, 0) m, (0, 1, 0) m, (1, 0, 0) m")) << text;
   EXPECT_TRUE(has(text, "belongs to 3 elements")) << text;
 }
 

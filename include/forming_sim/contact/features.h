@@ -31,6 +31,17 @@ struct Features {
     int sticks_by = -1;               ///< of two bodies that stick whatever it takes the surface whose vertices do so first (contact/sticking.h); -1: of others (with a friction_limit, a body and itself, tools)
     bool limited() const { return meet && friction > 0 && friction_limit > 0; }
   };
+  /// Of a joint between two tools, as an edge or a vertex of one of them has it.
+  struct JointPart {
+    Node way = Node::Zero();          ///< over it, out of its tool
+    double slack = 0;                 ///< so far a vertex may be over it and still be in the slit, m
+    double first = 0, last = 1;       ///< of an edge, from node[0] to node[1]
+
+    /// Something at `apart` from its point at s is on the other side, where the other tool has it. slope: of the way there, at least.
+    bool is_over(double s, const Node& apart, double slope) const {
+      return s >= first && s <= last && apart.head<3>().dot(way.head<3>()) > slope * apart.head<3>().norm() + slack;
+    }
+  };
   struct Edge {
     int node[2] = {-1, -1};           ///< rising
     int surface = -1;
@@ -38,12 +49,7 @@ struct Features {
     int facet[2] = {-1, -1};          ///< the first two of them
     int opposite[2] = {-1, -1};       ///< their third corners
     bool level = false;               ///< of a tool: inside of a plane part of it (find_level_parts), or of one that goes on in another tool
-    Node joint = Node::Zero();        ///< of a joint with another tool (contact/flush.h) the way over it, out of this tool; else 0
-    double joint_first = 0, joint_last = 0;  ///< which part of the edge, of its way from node[0] to node[1]
-    /// Something at `apart` from its point at s is still on the other side of a joint, where the other tool has it. slope: of the way there, at least.
-    bool is_over_joint(double s, const Node& apart, double slope) const {
-      return s >= joint_first && s <= joint_last && apart.head<3>().dot(joint.head<3>()) > slope * apart.head<3>().norm();
-    }
+    int first_joint = -1, joints = 0; ///< of a tool: its joint_parts
   };
 
   int dimension = 3;
@@ -66,7 +72,8 @@ struct Features {
   std::vector<int> vertex_surface;              ///< -1: on no surface
   std::vector<double> area;                     ///< of body vertices: the area they stand for at set-up, m^2 (2D: per metre of width; axisymmetric: of the whole circle)
   std::vector<bool> level_vertex;               ///< of tools: all its edges are level, or it lies inside of a joint; index: vertex - body_nodes
-  NodeField joint_vertex;                       ///< of tools, as Edge::joint; empty where there are no joints; index: vertex - body_nodes
+  std::vector<JointPart> joint_parts;           ///< of edges and vertices that are none, since another tool goes on there (contact/flush.h)
+  std::vector<int> joint_vertex;                ///< of tools: which of joint_parts, -1: none; empty where there are no joints; index: vertex - body_nodes
   NodeField place;                              ///< of tool vertices in the tool's frame; index: vertex - body_nodes
   double smallest_edge = 0, mean_edge = 0;      ///< of the bodies' surfaces
 

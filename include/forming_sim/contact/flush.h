@@ -1,7 +1,8 @@
 #pragma once
-// Tools that stand side by side so that their faces go on in each other, as the parts of a divided die or an insert in it: the joint between them is no edge,
-// and where faces meet back to back there is no surface. What slides over the joint feels one tool, and its force is told of the part that it is on.
-// So it is as long as they stand to each other as at the start; of tools that go as they are pushed (freedom) it is never so.
+// Tools that stand side by side so that their faces go on in each other, as the parts of a divided die or an insert in it: the joint between them is no edge.
+// What slides over the joint feels one tool, and its force is told of the part that it is on.
+// So it is on the side of the faces on which the bodies are at the start, and as long as the tools stand to each other as then; of tools that go as they are
+// pushed (freedom), of planes, and of two that do not meet the same bodies it is never so.
 #include <utility>
 #include <vector>
 
@@ -12,14 +13,16 @@ namespace forming_sim {
 class Flush {
  public:
   Flush() = default;
-  /// Before the tools are set back. layer: h0, to within a tenth of which faces have to meet; sides: as Sides::of_facet.
-  Flush(double layer, const Features& features, const std::vector<int>& sides, const std::vector<ToolMotion>& at_start);
+  /// Before the tools are set back. layer: h0, to within a tenth of which faces have to meet; sides: as Sides::of_facet; x: of the bodies' nodes, m.
+  Flush(double layer, const Features& features, const std::vector<int>& sides, const NodeField& x, const std::vector<ToolMotion>& at_start);
   bool any() const { return !edges_.empty() || !vertices_.empty(); }
-  /// The facet lies back to back with one of another tool, all of it or in part.
-  bool covers(int facet) const { return !covered_.empty() && covered_[facet]; }
+  /// At this corner of it the facet faces the other tool of a joint: were it set back there, a slit would open.
+  bool faces_joint(int facet, int vertex) const;
   /// The tools that hang together so with tool t, itself among them, rising.
   std::vector<int> together(int t) const;
-  /// Sets what of Features is about joints (Edge::joint, joint_vertex, level), for the step of this motion; true where that is another than before.
+  /// These tools, and all that hang together with them, have no joints any more.
+  void part(const std::vector<int>& tools);
+  /// Sets what of Features is about joints (Edge::joints, joint_parts, joint_vertex, level), for the step of this motion; true where that is another than before.
   bool mark(const std::vector<ToolMotion>& motion, Features& features);
 
  private:
@@ -31,18 +34,24 @@ class Flush {
     double size = 0;                          ///< of the two, m
     bool stands = false;                      ///< to each other as at the start
   };
+  /// Of an edge, a part of it; or of a vertex.
   struct Joint {
-    int feature = 0;                          ///< edge or vertex
+    int feature = 0;
     std::vector<int> pairs;                   ///< of tools that make it one, all of which have to stand
     Node way = Node::Zero();                  ///< over it, out of its tool, in the tool's frame
-    double first = 0, last = 1;               ///< of an edge, which part of it
+    double gap = 0;                           ///< between the two tools there, m
+    double first = 0, last = 1;               ///< of an edge, which part
+    bool all_around = false;                  ///< of a vertex: whatever ends there goes on in other tools
   };
   bool stand(const Pair& pair, const ToolMotion& first, const ToolMotion& second, bool at_end) const;
+  bool is_one(const Joint& joint) const;
+  double slack(const Joint& joint) const;
 
   double layer_ = 0;
   std::vector<Pair> pairs_;
-  std::vector<char> covered_;                 ///< per facet; empty: none
-  std::vector<Joint> edges_, vertices_;
+  std::vector<std::pair<int, int>> facing_;   ///< facet and vertex, rising
+  std::vector<Joint> edges_, vertices_;       ///< by feature
+  bool marked_ = false, turned_ = false;      ///< once; in the step before
 };
 
 }  // namespace forming_sim

@@ -40,7 +40,7 @@ constexpr double kOutside = 1 + 1e-6;
 
 /// Moves the tools' vertices (features.place) and planes by `layer` away from
 /// the bodies, so that every facet moves by `layer` along its normal.
-/// Warns of patches with bodies on both sides, which stay where they are but for their rim. Where facets of two tools lie back to back they stay there.
+/// Warns of patches with bodies on both sides, which stay where they are but for their rim. What faces the other tool of a joint stays there.
 void set_back(double layer, const Sides& sides, const Flush& flush, const ContactSetup& setup, Features& features, ToolSet& tools,
               std::vector<std::string>& warnings);
 
@@ -57,9 +57,9 @@ std::vector<Vec3> part_bodies(double layer, const ContactSetup& setup, const Fea
                               std::vector<std::string>& warnings);
 
 /// Backs off tools that overlap a body by no more than 2 layers (before they
-/// were set back), those that hang together as one, reported in warnings.
+/// were set back), those that hang together as one where there is a way, reported in warnings; else they have no joints any more.
 /// Throws Error(initial_penetration) with the deeper ones.
-void check_start(double layer, const std::vector<int>& sides, const Flush& flush, const ContactSetup& setup, const NodeField& x,
+void check_start(double layer, const std::vector<int>& sides, Flush& flush, const ContactSetup& setup, const NodeField& x,
                  const std::vector<ToolMotion>& at_start, Features& features, ToolSet& tools, std::vector<std::string>& warnings);
 
 }  // namespace forming_sim

@@ -1,5 +1,5 @@
 #pragma once
-// Strains of the middle of sheets, between the two sides of a body (results/sheet_sides.h): what bending does to the one side and, the other way, to the other
+// Strains of the middle of sheets, between the two sides of a body (element/sheet_sides.h): what bending does to the one side and, the other way, to the other
 // is not in them. To every node of a side belongs the place on the other side that was nearest to it while the body was free of stress, a material point like
 // itself; the middle goes through the points halfway between them.
 #include <array>
@@ -13,6 +13,7 @@ namespace forming_sim {
 
 class Membrane {
  public:
+  Membrane() = default;
   /// Of the bodies for which `wanted` says so and which are sheets.
   Membrane(const Model& model, bool (*wanted)(const BodyModel&));
 
@@ -36,11 +37,12 @@ class Membrane {
   void oppose(std::size_t from, std::size_t to, const std::vector<std::array<int, 3>>& other);
   std::array<Vec3, 3> middle(const SideFacet& facet, const NodeField& positions) const;
 
-  int dimension_;
-  bool axisymmetric_;
+  int dimension_ = 3;
+  bool axisymmetric_ = false;
   NodeField reference_;             ///< of all nodes, m
   std::vector<SideFacet> facets_;
   std::vector<Opposite> opposite_;  ///< per node
+  std::vector<std::array<Vec3, 3>> middle_;  ///< per facet, while the body was free of stress
 };
 
 }  // namespace forming_sim

@@ -1,5 +1,5 @@
 #pragma once
-// Thickness of the sheets of a model, of the bodies that have two sides (results/sheet_sides.h), here called top and bottom: distance of the nodes of
+// Thickness of the sheets of a model, of the bodies that have two sides (element/sheet_sides.h), here called top and bottom: distance of the nodes of
 // `top` from the surface whose facets have all their nodes in `bottom`, through the metal: where a sheet curls up its top meets its own
 // bottom, of which what lay farther off at the start counts only straight across the metal.
 #include <array>

@@ -2,7 +2,6 @@
 // Watches a run for ROS: topics and feedback, at most publish_rate times a second.
 #include <chrono>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,7 +35,7 @@ class RosObserver : public Observer {
   Feedback feedback_;
   EtaClock clock_;
   Thickness sheets_;
-  std::optional<FormingLimits> limits_;  ///< from begin() on
+  FormingLimits limits_;
   bool begun_ = false;
 };
 

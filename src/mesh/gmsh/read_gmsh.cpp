@@ -2,8 +2,6 @@
 // A library of its own, which mesh/gmsh_reader.cpp loads with the first .msh.
 #include <gmsh.h>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <fstream>
 #include <map>
@@ -130,13 +128,6 @@ struct MeshReader {
     for (int entity : entities) append_cells(group.first, entity, cells);
   }
 
-  bool lies_flat() const {
-    Eigen::AlignedBox3d box;
-    for (const RawCell& cell : raw.cells)
-      for (int k = 0; k < shape_of(cell.kind).corners; ++k) box.extend(raw.points[cell.nodes[k]]);
-    return std::max(std::abs(box.min().z()), std::abs(box.max().z())) <= kFlat * box.diagonal().norm();
-  }
-
   void choose_body(const Groups& groups, const std::vector<std::string>& set_names, const std::string& wanted) {
     if (wanted.empty()) {
       for (int dimension = 3; dimension >= 2 && raw.cells.empty(); --dimension) {
@@ -159,13 +150,8 @@ struct MeshReader {
       if (groups[g].first == raw.dimension && is_wanted(g)) append_group(groups[g], raw.cells);
     if (raw.dimension < 2 || raw.cells.empty())
       throw WrongGroup{"this physical group of " + source + " holds no triangles, quadrilaterals, tetrahedra, hexahedra, wedges or pyramids, so it is no body"};
-    if (raw.dimension == 2 && !lies_flat()) {
-      std::string solid;
-      for (std::size_t g = 0; g < groups.size(); ++g)
-        if (groups[g].first == 3) solid += (solid.empty() ? "" : ", ") + set_names[g];
-      throw WrongGroup{"this physical group of " + source + " holds a surface in space, which is no body; " + (solid.empty() ? "the file has no groups of tetrahedra, hexahedra, wedges or pyramids" : "give a group of volumes, " + solid) +
-                       ", or leave the group out to take all volumes; a section lies in the plane z = 0"};
-    }
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      if (groups[g].first == 3) raw.volumes += (raw.volumes.empty() ? "" : ", ") + set_names[g];
   }
 
   // Neighbours in the body come near to each other, which the numbers of a mesh generator do not see to.
@@ -267,12 +253,14 @@ void forming_sim_read_gmsh(const std::string& path, const std::string& group, do
     archive.text(mesh.source);
     archive.text(mesh.note);
     archive.text(mesh.wrong_group);
+    archive.text(mesh.volumes);
     archive.number(mesh.dimension);
     archive.list(mesh.points);
     archive.list(mesh.point_tags);
     archive.list(mesh.cells);
     archive.lists(mesh.groups);
   });
+  body.group = group;
   if (!body.wrong_group.empty()) throw SceneError({{Code::mesh_error, "group", given_text(group), body.wrong_group}});
 }
 

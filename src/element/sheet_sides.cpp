@@ -1,4 +1,4 @@
-#include "forming_sim/results/sheet_sides.h"
+#include "forming_sim/element/sheet_sides.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
