@@ -362,9 +362,12 @@ void check_start(double layer, const std::vector<int>& sides, Flush& flush, cons
     const auto any = [&](const std::vector<bool>& of) { return std::any_of(together.begin(), together.end(), [&](int one) { return of[one]; }); };
     if (together.front() != static_cast<int>(t) || !any(too_near)) continue;
     if (!any(told) && back_off(together)) continue;
-    if (together.size() > 1) flush.part(together);
-    for (const int one : together)
-      if (together.size() > 1 && too_near[one] && !told[one]) back_off({one});  // where there is no way it is left as it is, the check below decides
+    if (together.size() == 1) continue;  // no way out: left as it is, the check below decides
+    flush.part(together);
+    for (const int one : together) {
+      if (too_near[one] && !told[one]) back_off({one});
+      too_near[one] = false;
+    }
   }
   if (!laid_on.empty()) {
     const bool one = laid_on.size() == 1;

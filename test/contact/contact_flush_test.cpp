@@ -205,6 +205,23 @@ TEST(ContactFlush, AChannelOfThreeIsSetBackAsOne) {
   EXPECT_NEAR(world.exchanged, 0, 1e-12);
 }
 
+// Two halves of a die, closed by half a layer more than what lies in it is wide: as one they have no way out.
+TEST(ContactFlush, HalvesThatHaveToPartAreBackedOffAlone) {
+  World world;
+  world.dimension = 2;
+  world.config.layer = kLayer;
+  world.add_strip(Vec3(-.3, 3 * kLayer, 0), 2, 1, .3, .3, 2700, 5e9);
+  const double wall = .3 - .5 * kLayer;
+  const auto half = [&](double side) { return contact_test::polyline({Vec3(side, -.5, 0), Vec3(0, -.5, 0), Vec3(0, 0, 0), Vec3(side * wall, 0, 0), Vec3(side * wall, .6, 0), Vec3(side, .6, 0)}, true); };
+  world.add_tool("left", half(-1), 0, [](double) { return Vec3::Zero(); });
+  world.add_tool("right", half(1), 0, [](double) { return Vec3::Zero(); });
+  EXPECT_TRUE(find(world).flush.any());
+  const Contact contact = world.make();
+  ASSERT_EQ(contact.warnings().size(), 2u);
+  EXPECT_EQ(contact.warnings()[0].find("tool left touches or overlaps a body at the start: it was backed off by "), 0u) << contact.warnings()[0];
+  EXPECT_EQ(contact.warnings()[1].find("tool right touches or overlaps a body at the start: it was backed off by "), 0u) << contact.warnings()[1];
+}
+
 // Over a slit that a file's digits leave there.
 TEST(ContactFlush, NothingSinksIntoASlit) {
   for (const int dimension : {2, 3}) {

@@ -400,11 +400,20 @@ TEST(MeshImportBody, CellsOnBothSidesCutAFaceAlike) {
 }
 
 // Its cells are all inverted; those of other meshes are told by their numbers.
-TEST(MeshImportBody, AMirroredMeshIsTurnedRound) {
-  EXPECT_NEAR(volume(body_mesh(given("hexahedron", kCube, {4, 5, 6, 7, 0, 1, 2, 3}), "")), 1, 1e-12);
-  EXPECT_NEAR(volume(body_mesh(given("wedge", {kCube[0], kCube[1], kCube[2], kCube[4], kCube[5], kCube[6]}, {3, 4, 5, 0, 1, 2}), "")), 0.5, 1e-12);
-  EXPECT_NEAR(volume(body_mesh(given("pyramid", {kCube[0], kCube[1], kCube[2], kCube[3], kCube[4]}, {0, 3, 2, 1, 4}), "")), 1. / 3, 1e-12);
-  EXPECT_NEAR(volume(body_mesh(given("tetrahedron", {kCube[0], kCube[1], kCube[2], kCube[4]}, {0, 2, 1, 3}), "")), 1. / 6, 1e-12);
+TEST(MeshImportBody, AMirroredMeshIsTurnedRoundAndTold) {
+  const auto turned = [](const std::string& kind, const std::vector<int>& points, const std::vector<int>& cell) {
+    MeshConfig config = given(kind, {}, cell);
+    for (const int p : points) config.points.push_back(kCube[p]);
+    std::vector<std::string> notes;
+    const double size = volume(load_body_mesh(config, "", notes));
+    EXPECT_EQ(notes.size(), 1u) << kind;
+    EXPECT_TRUE(!notes.empty() && has(notes[0], "mirrored")) << kind;
+    return size;
+  };
+  EXPECT_NEAR(turned("hexahedron", {0, 1, 2, 3, 4, 5, 6, 7}, {4, 5, 6, 7, 0, 1, 2, 3}), 1, 1e-12);
+  EXPECT_NEAR(turned("wedge", {0, 1, 2, 4, 5, 6}, {3, 4, 5, 0, 1, 2}), 0.5, 1e-12);
+  EXPECT_NEAR(turned("pyramid", {0, 1, 2, 3, 4}, {0, 3, 2, 1, 4}), 1. / 3, 1e-12);
+  EXPECT_NEAR(turned("tetrahedron", {0, 1, 2, 4}, {0, 2, 1, 3}), 1. / 6, 1e-12);
 }
 
 TEST(MeshImportBody, RepeatedCellsAreNamed) {
