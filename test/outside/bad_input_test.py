@@ -4,6 +4,7 @@
 usage: bad_input_test.py FORMING_OFFLINE
 """
 import copy
+import json
 import math
 import os
 import resource
@@ -210,6 +211,18 @@ class BadInput(OwnDirectory):
         solid['dimension'] = 3
         self.refused(solid, 'bodies[0].mesh', 'inverted', 'positive volume')
         self.refused(cells(0, 1, 2, 3, kind='pentagon'), 'bodies[0].mesh.cell_type', 'pentagon')
+
+    def test_a_refused_scene_says_that_the_other_files_are_of_an_earlier_run(self):
+        def summary():
+            with open(self.path('out/summary.json')) as file:
+                return json.load(file)
+        self.refused(self.changed(['dimension'], 7), 'dimension')
+        self.assertNotIn('warnings', summary())
+        self.write('scene.yaml', yaml.safe_dump(SCENE))
+        self.assertEqual(self.offline(self.path('scene.yaml'), '--output', self.path('out'), '--quiet').returncode, 0, self.said)
+        self.refused(self.changed(['dimension'], 7), 'dimension')
+        self.assertIn('of an earlier run', summary()['warnings'][0])
+        self.assertTrue(os.path.exists(self.path('out/result.h5')))
 
     def test_mesh_files(self):
         self.refused(self.body(url='none.msh'), 'bodies[0].mesh.url', 'none.msh')
