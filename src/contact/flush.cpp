@@ -182,7 +182,7 @@ Flush::Flush(double layer, const Features& f, const std::vector<int>& sides, con
             const double gap = standing.gap(others[k], p);
             if (gap > layer || !standing.goes_on(top, p, outward, others[k])) continue;
             Joint joint;
-            joint.feature = v, joint.pairs = {pairs[k]}, joint.way = in_frame(outward), joint.gap = gap, joint.all_around = true;
+            joint.feature = v, joint.pairs = {pairs[k]}, joint.way = in_frame(outward), joint.gap = gap, joint.level = true;
             vertices_.push_back(joint);
             for (const int back : facets)
               if (back != top) facing_.push_back({back, v});
@@ -236,6 +236,7 @@ Flush::Flush(double layer, const Features& f, const std::vector<int>& sides, con
       Joint joint;
       joint.feature = v;
       int borders = 0, joined = 0;
+      std::vector<int> seen;  // faces that end there
       for (const int e : edges_at[v]) {
         const Features::Edge& edge = f.edges[e];
         const int end = edge.node[0] == v ? 0 : 1;
@@ -245,6 +246,8 @@ Flush::Flush(double layer, const Features& f, const std::vector<int>& sides, con
           return standing.is_seen(edge.facet[k]) && !standing.is_covered(edge.facet[k], inside + layer / way.norm() * way, others);
         };
         const bool first = is_open(0), second = edge.facets == 2 && is_open(1);
+        if (first) seen.push_back(edge.facet[0]);
+        if (second) seen.push_back(edge.facet[1]);
         if (first == second) continue;  // a ridge, or inside of what is covered or level
         ++borders;
         for (const std::size_t j : those) {
@@ -256,8 +259,8 @@ Flush::Flush(double layer, const Features& f, const std::vector<int>& sides, con
           break;
         }
       }
-      joint.all_around = borders == joined && joined >= 2;
-      if (!joint.all_around) {
+      const bool all_around = borders == joined && joined >= 2;
+      if (!all_around) {
         // A corner of the smaller of two: all of the way over it is the other's face.
         joint = Joint();
         for (const std::size_t j : those) {
@@ -277,6 +280,8 @@ Flush::Flush(double layer, const Features& f, const std::vector<int>& sides, con
       const double length = joint.way.norm();
       if (!(length > kBack)) continue;  // ways that go against each other
       joint.way /= length;
+      const Node out = node(at_start[t].rotation0 * vec3(joint.way));
+      joint.level = all_around && std::all_of(seen.begin(), seen.end(), [&](int facet) { return std::abs(dot3(standing.normal(facet), out)) < kBack; });
       vertices_.push_back(joint);
     }
   }
@@ -357,10 +362,11 @@ bool Flush::mark(const std::vector<ToolMotion>& motion, Features& f) {
     edge.level = covered >= 1;
     i = end;
   }
-  f.joint_vertex.assign(f.place.size(), -1);
+  f.joint_vertex.assign(f.place.size(), Features::kNoJoint);
   for (const Joint& joint : vertices_) {
     const int place = joint.feature - f.body_nodes;
-    f.level_vertex[place] = is_one(joint) && joint.all_around;
+    f.level_vertex[place] = is_one(joint) && joint.level;
+    f.joint_vertex[place] = Features::kOpenJoint;
     if (!is_one(joint)) continue;
     f.joint_vertex[place] = static_cast<int>(f.joint_parts.size());
     f.joint_parts.push_back({way_of(joint, f.vertex_surface[joint.feature]), slack(joint), 0, 1});

@@ -271,6 +271,13 @@ class Phase {
     const int joint = f_.rigid(id) ? f_.joint_vertex[id - f_.body_nodes] : -1;
     return joint >= 0 && f_.joint_parts[joint].is_over(0, c.apart, kWedge);
   }
+  /// Of a joint, also where it has opened: a vertex between the two tools has nothing but their edges to stand on.
+  bool over_slit(const Hit& hit) const {
+    if (f_.joint_vertex.empty() || hit.closest.feature == Closest::face) return false;
+    const int id = static_cast<int>(hit.feature & 0xffffffffu);
+    if (hit.closest.feature == Closest::edge) return f_.edges[id].first_joint >= 0;
+    return f_.rigid(id) && f_.joint_vertex[id - f_.body_nodes] != Features::kNoJoint;
+  }
   bool lies_over(const Features::Edge& edge, double s, const Node& apart) const {
     for (int j = 0; j < edge.joints; ++j)
       if (f_.joint_parts[edge.first_joint + j].is_over(s, apart, kWedge)) return true;
@@ -298,7 +305,7 @@ class Phase {
       const double nearer = -sense * dot3(normal, along) - layer_;
       if (nearer > 0 && nearer * nearer > kWedge * kWedge * dot3(along, along)) askew = true;
     }
-    if (!offered(askew, gap)) return;
+    if (!offered(askew && !over_slit(hit), gap)) return;
     if (turned) {  // the same pair is found from both sides
       std::swap(first, second);
       std::swap(own, surface);

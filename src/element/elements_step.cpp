@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "element/group.h"
+#include "forming_sim/element/guard.h"
 #include "forming_sim/element/nodes.h"
 #include "forming_sim/element/one_point.h"
 #include "forming_sim/parallel/stage_clock.h"
@@ -134,6 +135,38 @@ NodalRates Elements::sum_rates(const CellRates& rates) const {
     }
   }
   return sum;
+}
+
+namespace {
+/// d ln V / dt of a simplex, in a ring without the hoop's part.
+double growth_of(const NodeField& x, const NodeField& v, const std::array<int, 4>& nodes, int dimension) {
+  Vec3 e[3] = {Vec3::Zero(), Vec3::Zero(), Vec3::UnitZ()}, w[3] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  for (int k = 0; k < dimension; ++k) e[k] = vec3(x[nodes[k + 1]] - x[nodes[0]]), w[k] = vec3(v[nodes[k + 1]] - v[nodes[0]]);
+  const double volume = e[0].cross(e[1]).dot(e[2]);
+  return (w[0].cross(e[1]).dot(e[2]) + e[0].cross(w[1]).dot(e[2]) + e[0].cross(e[1]).dot(w[2])) / volume;
+}
+}  // namespace
+
+Elements::GuardLimit Elements::guard_limit(const NodeField& x, const NodeField& v, const CellRates& rates, double thin) const {
+  constexpr double kAhead = 0.05;  // of J: what comes before the next look
+  GuardLimit limit;
+  std::vector<double> sum;  // per node, as sum_rates()
+  for (std::size_t k = 0; k < groups_.size(); ++k) {
+    const Group& g = groups_[k];
+    if (g.at_edges || g.cell_simplices != 1 || g.pressure != PressureMode::node) continue;
+    for (int cell = 0; cell < g.cells; ++cell) {
+      const int b = cell / kLanes, l = cell % kLanes, element = g.element(cell, 0);
+      const double J = volume_ratio(x, element), d = std::abs(J - 1) - kFreeOfGuard + kAhead;
+      if (rates[k][b].omega2[l] > thin) limit.change = std::max(limit.change, std::abs(J * growth_of(x, v, simplices_[element], dimension_)));
+      if (!(d > 0)) continue;
+      sum.resize(mass_.size(), 0.0);
+      const double part = kGuard * 3 * d * d * std::max(1.0, J * J);  // of K, which the cell's bound has whole, in the shape of now
+      for (int a = 0; a < g.cell_nodes; ++a)
+        sum[g.node_storage[(static_cast<std::size_t>(b) * g.cell_nodes + a) * kLanes + l]] += part * g.share[static_cast<std::size_t>(cell) * g.cell_nodes + a] * rates[k][b].omega2[l];
+    }
+  }
+  for (std::size_t n = 0; n < sum.size(); ++n) limit.omega2 = std::max(limit.omega2, sum[n] / mass_[n]);
+  return limit;
 }
 
 double Elements::slowest_wave() const {

@@ -12,6 +12,7 @@
 // is level where a stretch without change of volume begins, and the mesh gains more than the square there.
 // A run comes when the bound of some cell has risen by 3 %, after 2 steps for each product of the last run; when one has
 // risen by 1 % or fallen by 5 %, after 20 steps for each; in any case after 100.
+// What free simplices get from their guards comes on top (Elements::guard_limit): a sliver bears nothing until then, so that no run before knows of it.
 #include <algorithm>
 #include <vector>
 

@@ -84,7 +84,7 @@ void Simulation::Impl::take_step() {
   }
   place_tools();
   most = std::max(most, work + initial - std::min(0.0, contact_dissipated));
-  if (way.then) departure.step(way.departed, elements.slowest_wave());
+  if (way.then) departure.step(way.departed, elements.slowest_wave(), dt);
 }
 
 // The leapfrog's energy of a swing that is let go at rest, of amplitude a, is 1/2 omega^2 a^2 (1 - (omega dt/2)^2): by dt^2/8 f.M^-1 f less than the elastic one,

@@ -13,6 +13,8 @@
 namespace forming_sim {
 
 namespace {
+constexpr double kThin = 4;        ///< frequencies of a simplex over that of the mesh from which on it is a sliver, which the step of the mesh passes over
+constexpr double kChange = 0.03;    ///< of the volume of a sliver in a step
 constexpr double kCollapse = 1e-3;  ///< an element whose stable step falls to this part of the first is no element any more
 /// A step is at most this many times the last one. Steps of L and b L by turns, kicks between them of (1 + b) L/2, take a
 /// swing of frequency omega over both by a map of trace 2 - (1 + b)^2 z + (1 + b)^2 b z^2/4, z = (omega L)^2, below -2 where
@@ -67,7 +69,7 @@ void Simulation::Impl::find_stable_step() {
   const TimeStepConfig& config = plan.time_step;
   if (by_cells()) return control.update(cell.dt, false);
 
-  departure.look(v);
+  departure.look(v, cell.dt);
   const NodalRates nodal = elements.sum_rates(rates);
   const NodeLimit node = slowest_node(nodal, elements.nodal_mass());
   double stable = node.dt;
@@ -81,7 +83,9 @@ void Simulation::Impl::find_stable_step() {
     }
     double damping = 0;
     for (std::size_t n = 0; n < mass.size(); ++n) damping = std::max(damping, nodal.damping[n] / mass[n]);
-    const double whole = forming_sim::stable_step(global.omega2(rates), damping);
+    const double swings = global.omega2(rates);
+    const Elements::GuardLimit guard = elements.guard_limit(x, v, rates, kThin * kThin * swings);
+    const double whole = std::min(forming_sim::stable_step(swings + guard.omega2, damping), kChange / guard.change);
     if (whole > stable) {
       stable = whole;
       control.node = -1;

@@ -190,6 +190,17 @@ TEST(ContactFlush, OpenSurfacesGoOnAtTheirBorders) {
   EXPECT_FALSE(find(world_of(3, {half(-1, 0), half(.2 * kLayer, 1)})).flush.any());
 }
 
+TEST(ContactFlush, TheTipOfADividedPyramidIsStillATip) {
+  const auto half = [](double side) {
+    const std::vector<Vec3> points{Vec3(0, 0, 0), Vec3(side * .5, -.5, -.3), Vec3(side * .5, .5, -.3), Vec3(0, -.5, -.3), Vec3(0, .5, -.3)};
+    return triangles(points, {{0, 1, 2}, {0, 3, 1}, {0, 2, 4}, {0, 4, 3}, {1, 3, 4}, {1, 4, 2}});
+  };
+  const Found found = find(world_of(3, {half(-1), half(1)}));
+  EXPECT_EQ(joints_of(found.f, true), (std::map<int, int>{{1, 2}, {2, 2}}));
+  EXPECT_EQ(joint_vertices(found.f), 2);
+  for (std::size_t v = 0; v < found.f.level_vertex.size(); ++v) EXPECT_FALSE(found.f.level_vertex[v]);
+}
+
 // Of an exact fit between walls flush with their floor below: no joint on the side where the body is, and the walls are set back as ever.
 TEST(ContactFlush, AChannelOfThreeIsSetBackAsOne) {
   World world;

@@ -434,5 +434,42 @@ class Features(SceneRun):
         self.assertAlmostEqual(float(rows[-1]['probe_cut_reaction_force_y_N_per_m']) / (-pressure * inner), 1, delta=0.02)
 
 
+    def test_a_sliver_that_flexes_is_followed(self):
+        """Between two cubes whose faces have other diagonals lies a tetrahedron 3e-8 m thick: it bears nothing until it has changed by a fifth, and is stiff then."""
+        thick = 3e-8
+        points, cells = [], []
+
+        def node(point):
+            points.append(point)
+            return len(points) - 1
+        corner = {(i, j, k): node([i * 1e-3, j * 1e-3, k * 1e-3]) for i in range(3) for j in range(2) for k in range(2)}
+        points[corner[1, 0, 0]][0] -= thick
+        for i in (0, 1):
+            middle = node([(i + 0.5) * 1e-3, 0.5e-3, 0.5e-3])
+            quads = [[(i, 0, 0), (i, 0, 1), (i, 1, 1), (i, 1, 0)], [(i + 1, 0, 0), (i + 1, 1, 0), (i + 1, 1, 1), (i + 1, 0, 1)], [(i, 0, 0), (i + 1, 0, 0), (i + 1, 0, 1), (i, 0, 1)],
+                     [(i, 1, 0), (i, 1, 1), (i + 1, 1, 1), (i + 1, 1, 0)], [(i, 0, 0), (i, 1, 0), (i + 1, 1, 0), (i + 1, 0, 0)], [(i, 0, 1), (i + 1, 0, 1), (i + 1, 1, 1), (i, 1, 1)]]
+            for quad in quads:
+                a, b, c, d = (corner[q] for q in quad)
+                if i == 1 and quad[0] == (1, 0, 0) and quad[2] == (1, 1, 1):
+                    a, b, c, d = b, c, d, a  # the other diagonal
+                cells += [a, b, c, middle, a, c, d, middle]
+        a, b, c, d = corner[1, 0, 0], corner[1, 1, 0], corner[1, 1, 1], corner[1, 0, 1]
+        cells += [a, c, b, d]
+
+        def volume(t):
+            p = numpy.array([points[n] for n in t])
+            return numpy.linalg.det(p[1:] - p[0]) / 6
+        cells = [n for t in (cells[k:k + 4] for k in range(0, len(cells), 4)) for n in (t if volume(t) > 0 else [t[0], t[2], t[1], t[3]])]
+        for speed in (2e5, 2e6):  # of .025 and .25 m/s at the corners
+            part = {'name': 'cubes', 'mesh': {'points': points, 'cells': cells, 'cell_type': 'tetrahedron', 'unit_scale': 1.0}, 'material': dict(ALUMINIUM),
+                    'initial_velocity_field': [f'{speed}*(y-5e-4)*(z-5e-4)', '0', '0']}
+            steps = {}
+            for limit in ('node', 'global'):
+                summary = self.run_scene(scene(part, dimension=3, duration=2e-5, time_step={'limit': limit}))
+                self.assertLess(summary['energy_J']['balance_error'], 0.005)
+                steps[limit] = summary['steps']
+            self.assertLess(steps['global'], (0.4 if speed < 1e6 else 1.1) * steps['node'])
+
+
 if __name__ == '__main__':
     unittest.main(argv=sys.argv[:1] + sys.argv[2:])

@@ -49,7 +49,7 @@ struct Features {
     int facet[2] = {-1, -1};          ///< the first two of them
     int opposite[2] = {-1, -1};       ///< their third corners
     bool level = false;               ///< of a tool: inside of a plane part of it (find_level_parts), or of one that goes on in another tool
-    int first_joint = -1, joints = 0; ///< of a tool: its joint_parts
+    int first_joint = -1, joints = 0; ///< of a tool: its joint_parts; first_joint is -1 where there never were any
   };
 
   int dimension = 3;
@@ -73,7 +73,8 @@ struct Features {
   std::vector<double> area;                     ///< of body vertices: the area they stand for at set-up, m^2 (2D: per metre of width; axisymmetric: of the whole circle)
   std::vector<bool> level_vertex;               ///< of tools: all its edges are level, or it lies inside of a joint; index: vertex - body_nodes
   std::vector<JointPart> joint_parts;           ///< of edges and vertices that are none, since another tool goes on there (contact/flush.h)
-  std::vector<int> joint_vertex;                ///< of tools: which of joint_parts, -1: none; empty where there are no joints; index: vertex - body_nodes
+  static constexpr int kNoJoint = -1, kOpenJoint = -2;
+  std::vector<int> joint_vertex;                ///< of tools: which of joint_parts, kNoJoint, or kOpenJoint where the tools have parted; empty where there are no joints; index: vertex - body_nodes
   NodeField place;                              ///< of tool vertices in the tool's frame; index: vertex - body_nodes
   double smallest_edge = 0, mean_edge = 0;      ///< of the bodies' surfaces
 

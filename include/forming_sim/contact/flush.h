@@ -41,7 +41,7 @@ class Flush {
     Node way = Node::Zero();                  ///< over it, out of its tool, in the tool's frame
     double gap = 0;                           ///< between the two tools there, m
     double first = 0, last = 1;               ///< of an edge, which part
-    bool all_around = false;                  ///< of a vertex: whatever ends there goes on in other tools
+    bool level = false;                       ///< of a vertex: whatever ends there goes straight on in other tools
   };
   bool stand(const Pair& pair, const ToolMotion& first, const ToolMotion& second, bool at_end) const;
   bool is_one(const Joint& joint) const;

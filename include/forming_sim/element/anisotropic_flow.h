@@ -50,7 +50,7 @@ template <class T, int D, class Metric>
   // Newton's step on the root of Q_n + mu, along the flow of the end
   const T resistance = mean.modulus * contract(here.by_S(n), by_S) + T(3) * work(softer, here.by_s(n)) +
                        mean.slope * over * over * (T(4) * n.root * n.root * n.root + T(3) * n.varied * n.varied);
-  T L = share * T(2) * n.root * (n.root - T(1)) / larger(resistance, T(kNoResistance));
+  T L = share * T(2) * n.root * (n.root - T(1)) / some_resistance(resistance);
   // S : m/h of the end, which s follows: the edge lies where S will, not where its trial does
   const T falls = T(3) * work(softer, there.part);  // per L
   const auto turned = (to.Sm * (to.Sm - L * falls) < T(0)) & (to.edge > T(0));

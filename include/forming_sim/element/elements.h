@@ -90,6 +90,12 @@ class Elements {
   CellLimit slowest_cell(const CellRates& rates, const BodyModel* of = nullptr) const;  ///< of one body; null: of all
   /// Sums over the cells at each node; only with ElementOptions::shares.
   NodalRates sum_rates(const CellRates& rates) const;
+  /// Of slivers, free simplices that bear nothing until their guard acts (element/guard.h) and are stiff then: a bound on what guards add to omega^2 of the mesh
+  /// at x, 1/s2, and the largest |dJ/dt| of those whose own bound is above `thin`, 1/s2, in 1/s. rates: at x.
+  struct GuardLimit {
+    double omega2 = 0, change = 0;
+  };
+  GuardLimit guard_limit(const NodeField& x, const NodeField& v, const CellRates& rates, double thin) const;
   /// The weights of crossed triangles follow shapes that have left theirs (element/crossed.h), at x: to be asked now and then. Energies stay what they are.
   void renew_weights(const NodeField& x);
   /// kg more on each node, for good. It changes no cell's own rates.

@@ -160,8 +160,8 @@ template <class T> [[gnu::always_inline]] inline Normal<T> normal(const Products
 /// Roots of Q_n + mu from which Newton's step lands near the surface. From farther out it would turn s round.
 constexpr double kNearSurface = 1.5;
 
-/// Less than that of any stress. Cells of a pack that have none at all go along with those that flow, and perfect metal does not harden there.
-constexpr double kNoResistance = 1e-300;
+/// 1 in place of none: cells of a pack that have no stress at all go along with those that flow, and perfect metal does not harden there; the step they would take is 0.
+template <class T> T some_resistance(const T& resistance) { return select(absolute(resistance) > T(1e-300), resistance, T(1)); }
 
 /// Where one coordinate is farther outside than that, S and s go back along themselves first, as they would by the radial return.
 template <class T, int D>
@@ -201,7 +201,7 @@ template <class T, int D>
   const T& root = n.root;
   const T squared = n.along_S * (n.along_S * q.SS + T(2) * n.across * q.Ss) + n.across * n.across * q.ss;
   const T resistance = mean.modulus * squared + T(3) * work(softer, direction) + mean.slope * over * over * (T(4) * root * root * root + T(3) * n.varied * n.varied);
-  T L = share * T(2) * root * (root - T(1)) / larger(resistance, T(kNoResistance));
+  T L = share * T(2) * root * (root - T(1)) / some_resistance(resistance);
   const T of_S = mean.modulus * n.along_S, of_s = mean.modulus * n.across;  // S becomes (1 - L of_S) S - L of_s dev s
   const T kept = T(1) - L * of_S, lost = L * of_s, three = T(3) * L;
   const T after = kept * (q.Ss - three * work(softer, part)) - lost * (q.ss - three * work(softer, dev_s)) -
