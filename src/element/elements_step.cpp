@@ -156,8 +156,9 @@ Elements::GuardLimit Elements::guard_limit(const NodeField& x, const NodeField& 
     if (g.at_edges || g.cell_simplices != 1 || g.pressure != PressureMode::node) continue;
     for (int cell = 0; cell < g.cells; ++cell) {
       const int b = cell / kLanes, l = cell % kLanes, element = g.element(cell, 0);
+      if (!(rates[k][b].omega2[l] > thin)) continue;  // its own stiffness is in that of the mesh, and its guard is a small part of it
       const double J = volume_ratio(x, element), d = std::abs(J - 1) - kFreeOfGuard + kAhead;
-      if (rates[k][b].omega2[l] > thin) limit.change = std::max(limit.change, std::abs(J * growth_of(x, v, simplices_[element], dimension_)));
+      limit.change = std::max(limit.change, std::abs(J * growth_of(x, v, simplices_[element], dimension_)));
       if (!(d > 0)) continue;
       sum.resize(mass_.size(), 0.0);
       const double part = kGuard * 3 * d * d * std::max(1.0, J * J);  // of K, which the cell's bound has whole, in the shape of now

@@ -22,7 +22,11 @@ constexpr double kOddThickness = 0.3;               // of a blank, m: likewise
 double extent(const Mesh& mesh) { return mesh.nodes.empty() ? 0 : bounds(mesh).sizes().maxCoeff(); }
 
 /// Smallest extent along an axis, m; 0 without nodes.
-double least_extent(const Mesh& mesh) { return mesh.nodes.empty() ? 0 : bounds(mesh).sizes().head(mesh.dimension).minCoeff(); }
+double least_extent(const Mesh& mesh) {
+  if (mesh.nodes.empty()) return 0;
+  const Vec3 sizes = bounds(mesh).sizes();
+  return mesh.dimension == 2 ? std::min(sizes.x(), sizes.y()) : sizes.minCoeff();
+}
 
 /// Shortest edge of the surface, m; infinite without one.
 double shortest_edge(const Mesh& mesh) {

@@ -13,7 +13,7 @@
 namespace forming_sim {
 
 namespace {
-constexpr double kThin = 4;        ///< frequencies of a simplex over that of the mesh from which on it is a sliver, which the step of the mesh passes over
+constexpr double kThin = 2;        ///< frequencies of a simplex over that of the mesh from which on the step of the mesh passes over it
 constexpr double kChange = 0.03;    ///< of the volume of a sliver in a step
 constexpr double kCollapse = 1e-3;  ///< an element whose stable step falls to this part of the first is no element any more
 /// A step is at most this many times the last one. Steps of L and b L by turns, kicks between them of (1 + b) L/2, take a
