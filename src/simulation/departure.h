@@ -7,7 +7,7 @@
 // that they had by at most sum of dt max |v - v_then|. Few cells are much thinner than the way
 // c dt of a wave in a stable step, so that this makes a strain of about
 //   sum over the steps of max |v - v_then| / c,
-// twice that where two neighbours depart in opposite directions; where the thinnest cell is thinner than a sixteenth of that way, as the slivers
+// twice that where two neighbours depart in opposite directions; where the thinnest cell is thinner than a fourth of that way, as the slivers
 // that the step of the whole mesh passes over, so many times as much. Velocities alone enter, so that
 // the pass that moves the nodes finds it (element/nodes.h).
 #include <algorithm>
@@ -41,7 +41,7 @@ class Departure {
   }
 
  private:
-  static constexpr double kThin = 16;  ///< step of the mesh over that of its thinnest cell: up to that much a strain of .01 is one of .16 there, which is free (element/guard.h)
+  static constexpr double kThin = 4;  ///< steps of the mesh over that of its thinnest cell, with no more than which cells are much alike
   NodeField then_;
   double thinnest_ = 0, strain_ = 0;
 };
