@@ -64,10 +64,17 @@ void ProgressLine::on_end(const Simulation&, Code, const std::string&) {
 void EndTable::on_end(const Simulation& simulation, Code, const std::string&) {
   std::vector<std::string> warnings = simulation.warnings();
   std::optional<double> kinetic;  // over internal energy
+  struct FormingLimitRow {
+    std::string body;
+    double most, beyond;
+  };
+  std::vector<FormingLimitRow> limits;
   try {
     const auto summary = nlohmann::json::parse(read_summary_text(directory_));
     warnings = summary.at("warnings").get<std::vector<std::string>>();
     if (const auto& most = summary.at("energy_J").at("kinetic_over_internal_forming"); most.is_number()) kinetic = most.get<double>();
+    for (const auto& limit : summary.at("forming_limit"))
+      if (const auto &most = limit.at("at_end").at("max"), &beyond = limit.at("beyond"); most.is_number() && beyond.is_number()) limits.push_back({limit.at("body"), most, beyond});
   } catch (const Error&) {}  // the disk is full, say: that is told already
   const std::vector<double> strain = simulation.plastic_strain();
   const ContactStatus contact = simulation.contact_status();
@@ -78,9 +85,7 @@ void EndTable::on_end(const Simulation& simulation, Code, const std::string&) {
   const std::vector<double> damage = simulation.damage();
   for (const BodyModel* body : with_damage(simulation.model()))
     std::printf("damage of %-10s %.4g (%s)\n", body->name.c_str(), *std::max_element(damage.begin() + body->first_element, damage.begin() + body->first_element + body->element_count), body->material.damage->criterion.c_str());
-  const FormingLimits::State limits = FormingLimits(simulation.model()).at(simulation.positions());
-  for (std::size_t k = 0; k < limits.greatest.size(); ++k)
-    std::printf("forming limit of %-4s %.4g of it at most, beyond it %.3g %% of the sheet\n", with_forming_limit(simulation.model())[k]->name.c_str(), limits.greatest[k].value, 100 * limits.beyond[k]);
+  for (const FormingLimitRow& limit : limits) std::printf("forming limit of %-4s %.4g of it at most, beyond it %.3g %% of the sheet\n", limit.body.c_str(), limit.most, 100 * limit.beyond);
   if (kinetic) std::printf("kinetic / internal   %.3g at most while forming\n", *kinetic);
   std::printf("balance error        %.3g\n", simulation.balance_error());
   std::printf("crossings            %ld\nsmallest gap / layer %.3g\n", contact.crossings, contact.min_gap_over_layer);

@@ -2,10 +2,10 @@
 
 #include <functional>
 
+#include "forming_sim/element/sheet_sides.h"
 #include "forming_sim/material/damage.h"
 #include "forming_sim/results/history.h"
 #include "forming_sim/results/version.h"
-#include "forming_sim/element/sheet_sides.h"
 #include "forming_sim/scene/yaml.h"
 
 namespace forming_sim {

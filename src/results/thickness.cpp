@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "forming_sim/contact/facet_grid.h"
 #include "forming_sim/contact/tools.h"
-#include "forming_sim/results/facet_grid.h"
-#include "forming_sim/results/nearest_point.h"
 #include "forming_sim/element/sheet_sides.h"
+#include "forming_sim/results/nearest_point.h"
 
 namespace forming_sim {
 namespace {

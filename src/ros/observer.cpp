@@ -19,7 +19,7 @@ RosObserver::RosObserver(RunPublisher& publisher, std::string scene, Feedback fe
 void RosObserver::begin(const Simulation& simulation) {
   clock_.start(simulation.progress(), now_s());
   sheets_ = Thickness(simulation.model());
-  limits_ = FormingLimits(simulation.model());
+  if (publisher_.colours_by("limit_ratio")) limits_ = FormingLimits(simulation.model());
   publisher_.start(shape_of(simulation, scene_));
   begun_ = true;
 }

@@ -7,6 +7,7 @@
 
 #include "forming_sim/config/formula_field.h"
 #include "forming_sim/config/words.h"
+#include "forming_sim/element/sheet_sides.h"
 #include "forming_sim/loads/motion.h"
 #include "forming_sim/loads/rotation.h"
 #include "forming_sim/mesh/axis.h"
@@ -19,7 +20,6 @@
 #include "forming_sim/mesh/sweep.h"
 #include "forming_sim/mesh/trim.h"
 #include "forming_sim/parallel/interrupt.h"
-#include "forming_sim/element/sheet_sides.h"
 #include "approach.h"
 #include "formed_body.h"
 #include "rules.h"

@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "forming_sim/config/words.h"
+#include "forming_sim/element/sheet_sides.h"
 #include "forming_sim/loads/boundary.h"
 #include "forming_sim/mesh/generate.h"
 #include "forming_sim/mesh/measure.h"
 #include "forming_sim/mesh/seams.h"
-#include "forming_sim/element/sheet_sides.h"
 #include "geometry.h"
 
 namespace forming_sim {

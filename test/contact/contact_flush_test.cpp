@@ -44,13 +44,7 @@ struct Found {
   Flush flush;
 };
 Found find(const World& world) {
-  ContactSetup setup;
-  setup.dimension = world.dimension;
-  setup.config = world.config;
-  setup.bodies = world.bodies;
-  setup.tools = world.tools;
-  for (const Mesh& mesh : world.meshes) setup.tool_meshes.push_back(&mesh);
-  Found found{build_features(setup, world.x), {}};
+  Found found{build_features(world.setup(), world.x), {}};
   const auto motion = world.motion(0, 0);
   found.flush = Flush(kLayer, found.f, find_sides(kLayer, found.f, world.x, motion).of_facet, world.x, motion);
   find_level_parts(found.f);

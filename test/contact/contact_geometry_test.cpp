@@ -431,12 +431,7 @@ TEST(ContactSearch, ListAgainstAllPairs) {
       world.add_tool("die", contact_test::sheet(9, 1.1, [](double a, double b) { return .05 * std::sin(5 * a) * std::cos(4 * b); }), 0,
                      [](double) { return Vec3(.013, .017, 0); });
     }
-    ContactSetup setup;
-    setup.dimension = dimension;
-    setup.bodies = world.bodies;
-    setup.tools = world.tools;
-    setup.tool_meshes = {&world.meshes[0]};
-    const Features f = build_features(setup, world.x);
+    const Features f = build_features(world.setup(), world.x);
     // The tool turned and moved: the search goes into its frame.
     std::vector<ToolMotion> motion(1);
     motion[0].position0 = world.path[0](0);

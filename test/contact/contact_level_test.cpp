@@ -30,20 +30,11 @@ World box_on_roof(double high, double speed) {
   return world;
 }
 
-ContactSetup setup_of(const World& world) {
-  ContactSetup setup;
-  setup.dimension = 3;
-  setup.bodies = world.bodies;
-  setup.tools = world.tools;
-  setup.tool_meshes = {&world.meshes[0]};
-  return setup;
-}
-
 }  // namespace
 
 TEST(ContactLevel, EdgesInsideOfPlaneParts) {
   World world = box_on_roof(.3, 0);
-  Features f = build_features(setup_of(world), world.x);
+  Features f = build_features(world.setup(), world.x);
   find_level_parts(f);
   const auto at = [&](int v) { return f.place[v - f.body_nodes]; };
   int level = 0, ridge = 0, border = 0;
@@ -68,7 +59,7 @@ TEST(ContactLevel, EdgesInsideOfPlaneParts) {
 TEST(ContactLevel, NoMoreThanAPlane) {
   for (const auto& [high, expected] : {std::pair(0., true), std::pair(2e-6, false)}) {
     World world = box_on_roof(high, 0);
-    Features f = build_features(setup_of(world), world.x);
+    Features f = build_features(world.setup(), world.x);
     find_level_parts(f);
     for (const Features::Edge& e : f.edges)
       if (f.rigid(e.node[0]) && e.facets == 2 && f.place[e.node[0] - f.body_nodes][0] == 0 && f.place[e.node[1] - f.body_nodes][0] == 0) {
@@ -79,7 +70,7 @@ TEST(ContactLevel, NoMoreThanAPlane) {
   world.dimension = 3;
   world.add_box(Vec3(-.5, -.5, 1), 1, 1, 1, .5, 2700, 5e9);
   world.add_tool("folded", contact_test::triangles({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(.4, .5, 0), Vec3(.6, .7, 0)}, {{0, 1, 2}, {0, 1, 3}}), 0, [](double) { return Vec3::Zero(); });
-  Features f = build_features(setup_of(world), world.x);
+  Features f = build_features(world.setup(), world.x);
   find_level_parts(f);
   for (const Features::Edge& e : f.edges) EXPECT_FALSE(e.level);
 }
@@ -87,7 +78,7 @@ TEST(ContactLevel, NoMoreThanAPlane) {
 // The list lacks what is level, and nothing else.
 TEST(ContactLevel, IsLeftOutOfTheList) {
   World world = box_on_roof(.3, 0);
-  Features f = build_features(setup_of(world), world.x);
+  Features f = build_features(world.setup(), world.x);
   const auto list = [&] {
     Workspace work;
     return build_list(f, world.x, {ToolIndex(f, f.place, {true}), std::vector<ToolMotion>(1), {true}, {false}, {PlanePose()}}, {}, .1, work);

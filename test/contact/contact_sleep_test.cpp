@@ -31,12 +31,7 @@ struct Scene {
       world.add_box(Vec3(-.4, -.35, .07), 9, 8, 2, .1, 1, 0);
       world.add_tool("die", contact_test::sheet(9, 1.1, [](double a, double b) { return .05 * std::sin(5 * a) * std::cos(4 * b); }), 0, [](double) { return Vec3::Zero(); });
     }
-    ContactSetup setup;
-    setup.dimension = dimension;
-    setup.bodies = world.bodies;
-    setup.tools = world.tools;
-    setup.tool_meshes = {&world.meshes[0]};
-    features = build_features(setup, world.x);
+    features = build_features(world.setup(), world.x);
   }
 
   NearList list(double radius, Workspace& work) const {

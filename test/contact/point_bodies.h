@@ -58,7 +58,7 @@ struct World {
     }
     return all;
   }
-  Contact make() const {
+  ContactSetup setup() const {
     ContactSetup setup;
     setup.dimension = dimension;
     setup.config = config;
@@ -69,7 +69,10 @@ struct World {
     setup.thinnest = thinnest;
     setup.wave_speed = wave_speed;
     setup.team = team;
-    Contact contact(setup, x, motion(time, time));
+    return setup;
+  }
+  Contact make() const {
+    Contact contact(setup(), x, motion(time, time));
     std::vector<double> inverse;
     for (double m : mass) inverse.push_back(1 / m);
     contact.set_masses(inverse, held);

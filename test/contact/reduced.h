@@ -17,12 +17,7 @@ class Reduced {
   using Reduce = std::function<void(const Workspace&, LargeArray<ContactPair>&)>;
 
   Reduced(const World& world, Reduce reduce) : reduce_(std::move(reduce)), layer_(world.config.layer) {
-    ContactSetup setup;
-    setup.dimension = world.dimension;
-    setup.bodies = world.bodies;
-    setup.tools = world.tools;
-    for (const Mesh& mesh : world.meshes) setup.tool_meshes.push_back(&mesh);
-    features_ = build_features(setup, world.x);
+    features_ = build_features(world.setup(), world.x);
   }
 
   void step(World& world, double dt) {

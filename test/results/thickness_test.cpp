@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "forming_sim/contact/closest.h"
-#include "forming_sim/mesh/generate.h"
 #include "forming_sim/element/sheet_sides.h"
+#include "forming_sim/mesh/generate.h"
 #include "forming_sim/results/thickness.h"
 
 namespace forming_sim {

@@ -3,6 +3,7 @@
 // What slides over the joint feels one tool, and its force is told of the part that it is on.
 // So it is on the side of the faces on which the bodies are at the start, and as long as the tools stand to each other as then; of tools that go as they are
 // pushed (freedom), of planes, and of two that do not meet the same bodies it is never so.
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -33,7 +34,21 @@ class Flush {
     Mat3 turned = Mat3::Identity();
     double size = 0;                          ///< of the two, m
     bool stands = false;                      ///< to each other as at the start
+
+    bool has(int tool) const { return tool == first || tool == second; }
+    int other(int tool) const { return tool == first ? second : first; }
   };
+  /// A tool, its pairs, and the other tool of each.
+  struct Beside {
+    int tool = 0;
+    std::vector<int> pairs, tools;
+  };
+  /// What comes to a vertex: joints, as places in edges_, and edges.
+  struct Around {
+    std::vector<std::size_t> joints;
+    std::vector<int> edges;
+  };
+  class Standing;
   /// Of an edge, a part of it; or of a vertex.
   struct Joint {
     int feature = 0;
@@ -43,6 +58,13 @@ class Flush {
     double first = 0, last = 1;               ///< of an edge, which part
     bool level = false;                       ///< of a vertex: whatever ends there goes straight on in other tools
   };
+  static bool reaches(const Features& features, const Joint& joint, int vertex);
+  void find_pairs(const Features& features, const std::vector<ToolMotion>& at_start, const Standing& standing);
+  void join_section(const Features& features, const Beside& beside, Standing& standing);
+  void join_edges(const Features& features, const Beside& beside, Standing& standing);
+  void hold_faces(const Features& features, const Beside& beside, int vertex, const Around& there, const Standing& standing);
+  std::optional<Joint> joint_all_around(const Features& features, const Beside& beside, int vertex, const Around& there, Standing& standing) const;
+  std::optional<Joint> joint_at_corner(const Features& features, const Beside& beside, int vertex, const Around& there, Standing& standing) const;
   bool stand(const Pair& pair, const ToolMotion& first, const ToolMotion& second, bool at_end) const;
   bool is_one(const Joint& joint) const;
   double slack(const Joint& joint) const;

@@ -1,4 +1,4 @@
-#include "forming_sim/results/facet_grid.h"
+#include "forming_sim/contact/facet_grid.h"
 
 #include <limits>
 
