@@ -10,6 +10,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from mpl_toolkits.mplot3d import proj3d
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -26,6 +27,16 @@ def drawn_facets(result, wanted):
             sys.exit(f"--body: given {name}; the result holds {', '.join(names)}")
     body = result["topology/body"][:][result["topology/surface_element"][:]]
     return np.isin(body, [names[name] for name in wanted]) if wanted else np.ones(len(body), bool)
+
+
+def fill(axes, points):
+    """Draws as large as shows all the points, in true proportions."""
+    sides = np.maximum(np.ptp(points, axis=0), 1e-9)
+    axes.set_box_aspect(sides)
+    x, y, _ = proj3d.proj_transform(*points.T, axes.get_proj())
+    pixels = axes.transData.transform(np.column_stack([x, y]))
+    across = np.abs(pixels - axes.bbox.get_points().mean(axis=0)).max(axis=0)  # from the middle, where that of the box is
+    axes.set_box_aspect(sides, zoom=0.5 * min(np.divide([axes.bbox.width, axes.bbox.height], np.maximum(across, 1))))
 
 
 def main():
@@ -59,8 +70,8 @@ def main():
     corners = triangles.reshape(-1, 3)
     for set_limits, column in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), corners.T):
         set_limits(column.min(), column.max())
-    axes.set_box_aspect(np.maximum(np.ptp(corners, axis=0), 1e-9), zoom=1.2)
     axes.view_init(*options.view)
+    fill(axes, corners)
     axes.set_axis_off()
     axes.set_title(heading, fontsize=10)
     figure.colorbar(colours, ax=axes, label=label, shrink=0.6)
