@@ -117,6 +117,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   mass_.assign(nodes, 0.0);
   nodal_volume0_.assign(nodes, 0.0);
   nodal_bulk_.assign(nodes, 0.0);
+  nodal_rough_bulk_.assign(nodes, 0.0);
   inertia_.assign(axisymmetric_ ? nodes : 0, 0.0);
   std::vector<double> simplex_mass(inertia_.size(), 0.0), even_mass = simplex_mass;
   for (const BodyModel& body : bodies) {
@@ -134,6 +135,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
       g.pressure = mode_of(body, cells.kind);
       any_nodal_ |= g.pressure == PressureMode::node;
       g.solid = solid_constants(body.material, g.curves);
+      any_even_ |= g.even();
       g.element_share = element_share_of(cells.kind, g.solid);
       g.guard = guard_of(cells.kind, g.pressure, g.solid);
       const bool at_edges = g.nodal();  // the law; what stays is V0
@@ -204,6 +206,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
               if (at_edges) {
                 nodal_volume0_[initial.node[a]] += V0 / (D + 1);
                 nodal_bulk_[initial.node[a]] = g.solid.K;
+                nodal_rough_bulk_[initial.node[a]] = rough_bulk(g.solid.K, g.solid.mu);
               }
               if (!axisymmetric_) continue;
               even_mass[initial.node[a]] += g.density * V0 / (D + 1);
@@ -225,6 +228,7 @@ Elements::Elements(const std::vector<BodyModel>& bodies, int dimension, const No
   lay_tiles(nodes);
   check_interrupt();
   pressure_.assign(any_nodal_ ? nodes : 0, 0.0);
+  growth_ = pressure_;
 
   for (Group& g : groups_) {
     g.nodes = g.node_storage.data();
@@ -290,18 +294,33 @@ void Elements::observe_pressure(const NodalView& view) const {
 }
 
 void Elements::nodal_pressure(const NodalView& view, double* slots) const {
-  over_tiles([](const Group& g) { return g.nodal(); }, [&](const Group& own, long t) {
-    CellGroup g = own;
-    g.sums = slots + own.first_slot * record_size_;
-    clear_slots(own, t, g.sums);
-    kernels_.nodal.volumes(g, view, own.first_block(t), own.last_block(t));
+  // find(sum, n) of every node that has a pressure, with the sum of what `kernel` finds for it in the groups of which that is asked
+  const auto sum_up = [&](auto&& asked, auto kernel, const NodalView& at, auto&& find) {
+    over_tiles(asked, [&](const Group& own, long t) {
+      CellGroup g = own;
+      g.sums = slots + own.first_slot * record_size_;
+      clear_slots(own, t, g.sums);
+      kernel(g, at, own.first_block(t), own.last_block(t));
+    });
+    node_team_->share([&](long first, long last) {
+      for (long n = first; n < last; ++n) {
+        if (!(nodal_volume0_[n] > 0)) continue;
+        double sum = 0;
+        for (int k = slot_start_[n]; k < nodal_slots_[n]; ++k) sum += slots[static_cast<long>(slot_index_[k]) * record_size_];
+        find(sum, n);
+      }
+    });
+  };
+  sum_up([](const Group& g) { return g.nodal(); }, kernels_.nodal.volumes, view, [&](double V, long n) {
+    growth_[n] = V / nodal_volume0_[n] - 1;
+    pressure_[n] = nodal_bulk_[n] * growth_[n];
   });
-  node_team_->share([&](long first, long last) {
-    for (long n = first; n < last; ++n) {
-      double V = 0;
-      for (int k = slot_start_[n]; k < nodal_slots_[n]; ++k) V += slots[static_cast<long>(slot_index_[k]) * record_size_];
-      pressure_[n] = nodal_volume0_[n] > 0 ? nodal_bulk_[n] * (V / nodal_volume0_[n] - 1) : 0;
-    }
+  if (!any_even_) return;
+  NodalView grown = view;
+  grown.growth = growth_.data();
+  sum_up([](const Group& g) { return g.even(); }, kernels_.nodal.growths, grown, [&](double sum, long n) {
+    const double K = nodal_bulk_[n], K_r = nodal_rough_bulk_[n];
+    if (K_r < K) pressure_[n] = K_r * growth_[n] + (K - K_r) * sum / nodal_volume0_[n];
   });
 }
 

@@ -26,7 +26,7 @@ std::vector<GroupPlan> Elements::plan() const {
     plan.cells = g.cells;
     plan.elements = static_cast<long>(g.cells) * g.cell_simplices;
     add_bytes(g, plan);
-    if (g.nodal()) plan.pressure_bytes = plan.index_bytes + 2 * plan.force_bytes;
+    if (g.nodal()) plan.pressure_bytes = (g.even() ? 2 : 1) * (plan.index_bytes + 2 * plan.force_bytes);  // once more over the simplices
     // Those of a body's points at edges count as those of its first cells that ask for them.
     const bool first = std::none_of(groups.begin(), groups.end(), [&](const GroupPlan& p) { return p.body == g.body && p.edge_points > 0; });
     if (g.nodal() && first)
@@ -119,7 +119,7 @@ double Elements::stored_energy(const NodalView& view, const BodyModel* of) const
   }
   const std::size_t first = of ? of->first_node : 0, end = of ? first + of->node_count : pressure_.size();
   for (std::size_t n = first; n < std::min(end, pressure_.size()); ++n)  // the volumetric energy of nodal pressures belongs to the nodes
-    if (nodal_volume0_[n] > 0) sum += 0.5 * nodal_volume0_[n] * pressure_[n] * pressure_[n] / nodal_bulk_[n];
+    sum += 0.5 * nodal_volume0_[n] * pressure_[n] * growth_[n];
   return sum;
 }
 

@@ -83,7 +83,7 @@ FormedMemory Elements::memory_of(const BodyModel& body, const NodeField& x) cons
   observe_pressure({x.data()->data(), nullptr, nullptr, pressure_.data(), 0, 0});
   for (const Group& g : groups_) {
     if (!g.at_edges || g.body != body.name) continue;
-    for (int n = body.first_node; n < body.first_node + body.node_count; ++n) memory.nodal_ratio.push_back(nodal_volume0_[n] > 0 ? 1 + pressure_[n] / nodal_bulk_[n] : 1);
+    for (int n = body.first_node; n < body.first_node + body.node_count; ++n) memory.nodal_ratio.push_back(1 + growth_[n]);
     FormedEdges& of = memory.edges;
     of.items = g.items;
     of.volume_ratio = point_ratios(g, x);
@@ -124,7 +124,7 @@ void Elements::take_up_nodes(const BodyModel& body, const std::vector<double>& r
   observe_pressure({x.data()->data(), nullptr, nullptr, pressure_.data(), 0, 0});
   for (int k = 0; k < body.node_count; ++k) {
     const int n = body.first_node + k;
-    if (nodal_volume0_[n] > 0) nodal_volume0_[n] *= (1 + pressure_[n] / nodal_bulk_[n]) / ratio[k];
+    if (nodal_volume0_[n] > 0) nodal_volume0_[n] *= (1 + growth_[n]) / ratio[k];
   }
 }
 

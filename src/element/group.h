@@ -9,6 +9,7 @@
 
 #include "forming_sim/element/crossed.h"
 #include "forming_sim/element/elements.h"
+#include "forming_sim/element/even_pressure.h"
 #include "forming_sim/element/one_point_sums.h"
 #include "forming_sim/material/law.h"
 
@@ -44,6 +45,8 @@ struct Elements::Group : CellGroup {
 
   /// Its simplices have pressures in the nodes, and their law at the edges.
   bool nodal() const { return pressure == PressureMode::node && !at_edges; }
+  /// Its pressures are those of element/even_pressure.h, with K_r < K.
+  bool even() const { return nodal() && rough_bulk(solid.K, solid.mu) < solid.K; }
   /// So many cells, and what is kept a block of them. For cells of so many simplices each.
   void make_blocks(int count, int simplices) {
     cells = count;

@@ -1,7 +1,7 @@
 // The loops over simplices whose pressures are in their nodes, compiled once per vector width (see
 // CMakeLists.txt): the volumes of the nodes, and the forces of their pressures,
-//   V_n = sum_s V_s / (d+1),  p_n = K (V_n / V_n0 - 1),
-//   U = sum_n K V_n0/2 (V_n / V_n0 - 1)^2 + the guard of each simplex (element/guard.h),
+//   V_n = sum_s V_s / (d+1),  theta_n = V_n / V_n0 - 1,  p_n = K theta_n, next to nu = 1/2 that of element/even_pressure.h,
+//   U = sum_n V_n0/2 p_n theta_n + the guard of each simplex (element/guard.h),
 //   f_a = - dU/dx_a = - sum_s p_s dV_s/dx_a,  p_s the mean p_n of the nodes of s, and its guard.
 #include "element/bulk_viscosity.h"
 #include "forming_sim/element/guard.h"
@@ -25,17 +25,37 @@ template <class Cell> void volumes_of_pack(const CellGroup& g, const NodalView& 
   for (int a = 0; a < Cell::nodes; ++a) add_numbers(share[a], slots + a * kLanes, g.sums);
 }
 
+/// Of every simplex of the pack the mean of a number per node.
+template <class Cell> void means(const CellGroup& g, long pack, const double* numbers, Pack* mean) {
+  const int* nodes = nodes_of<Cell>(g, pack);
+  Pack of_node[Cell::nodes];
+  for (int a = 0; a < Cell::nodes; ++a) of_node[a] = gather_numbers(numbers, nodes + a * kLanes);
+  for (int s = 0; s < Cell::simplices; ++s) {
+    mean[s] = Pack(0.0);
+    for (int a = 0; a <= kD<Cell>; ++a) mean[s] += of_node[Cell::table[s][a]];
+    mean[s] = Pack(1.0 / (kD<Cell> + 1)) * mean[s];
+  }
+}
+
+template <class Cell> void growths_of_pack(const CellGroup& g, const NodalView& view, long pack) {
+  Pack theta[Cell::simplices], share[Cell::nodes];
+  means<Cell>(g, pack, view.growth, theta);
+  for (Pack& s : share) s = Pack(0.0);
+  for (int s = 0; s < Cell::simplices; ++s) {
+    const Pack part = theta[s] * initial_volume(g, memory_of<Cell>(g, pack, s)) * Pack(1.0 / (kD<Cell> + 1));
+    for (int a = 0; a <= kD<Cell>; ++a) share[Cell::table[s][a]] += part;
+  }
+  const int* slots = slots_of<Cell>(g, pack);
+  for (int a = 0; a < Cell::nodes; ++a) add_numbers(share[a], slots + a * kLanes, g.sums);
+}
+
 /// p_s of every simplex of the pack, and J = V_s / V_s0.
 template <class Cell> void pressures(const CellGroup& g, const NodalView& view, long pack, const Vector<Pack, kD<Cell>>* x, Pack* p, Pack* J) {
-  const int* nodes = nodes_of<Cell>(g, pack);
   simplex_volumes<Cell>(nullptr, x, J);
-  Pack of_node[Cell::nodes];
-  for (int a = 0; a < Cell::nodes; ++a) of_node[a] = gather_numbers(view.pressure, nodes + a * kLanes);
+  means<Cell>(g, pack, view.pressure, p);
   for (int s = 0; s < Cell::simplices; ++s) {
-    p[s] = Pack(0.0);
-    for (int a = 0; a <= kD<Cell>; ++a) p[s] += of_node[Cell::table[s][a]];
     J[s] = J[s] / initial_volume(g, memory_of<Cell>(g, pack, s));
-    p[s] = Pack(1.0 / (kD<Cell> + 1)) * p[s] + Pack(kGuard * g.solid.K) * guard_pressure(J[s]);
+    p[s] += Pack(kGuard * g.solid.K) * guard_pressure(J[s]);
   }
 }
 
@@ -99,6 +119,11 @@ void volumes(const CellGroup& g, const NodalView& view, int first, int last) {
     each_pack(first, last, [&](long pack) { volumes_of_pack<decltype(cell)>(g, view, pack); });
   });
 }
+void growths(const CellGroup& g, const NodalView& view, int first, int last) {
+  with_simplices(g, [&](auto cell) {
+    each_pack(first, last, [&](long pack) { growths_of_pack<decltype(cell)>(g, view, pack); });
+  });
+}
 void forces(const CellGroup& g, const NodalView& view, int first, int last) {
   with_simplices(g, [&](auto cell) {
     each_pack(first, last, [&](long pack) { forces_of_pack<decltype(cell)>(g, view, pack); });
@@ -112,7 +137,7 @@ void observe(const CellGroup& g, const NodalView& view, int first, int last, dou
 
 }  // namespace
 
-NodalKernels nodal_kernels() { return {volumes, forces, observe}; }
+NodalKernels nodal_kernels() { return {volumes, growths, forces, observe}; }
 
 }  // namespace FORMING_SIM_ISA
 }  // namespace forming_sim

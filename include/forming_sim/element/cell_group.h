@@ -69,6 +69,7 @@ struct NodalView {
   const double* pressure = nullptr;   ///< [node] nodal pressure, read only in PressureMode::node
   double last_kick = 0;               ///< s, in which the forces of the last pass acted, for the viscous work
   double last_dt = 0;                 ///< s, in which v led to x, for Law::classical and plastic rates
+  const double* growth = nullptr;     ///< [node] theta_n of element/even_pressure.h, read in growths only
 };
 
 /// What bounds the step of the cells of one block (element/time_step.h).
@@ -81,6 +82,8 @@ struct BlockRates {
 struct NodalKernels {
   /// Shares of the current volume of the cell nodes are added to `sums`.
   void (*volumes)(const CellGroup&, const NodalView&, int first, int last);
+  /// Shares of V_s0 theta_s of element/even_pressure.h, likewise.
+  void (*growths)(const CellGroup&, const NodalView&, int first, int last);
   /// The pressures' forces on the nodes, likewise.
   void (*forces)(const CellGroup&, const NodalView&, int first, int last);
   /// As in Kernels, of the pressure alone; energy: the share of the simplices' own pressures.

@@ -194,8 +194,9 @@ class Elements {
   double* slots_ = nullptr;                          ///< [slot][kRecord]
   mutable LargeArray<Lane> volume_storage_;          ///< likewise, of nodal pressure only
   int record_size_ = 0;
-  mutable std::vector<double> pressure_, nodal_volume0_, nodal_bulk_;  ///< nodal pressure only
-  bool any_nodal_ = false;
+  mutable std::vector<double> pressure_, growth_;  ///< nodal pressure only: p_n, theta_n (element/even_pressure.h)
+  std::vector<double> nodal_volume0_, nodal_bulk_, nodal_rough_bulk_;
+  bool any_nodal_ = false, any_even_ = false;  ///< any_even_: some have K_r < K
   bool may_sleep_ = true;                            ///< forces follow from positions and memory alone
   Stillness stillness_;
   StepTimes* times_ = nullptr;
