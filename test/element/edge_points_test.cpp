@@ -8,26 +8,13 @@
 #include "forming_sim/mesh/cell_tables.h"
 #include "support/bodies.h"
 #include "support/dense_limit.h"
-#include "support/free_mesh.h"
+#include "support/free_case.h"
 #include "support/rings.h"
 
 namespace forming_sim {
 namespace {
 
-struct Case {
-  int dimension;
-  bool ring;
-};
-std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.dimension << "D" << (c.ring ? ", ring" : ""); }
-
-Mesh free_mesh(const Case& c) {
-  Mesh mesh = c.dimension == 2 ? free_rectangle(1, 0.7, 0.25) : free_box(Vec3(1, 0.7, 0.5), 0.25);
-  if (c.ring)
-    for (Vec3& X : mesh.nodes) X.x() += 0.3;
-  return mesh;
-}
-
-class EdgePointsOf : public ::testing::TestWithParam<Case> {
+class EdgePointsOf : public ::testing::TestWithParam<FreeCase> {
  protected:
   EdgePointsOf() : mesh(free_mesh(GetParam())), simplices(mesh.simplices()), X(positions_of(mesh)), points(find_edge_points(simplices, X, D, ring)) {}
   const int D = GetParam().dimension;
@@ -111,7 +98,7 @@ TEST_P(EdgePointsOf, LeaveNoShapeWithoutStiffness) {
   EXPECT_GT(omega2[rigid], 0.05 * slowest);
 }
 
-INSTANTIATE_TEST_SUITE_P(Free, EdgePointsOf, ::testing::Values(Case{2, false}, Case{2, true}, Case{3, false}));
+INSTANTIATE_TEST_SUITE_P(Free, EdgePointsOf, ::testing::Values(FreeCase{2, false}, FreeCase{2, true}, FreeCase{3, false}));
 
 // A mesh of two kinds of cells: the nodes' pressures are those of the free ones alone, and the forces the gradient of the energy.
 TEST(EdgePoints, BesideCellsWithPressuresOfTheirOwn) {

@@ -5,17 +5,11 @@
 
 #include "forming_sim/element/even_pressure.h"
 #include "support/bodies.h"
-#include "support/free_mesh.h"
+#include "support/free_case.h"
 #include "support/rings.h"
 
 namespace forming_sim {
 namespace {
-
-struct Case {
-  int dimension;
-  bool ring;
-};
-std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.dimension << "D" << (c.ring ? ", ring" : ""); }
 
 MaterialConfig nearly_incompressible() {
   MaterialConfig material = aluminium();
@@ -23,20 +17,14 @@ MaterialConfig nearly_incompressible() {
   return material;
 }
 
-class EvenPressureOf : public ::testing::TestWithParam<Case> {
+class EvenPressureOf : public ::testing::TestWithParam<FreeCase> {
  protected:
-  EvenPressureOf() {
-    mesh = D == 2 ? free_rectangle(1, 0.7, 0.25) : free_box(Vec3(1, 0.7, 0.5), 0.25);
-    options.axisymmetric = GetParam().ring;
-    if (options.axisymmetric)
-      for (Vec3& X : mesh.nodes) X.x() += 0.3;
-    X = positions_of(mesh);
-  }
+  EvenPressureOf() : mesh(free_mesh(GetParam())), X(positions_of(mesh)) { options.axisymmetric = GetParam().ring; }
   Elements elements(const MaterialConfig& material, int threads = 1) const { return Elements({body_of(mesh, material)}, D, X, options, threads); }
   const int D = GetParam().dimension;
   ElementOptions options;
-  Mesh mesh;
-  NodeField X;
+  const Mesh mesh;
+  const NodeField X;
 };
 
 TEST_P(EvenPressureOf, IsTheGradientOfItsEnergyWithOneThreadAndTwo) {
@@ -99,7 +87,7 @@ TEST_P(EvenPressureOf, IsThatOfItsHeader) {
 // What has K < kRough mu has K in every node.
 TEST(EvenPressure, IsNothingOfCommonMetals) { EXPECT_EQ(rough_bulk(aluminium().K(), aluminium().mu()), aluminium().K()); }
 
-INSTANTIATE_TEST_SUITE_P(Free, EvenPressureOf, ::testing::Values(Case{2, false}, Case{2, true}, Case{3, false}));
+INSTANTIATE_TEST_SUITE_P(Free, EvenPressureOf, ::testing::Values(FreeCase{2, false}, FreeCase{2, true}, FreeCase{3, false}));
 
 }  // namespace
 }  // namespace forming_sim
