@@ -10,19 +10,24 @@ namespace forming_sim {
 namespace FORMING_SIM_ISA {
 namespace {
 
-template <class Cell> void volumes_of_pack(const CellGroup& g, const NodalView& view, long pack) {
-  constexpr int D = kD<Cell>;
-  Vector<Pack, D> x[Cell::nodes];
-  gather_ways<Cell>(nodes_of<Cell>(g, pack), view.x, x);
-  Pack V[Cell::simplices], share[Cell::nodes];
-  simplex_volumes<Cell>(nullptr, x, V);
+/// Adds to each node of the pack its share, 1/(d+1), of what every simplex around it has.
+template <class Cell> void share_out(const CellGroup& g, long pack, const Pack* of_simplex) {
+  Pack share[Cell::nodes];
   for (Pack& s : share) s = Pack(0.0);
   for (int s = 0; s < Cell::simplices; ++s) {
-    const Pack part = V[s] * Pack(1.0 / (D + 1));
-    for (int a = 0; a <= D; ++a) share[Cell::table[s][a]] += part;
+    const Pack part = of_simplex[s] * Pack(1.0 / (kD<Cell> + 1));
+    for (int a = 0; a <= kD<Cell>; ++a) share[Cell::table[s][a]] += part;
   }
   const int* slots = slots_of<Cell>(g, pack);
   for (int a = 0; a < Cell::nodes; ++a) add_numbers(share[a], slots + a * kLanes, g.sums);
+}
+
+template <class Cell> void volumes_of_pack(const CellGroup& g, const NodalView& view, long pack) {
+  Vector<Pack, kD<Cell>> x[Cell::nodes];
+  gather_ways<Cell>(nodes_of<Cell>(g, pack), view.x, x);
+  Pack V[Cell::simplices];
+  simplex_volumes<Cell>(nullptr, x, V);
+  share_out<Cell>(g, pack, V);
 }
 
 /// Of every simplex of the pack the mean of a number per node.
@@ -38,15 +43,10 @@ template <class Cell> void means(const CellGroup& g, long pack, const double* nu
 }
 
 template <class Cell> void growths_of_pack(const CellGroup& g, const NodalView& view, long pack) {
-  Pack theta[Cell::simplices], share[Cell::nodes];
-  means<Cell>(g, pack, view.growth, theta);
-  for (Pack& s : share) s = Pack(0.0);
-  for (int s = 0; s < Cell::simplices; ++s) {
-    const Pack part = theta[s] * initial_volume(g, memory_of<Cell>(g, pack, s)) * Pack(1.0 / (kD<Cell> + 1));
-    for (int a = 0; a <= kD<Cell>; ++a) share[Cell::table[s][a]] += part;
-  }
-  const int* slots = slots_of<Cell>(g, pack);
-  for (int a = 0; a < Cell::nodes; ++a) add_numbers(share[a], slots + a * kLanes, g.sums);
+  Pack growth[Cell::simplices];  // V_s0 theta_s
+  means<Cell>(g, pack, view.growth, growth);
+  for (int s = 0; s < Cell::simplices; ++s) growth[s] = growth[s] * initial_volume(g, memory_of<Cell>(g, pack, s));
+  share_out<Cell>(g, pack, growth);
 }
 
 /// p_s of every simplex of the pack, and J = V_s / V_s0.

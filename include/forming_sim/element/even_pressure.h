@@ -7,8 +7,8 @@
 //   theta_s = the mean theta_n of the nodes of s,
 //   U = sum_n K_r V_n0/2 theta_n^2 + sum_s (K - K_r) V_s0/2 theta_s^2,
 //   p_n = (1/V_n0) dU/dtheta_n = K_r theta_n + (K - K_r)/V_n0 sum_s V_s0/(d+1) theta_s,
-// the sums over the simplices s around n. Where theta is uniform p = K theta; for any other U is less than with K in every node, so that the bound of
-// that for the step holds here too. Steel and aluminium have K < kRough mu, and nothing of this.
+// the sums over the simplices s around n. Where theta is uniform p = K theta; for any other U is less than with K in every node, whose bound
+// of the step holds here too. Steel and aluminium have K < kRough mu, and nothing of this.
 #include <algorithm>
 
 namespace forming_sim {
