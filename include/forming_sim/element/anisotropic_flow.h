@@ -39,7 +39,7 @@ template <class T, int D, class Metric>
   const Plane<T> before = ep;
   {
     const Normal<T> far = normal(products(mean.S, moduli.stress(strain - ep), at, A), T(1) / mean.sigma, mean.slope * rise / mean.sigma);
-    if (any(is_far(share, far.root))) return_to_near<T, D>(mean, strain, share, far.root, ep);
+    if (any(share * far.root > T(kNearSurface))) return_to_near<T, D>(mean, strain, share, far.root, ep);
   }
   const Plane<T> s = moduli.stress(strain - ep);
   const T over = T(1) / mean.sigma, back = mean.slope * rise * over;
@@ -51,9 +51,9 @@ template <class T, int D, class Metric>
   const T resistance = mean.modulus * contract(here.by_S(n), by_S) + T(3) * work(softer, here.by_s(n)) +
                        mean.slope * over * over * (T(4) * n.root * n.root * n.root + T(3) * n.varied * n.varied);
   T L = share * T(2) * n.root * (n.root - T(1)) / some_resistance(resistance);
-  // S : m/h of the end, which s follows: it changes its sign where S will, not where its trial does
+  // S : m/h of the end, which s follows: the edge lies where S will, not where its trial does
   const T falls = T(3) * work(softer, there.part);  // per L
-  const auto turned = to.Sm * (to.Sm - L * falls) < T(0);
+  const auto turned = (to.Sm * (to.Sm - L * falls) < T(0)) & (to.edge > T(0));
   if (any(turned)) L = select(turned, to.Sm / select(turned, falls, T(1)), L);
   repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] -= L * mean.modulus * by_S[i]; });
   ep = {ep.a + T(3) * L * by_s.a, ep.b + T(3) * L * by_s.b, ep.shear + T(3) * L * by_s.shear};

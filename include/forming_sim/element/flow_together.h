@@ -133,7 +133,7 @@ template <class T, int D, bool Ring, class Metric = Isotropic> class FlowTogethe
     mean_.modulus = T(2) * factor_;
     mean_.p = T(0);
     const T over = T(1) / mean_.sigma, SS = products(S_, Plane<T>{T(0), T(0), T(0)}, at_[0], A_).SS, sigma2 = mean_.sigma * mean_.sigma;
-    T share[D], outside(0);  // 1 where the coordinate's variation takes part, else 0; how many do
+    T share[D];  // 1 where the coordinate's variation takes part, else 0
     flowed_ = T(0);
     repeat<D>([&](auto d) {
       share[d] = T(0);
@@ -142,11 +142,8 @@ template <class T, int D, bool Ring, class Metric = Isotropic> class FlowTogethe
       const Products<T> q = products(S_, s, at_[d], A_);
       share[d] = select(is_outside(Quadratic<T>(q, over, mean_.slope * rise_[d] * over), 1 + 1e-12), T(1), T(0));
       flowed_ = larger(flowed_, share[d]);
-      outside += share[d];
     });
     if (!any(flowed_ > T(0))) return;
-    const T part = T(1) / larger(outside, T(1));
-    repeat<D>([&](auto d) { share[d] *= part; });
     take_back(SS);
     const T varied = hardening.rate.kind == RateLaw::none ? flow_from_trial(moduli, share) : flow_at_rate(hardening.rate, moduli, share);
     take_mean_flow(m);
@@ -191,7 +188,7 @@ template <class T, int D, bool Ring, class Metric = Isotropic> class FlowTogethe
       mean_.harden(-(flowed_ * dp_));
     }
   }
-  /// From there on: the coordinates flow by their shares, and what is left returns along the mean. What the variation dissipates.
+  /// From there on: the coordinates flow whose share is 1, and what is left returns along the mean. What the variation dissipates.
   [[gnu::always_inline]] T flow_from_trial(const PlaneModuli& moduli, const T* share) {
     T varied(0);
     repeat<D>([&](auto d) {

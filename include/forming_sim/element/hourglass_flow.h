@@ -17,12 +17,6 @@
 // Flow is normal to it in (S, s/3), the stresses that work on the mean and on ep. On the surface a
 // flow with multiplier L takes d p = 2 L/sigma_s, such that sigma_s dp is what it dissipates, and
 // d p' = S : d ep / sigma_s.
-//
-// In a step each coordinate takes one step of Newton's. Such returns have to follow the stresses without overshooting them, or flow
-// that is steady drives vibrations on:
-// - The normals of all coordinates have S in common. Where n of them are outside, each returns by 1/n of its way: in full, the last of them
-//   would leave the first inside, which would bear elastically in the next step. What is left outside returns in the next steps.
-// - The surface is sharply curved, or has an edge, where S : m changes its sign. A step ends there, and only the next goes on.
 #include "forming_sim/element/hourglass_strain.h"
 #include "forming_sim/material/hardening.h"
 
@@ -62,6 +56,7 @@ template <class T> struct Normal {
   T along_S, across, along_s;
   T varied;  ///< d(Q_n + mu)/ds : S
   T Sm;      ///< S : m/h
+  T edge;    ///< |Q_nm| - Q_m/2: above 0 the surface has an edge ahead, where Q_nm changes its sign
 };
 
 /// dev s as what works on strains of the plane: dev s : dev r = work(s, deviatoric(r)).
@@ -158,6 +153,7 @@ template <class T> [[gnu::always_inline]] inline Normal<T> normal(const Products
   r.along_S = T(2) * Q.scale - back * (by_S + r.across);
   r.varied = r.along_s * q.Ss + r.across * q.SS;
   r.Sm = Q.Sm;
+  r.edge = absolute(Q.nm) - T(0.5) * Q.m;
   return r;
 }
 
@@ -167,19 +163,19 @@ constexpr double kNearSurface = 1.5;
 /// 1 in place of none: cells of a pack that have no stress at all go along with those that flow, and perfect metal does not harden there; the step they would take is 0.
 template <class T> T some_resistance(const T& resistance) { return select(absolute(resistance) > T(1e-300), resistance, T(1)); }
 
-template <class T> auto is_far(const T& share, const T& root) { return (share > T(0)) & (root > T(kNearSurface)); }
-
 /// Where one coordinate is farther outside than that, S and s go back along themselves first, as they would by the radial return.
 template <class T, int D>
 [[gnu::noinline]] inline void return_to_near(MeanFlow<T, D>& mean, const Plane<T>& strain, const T& share, const T& root, Plane<T>& ep) {
-  const T kept = select(is_far(share, root), T(kNearSurface) / root, T(1)), gone = T(1) - kept;
+  const T kept = select(share * root > T(kNearSurface), T(kNearSurface) / root, T(1)), gone = T(1) - kept;
   const Plane<T> elastic = strain - ep;
   ep = {ep.a + gone * elastic.a, ep.b + gone * elastic.b, ep.shear + gone * elastic.shear};
   mean.harden(gone * sqrt(T(1.5) * contract(mean.S, mean.S)) / (T(1.5) * mean.modulus));
   repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] *= kept; });
 }
 
-/// One coordinate flows, by `share` of its way to the surface: mean, ep and p' (rise) follow; what the variation dissipates per initial volume.
+/// One coordinate flows where share is 1: mean, ep and p' (rise) follow; what the variation dissipates per initial volume.
+/// At the edge where the whole cell flows one way and m comes to lie across S, it goes no further; where m is more than that,
+/// the surface is smooth there, and S, however small, is no reason to stop.
 template <class T, int D>
 [[gnu::always_inline]] inline T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli& moduli, const Plane<T>& strain, const T& share, Plane<T>& ep, T& rise,
                                                 const PlaneOf<T, D>& at, const Isotropic&, const Symmetric<T, D>&) {
@@ -194,7 +190,7 @@ template <class T, int D>
   };
   find_stresses();
   Normal<T> n = normal(q, over, back);
-  if (any(is_far(share, n.root))) {
+  if (any(share * n.root > T(kNearSurface))) {
     return_to_near<T, D>(mean, strain, share, n.root, ep);
     find_stresses();
     n = normal(q, over, back);
@@ -207,10 +203,10 @@ template <class T, int D>
   const T resistance = mean.modulus * squared + T(3) * work(softer, direction) + mean.slope * over * over * (T(4) * root * root * root + T(3) * n.varied * n.varied);
   T L = share * T(2) * root * (root - T(1)) / some_resistance(resistance);
   const T of_S = mean.modulus * n.along_S, of_s = mean.modulus * n.across;  // S becomes (1 - L of_S) S - L of_s dev s
-  const T kept = T(1) - L * of_S, lost = L * of_s, three = T(3) * L, rises = three * n.varied * over * n.over_root;
+  const T kept = T(1) - L * of_S, lost = L * of_s, three = T(3) * L;
   const T after = kept * (q.Ss - three * work(softer, part)) - lost * (q.ss - three * work(softer, dev_s)) -
-                  (back + mean.slope * over * rises) * (kept * (kept * q.SS - T(2) * lost * q.Ss) + lost * lost * q.ss);
-  const auto turned = n.Sm * after < T(0);
+                  back * (kept * (kept * q.SS - T(2) * lost * q.Ss) + lost * lost * q.ss);
+  const auto turned = (n.Sm * after < T(0)) & (n.edge > T(0));
   if (any(turned)) L *= select(turned, n.Sm / select(turned, n.Sm - after, T(1)), T(1));
   const Plane<T> rate{T(3) * L * direction.a, T(3) * L * direction.b, T(3) * L * direction.shear};
   const Symmetric<T, D> deviator = at.deviator(s);
