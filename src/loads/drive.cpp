@@ -47,24 +47,30 @@ Vec3 guide_of(const MotionConfig& config) {
 }
 bool goes_along(const Vec3& given, const Vec3& guide) { return (given - given.dot(guide) * guide).norm() <= 1e-12 * given.norm(); }
 
-double Drive::free_speed(double t, double kick) const {
-  return inverse_mass(kick) * (kept(kick) * mass_ * momentum_ + kick * (force(t) + (damping_ + settling_) * mass_ * spring_.end_speed(t - began_)));
+double Drive::free_speed(double t, double kick) const { return stands() ? 0 : unstopped_speed(t, kick); }
+
+double Drive::unstopped_speed(double t, double kick) const {
+  return free_inverse_mass(kick) * (kept(kick) * mass_ * momentum_ + kick * (force(t) + (damping_ + settling_) * mass_ * spring_.end_speed(t - began_)));
 }
 
-double Drive::inverse_mass(double kick) const { return 1 / (mass_ * (kept(kick) + 2 * braking(kick))); }
+double Drive::free_inverse_mass(double kick) const { return 1 / (mass_ * (kept(kick) + 2 * braking(kick))); }
 
 double Drive::stable_step() const { return spring_.stiffness > 0 ? 2 / std::sqrt(spring_.stiffness / mass_) : std::numeric_limits<double>::infinity(); }
 
 void Drive::take_step(double t, double kick, double dt, double push, double answer) {
-  const double free = free_speed(t, kick);
-  speed_ = free + push;
+  speed_ = free_speed(t, kick) + push;
   gone_ += dt * speed_;
-  momentum_ = free + inverse_mass(kick) * answer;
+  momentum_ = unstopped_speed(t, kick) + free_inverse_mass(kick) * answer;
+  if (!stands()) against_ = gone_ >= ahead_ ? 1 : gone_ <= -behind_ ? -1 : 0;
+  if (momentum_ * against_ >= 0 && stands()) momentum_ = 0;
+  else against_ = 0;
 }
 
 ForceDrive::ForceDrive(const MotionConfig& config)
     : Drive(forces_along_guide(config), config.mass, config.damping, config.initial_velocity.dot(guide_of(config))), guide_(guide_of(config)) {
   if (config.stiffness > 0) tie_to({config.stiffness, RigidMotion(config, 3), guide_});
+  const auto way = [](double stop) { return stop > 0 ? stop : std::numeric_limits<double>::infinity(); };
+  put_stops(way(config.stop_ahead), way(config.stop_behind));
 }
 
 Pose ForceDrive::placed(Pose told, double way, double speed) const {
@@ -79,7 +85,7 @@ void ForceDrive::take(double t, double kick, double dt, double push, double answ
 }
 
 double ForceDrive::fallen(double t) const {
-  if (springs_back()) return 0;  // its spring holds it, wherever the other end is
+  if (springs_back() || stands()) return 0;  // what holds it does so wherever the bodies are
   const double F = force(t), along = F < 0 ? pressed_at_ - gone() : gone() - pressed_at_;
   return F != 0 && along > 0 ? along : 0;
 }

@@ -44,7 +44,7 @@ Peak greatest_surface_strain(const Simulation& simulation) {
   std::size_t first = 0, greatest = strain.size();
   for (const BodyModel& body : simulation.model().bodies) {
     for (std::size_t i = 0; i < body.cut.size(); ++i)
-      if (!body.cut[i] && (greatest == strain.size() || strain[first + i].major > strain[greatest].major)) greatest = first + i;
+      if (is_formed(simulation.model(), body) && !body.cut[i] && (greatest == strain.size() || strain[first + i].major > strain[greatest].major)) greatest = first + i;
     first += body.cut.size();
   }
   if (greatest == strain.size()) return peak;
@@ -117,7 +117,7 @@ const Measures& Gauge::at(const Simulation& simulation) {
   if (sheets_.any()) {
     measures_.thickness_of_nodes = sheets_.at(simulation.positions());
     measures_.thinning_of_nodes = sheets_.thinning(measures_.thickness_of_nodes);
-    measures_.thickness = smallest(measures_.thickness_of_nodes);
+    measures_.thickness = smallest(measures_.thickness_of_nodes, top_);
     measures_.thinning = greatest_thinning(simulation, top_, measures_.thinning_of_nodes);
   }
   measures_.limits = limits_.at(simulation.positions());

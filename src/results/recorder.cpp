@@ -22,7 +22,10 @@ bool ends_forming(const Simulation& simulation, int stage) {
 
 void Recorder::on_start(const Simulation& simulation) {
   schedule_.start(simulation.time());
-  if (record_.surface_strain.element < 0) look(simulation);  // not again after a resume
+  if (record_.surface_strain.element >= 0) return;  // after a resume
+  look(simulation);
+  const std::vector<StageConfig>& stages = simulation.plan().stages;
+  if (std::none_of(stages.begin(), stages.end(), [](const StageConfig& s) { return s.kind == "form"; })) see_formed_angle(simulation);  // a part comes as it was formed
 }
 
 void Recorder::on_step(const Simulation& simulation) {
@@ -50,9 +53,12 @@ void Recorder::on_stage_end(const Simulation& simulation, int index) {
     record_.kinetic_over_internal_formed = ended.kinetic_over_internal();
   if (std::isfinite(ended.kinetic_over_internal_peak))
     record_.kinetic_over_internal_forming = std::max(record_.kinetic_over_internal_forming.value_or(0), ended.kinetic_over_internal_peak);
+  see_formed_angle(simulation);
+}
+
+void Recorder::see_formed_angle(const Simulation& simulation) {
   if (!output_.springback) return;
-  const double angle =
-      springback_angle_deg(*output_.springback, simulation.model().dimension, gauge_.probes(), measures.probes);
+  const double angle = springback_angle_deg(*output_.springback, simulation.model().dimension, gauge_.probes(), gauge_.at(simulation).probes);
   if (std::isfinite(angle)) record_.angle_formed_deg = angle;
 }
 
@@ -118,6 +124,18 @@ void Recorder::tell_forming_limit(const Simulation& simulation) {
   }
 }
 
+// Of a sheet that nothing else says it of. What tools press thin, thins everywhere between them.
+void Recorder::tell_thinning(const Simulation& simulation) {
+  constexpr double kMuch = 0.5;
+  const Peak& most = gauge_.at(simulation).thinning;
+  if (!(most.value > kMuch)) return;
+  const Model& model = simulation.model();
+  const auto body = std::find_if(model.bodies.begin(), model.bodies.end(), [&](const BodyModel& b) { return most.element < b.first_element + b.element_count; });
+  if (body->material.damage || body->material.forming_limit || body->material.law == "hyperelastic") return;
+  tell_once("body " + body->name + " has thinned by more than half", ": at " + three_digits(most.time) + " s by " + three_digits(100 * most.value) + " % at " + place(most.position) +
+            ". A sheet that is stretched has necked and torn before that, in a band whose strain depends on the size of the cells; what tools press thin between them, as rolls do, bears it. material.forming_limit or material.damage tell where such a sheet ends");
+}
+
 /// Unless a note begins so already.
 void Recorder::tell_once(const std::string& told, const std::string& more) {
   const auto begins_so = [&](const std::string& note) { return note.compare(0, told.size(), told) == 0; };
@@ -139,6 +157,7 @@ void Recorder::look(const Simulation& simulation) {
   }
   tell_damage(simulation);
   tell_forming_limit(simulation);
+  tell_thinning(simulation);
   record_.limit_ratio.resize(now.limits.greatest.size());
   for (std::size_t k = 0; k < now.limits.greatest.size(); ++k) record_.limit_ratio[k].rise_to(now.limits.greatest[k]);
   record_.surface_strain.rise_to(now.surface_strain);

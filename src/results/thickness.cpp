@@ -17,6 +17,11 @@ constexpr double kStraight = 0.999;  ///< cosine to the normal of a facet farthe
 
 }  // namespace
 
+bool is_formed(const Model& model, const BodyModel& body) {
+  const auto is_rubber = [](const BodyModel& b) { return b.material.law == "hyperelastic"; };
+  return !is_rubber(body) || std::all_of(model.bodies.begin(), model.bodies.end(), is_rubber);
+}
+
 Thickness::Thickness(const Model& model) {
   NodeField start;
   for (const BodyModel& body : model.bodies) {
@@ -28,6 +33,7 @@ Thickness::Thickness(const Model& model) {
     Sheet sheet;
     sheet.body = static_cast<int>(&body - model.bodies.data());
     sheet.first_node = body.first_node;
+    sheet.formed = is_formed(model, body);
     sheet.corners = mesh.dimension;
     for (const int facet : facets_within(mesh, bottom_name)) sheet.bottom.push_back(joined_corners(body, facet));
     if (sheet.bottom.empty()) continue;
@@ -86,7 +92,8 @@ bool Thickness::find_overhangs(const Model& model, const NodeField& start, Sheet
 
 std::vector<int> Thickness::top() const {
   std::vector<int> nodes;
-  for (const Sheet& sheet : sheets_) nodes.insert(nodes.end(), sheet.top.begin(), sheet.top.end());
+  for (const Sheet& sheet : sheets_)
+    if (sheet.formed) nodes.insert(nodes.end(), sheet.top.begin(), sheet.top.end());
   return nodes;
 }
 
@@ -123,6 +130,11 @@ std::vector<double> Thickness::thinning(const std::vector<double>& thickness) co
   return thinning;
 }
 
+std::optional<double> smallest(const std::vector<double>& values, const std::vector<int>& nodes) {
+  std::vector<double> of_nodes;
+  for (const int n : nodes) of_nodes.push_back(values[n]);
+  return smallest(of_nodes);
+}
 std::optional<double> smallest(const std::vector<double>& values) {
   std::optional<double> least;
   for (double value : values)

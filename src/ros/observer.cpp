@@ -47,7 +47,7 @@ void RosObserver::tell(const Simulation& simulation, bool always, Code code, con
   double thinnest = -1;
   if (sheets_.any()) {
     const std::vector<double> thickness = sheets_.at(simulation.positions());
-    thinnest = smallest(thickness).value_or(-1);
+    thinnest = smallest(thickness, sheets_.top()).value_or(-1);
     if (publisher_.colours_by("thinning")) frame.thinning = sheets_.thinning(thickness);
   }
   if (publisher_.colours_by("damage")) frame.damage = simulation.damage();

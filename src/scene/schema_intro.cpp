@@ -120,7 +120,8 @@ A tool of kind `force` is a blank holder: guided along the line of its force (or
 and yields as a flange thickens. Its force is all that acts on it: gravity does not. How fast it goes is found together with the forces of
 contact, so that it may be light, down to a thousandth of the mass of the bodies (what is lighter is refused);
 a light one follows at once, a heavy one takes time to start and to stop, and on a sheet that slides it may begin to swing (the run tells it, and the `damping` that ends it). Let the force rise smoothly, and lay the holder on the blank:
-what falls on it rattles. A set that is held rigidly does not stop it, but ends the run: keep it off what is clamped.
+what falls on it rattles. It goes on where the sheet has left it, and strikes what is in its way: a holder of a cup that is drawn through stands on spacers,
+`stop_ahead` of its motion, a little less below its place than the sheet is thick. A set that is held rigidly does not stop it, but ends the run: keep it off what is clamped.
 With an `initial_velocity` and its own `mass` it is a hammer: what it has lost when it flies back went into the bodies, as `work`. Its weight is one of its forces.
 Its place is in `history.csv`. A `withdraw` stage takes it away like any other tool, from rest where it has come to.
 On a spring (`stiffness`) it pushes the more the farther it is pushed back, as a gas spring does: `{kind: force, times: [0], forces: [[0, 0, 2e3]], stiffness: 5e4}` is 2 kN
@@ -217,12 +218,12 @@ Keys of `summary.json` (in plane strain forces, masses and energies are per metr
 | `plastic_strain` | the largest equivalent plastic strain and where it is |
 | `damage` | of each body whose material has it the criterion, its unit, the largest of its elements at the end with its place, and the `critical` value |
 | `forming_limit` | of each body whose material has one the largest ratio of the strains of its middle to the curve over the rows of the history, where and when, `at_end`, and the part of the sheet `beyond` it at the end |
-| `surface_strain` | the largest principal logarithmic strain on the surface; faces in planes of symmetry are none |
+| `surface_strain` | the largest principal logarithmic strain on the surface; faces in planes of symmetry are none. Rubber (`law: hyperelastic`) counts only where there is nothing else, here and in the next two |
 | `thickness_m` | `initial` and `min`: distance of the nodes of the set `top` from the surface `bottom`, of a tube of `outside` from `inside`, of a strip that is twice as high as long (no bar about the axis) of `right` from `left` |
 | `thinning` | the largest 1 - t/t0 of a node of `top` (or of the other outer side, see `thickness_m`), t its thickness, t0 that of the start, of a formed part that of its blank; where and when it is |
 | `bodies` | for each body: name, mass (that of the solver, with what `mass_scaling` and `raise_to` add), centre, momentum, angular momentum about the origin, `bounding_box` (`min`, `max`) |
 | `tools` | for each tool: name and the vector of its peak force (axisymmetric: along the axis, and `peak_radial_force` outward, summed around the circle), of means over some 50 steps: shorter peaks are in `history.csv`, as means from row to row; their `unit`; `peak_moment` likewise, about the place of the tool at that time (in its `moment_unit`; null in an axisymmetric scene); `turned_deg`, of a tool with an axle, about that; `position` and `orientation_xyzw` (a quaternion) at the end, whether it is `present` then, and `stopped_s`, when it stopped under its `stop_force` |
-| `springback` | `angle_deg_formed`, `angle_deg_released`, `change_deg`, `probe`, `kinetic_over_internal` |
+| `springback` | `angle_deg_formed` (at the end of the last form stage; in a scene without one at the start, as the part comes), `angle_deg_released`, `change_deg`, `probe`, `kinetic_over_internal` |
 | `stages` | for each stage that has ended: name, kind, when, and the energies then |
 | `warnings` | what was odd in the scene or happened on the way, in sentences |
 )";

@@ -11,7 +11,7 @@ namespace forming_sim {
 
 namespace {
 /// Counts up with every change of what is saved or of its order, down to the order of an element's corners.
-constexpr std::uint64_t kLayout = 0x6d726f660000001du;
+constexpr std::uint64_t kLayout = 0x6d726f660000001eu;
 
 template <class T> std::size_t mark_of(const T* values, std::size_t count) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(values), count * sizeof(T)});

@@ -53,7 +53,7 @@ bool Settle::at_rest(double t, const std::vector<Energies>& bodies, const std::v
     const double restless = kinetic + 0.5 * swing.F_MF / (omega * omega), below = std::max(fraction_ * std::max(beside, 1e-6 * had), least);
     swing.below = below;
     if ((swing.omega == 0 && kinetic > 0) || swing.falls || restless > below) quiet = false;
-    if (quiet_ == 0 || restless * quiet_ > restless_ * below) restless_ = restless, quiet_ = below;
+    if (quiet_ == 0 || restless * quiet_ > restless_ * below) restless_ = restless, quiet_ = below, mover_ = static_cast<double>(mover);
   };
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     most_of_[b] = std::max(most_of_[b], bodies[b].elastic + bodies[b].kinetic);

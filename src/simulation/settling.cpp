@@ -143,8 +143,10 @@ std::string Simulation::Impl::why_unsettled() const {
   std::ostringstream text;
   text << "stage " << stages.stage().title() << " reached its limit ";
   if (settle.restless() > settle.quiet()) {
-    text << "before the bodies rested: at its end the kinetic energy of the one farthest from rest, and what the forces out of balance could still set free in it, were " << settle.restless()
-         << unit << ", and should stay below stages[].kinetic_fraction of its elastic energy, " << settle.quiet() << unit << "; ";
+    const std::size_t mover = settle.most_restless(), bodies = model.bodies.size();
+    const bool is_body = mover < bodies;
+    text << "before all rested: at its end the kinetic energy of " << (is_body ? "body " + model.bodies[mover].name : "tool " + model.tools[(mover - bodies) % model.tools.size()].name) << ", the farthest from rest, and what the forces out of balance could still set free in it, were " << settle.restless()
+         << unit << ", and should stay below stages[].kinetic_fraction of " << (is_body ? "its elastic energy, " : "that of all bodies, ") << settle.quiet() << unit << "; ";
     NodeField loads(x.size(), Node::Zero());
     pressures.add(time, x, loads);
     dead_loads.add(time, loads);

@@ -45,6 +45,35 @@ TEST(LoadsForceDrive, AloneItFallsAsItsForceSays) {
   EXPECT_LT((velocity(drive) - force / 2.5 * 399.5e-5).norm(), 1e-12 * velocity(drive).norm());
 }
 
+// It stands less than a step's way past the stop, whatever drives it on, until something draws it back.
+TEST(LoadsForceDrive, AStopHoldsItAndLetsItGo) {
+  const double ahead = 4e-6, behind = 2e-6, dt = 1e-6;
+  MotionConfig config = pushing({Vec3(0, -40, 0), Vec3(0, -40, 0), Vec3(0, 40, 0)}, 2);
+  config.stop_ahead = ahead;
+  config.stop_behind = behind;
+  ForceDrive drive(config);
+  double stood = 0, left = 0, came = 0, highest = -1, lowest = 1;  // s; m
+  for (int n = 0; n < 5000; ++n) {
+    const double t = n * dt;
+    drive.take(t, dt, dt, 0, 0);
+    highest = std::max(highest, drive.gone());
+    lowest = std::min(lowest, drive.gone());
+    if (stood == 0 && drive.stands()) stood = t;
+    if (stood > 0 && left == 0 && !drive.stands()) left = t;
+    if (left > 0 && came == 0 && drive.stands()) came = t;
+    if (drive.stands() && t > stood + dt) EXPECT_TRUE(drive.inverse_mass(dt) == 0 && drive.free_speed(t, dt) == 0) << t;
+  }
+  std::printf("  stands at %g s, leaves at %g s, comes to the other stop at %g s; way from %.9g to %.9g m\n", stood, left, came, lowest, highest);
+  EXPECT_NEAR(stood, std::sqrt(2 * ahead / 20), 3 * dt);
+  EXPECT_NEAR(left, 1.5e-3, 3 * dt);  // where the force changes its sign
+  EXPECT_GE(highest, ahead);
+  EXPECT_LE(highest, ahead + dt * 20 * (stood + dt));
+  EXPECT_LE(lowest, -behind);
+  EXPECT_GE(lowest, -behind - dt * 20 * (came - left + dt));
+  EXPECT_TRUE(drive.stands());
+  EXPECT_EQ(drive.fallen(5e-3), 0);
+}
+
 TEST(LoadsForceDrive, AHammerFliesWithWhatItStartsWith) {
   MotionConfig config = pushing({Vec3::Zero()}, 2.5);
   config.initial_velocity = Vec3(0, -6, 0);

@@ -55,15 +55,15 @@ TEST(Thickness, OfABentSheetIsItsRadialDistance) {
     flat[offset + i] = node(x);
     bent[offset + i] = Node((1 + x.y()) * std::sin(x.x()), (1 + x.y()) * std::cos(x.x()), 0, 0);
   }
-  EXPECT_DOUBLE_EQ(smallest(thickness.at(flat)).value(), t);
+  EXPECT_DOUBLE_EQ(smallest(thickness.at(flat), thickness.top()).value(), t);
   // The bottom's chords lie within a chord's height of the arc.
   const double chord = 1 - std::cos(M_PI / 4 / cells);
-  EXPECT_GE(smallest(thickness.at(bent)).value(), t - 1e-12);
-  EXPECT_LE(smallest(thickness.at(bent)).value(), t + chord);
+  EXPECT_GE(smallest(thickness.at(bent), thickness.top()).value(), t - 1e-12);
+  EXPECT_LE(smallest(thickness.at(bent), thickness.top()).value(), t + chord);
 
   bent[offset + cells + 1 + 7].head<3>() *= 1.05 / 1.1;  // one dent
   const double expected = 0.05;
-  EXPECT_NEAR(smallest(thickness.at(bent)).value(), expected, chord);
+  EXPECT_NEAR(smallest(thickness.at(bent), thickness.top()).value(), expected, chord);
   const std::vector<double> thinning = thickness.thinning(thickness.at(bent));
   for (int i = 0; i <= cells; ++i) {  // what lies below a node of the top is as thin as the sheet there
     EXPECT_NEAR(thinning[offset + cells + 1 + i], i == 7 ? 0.5 : 0, chord / t) << i;
@@ -137,7 +137,7 @@ TEST(Thickness, WhereTheBottomIsGoneThereIsNone) {
   for (int i = 0; i <= cells / 2; ++i) EXPECT_DOUBLE_EQ(found[cells + 1 + i], t) << i;
   for (int i = cells / 2 + 3; i <= cells; ++i) EXPECT_TRUE(std::isnan(found[cells + 1 + i])) << i << ": " << found[cells + 1 + i];
   EXPECT_LT(std::count_if(found.begin(), found.end(), [&](double value) { return value > 1.2 * t; }), 2);
-  EXPECT_DOUBLE_EQ(thickness.initial().value(), t);
+  EXPECT_DOUBLE_EQ(thickness.initial(thickness.top()).value(), t);
 }
 
 TEST(Thickness, NeedsBothSetsAndFacetsOfTheBottom) {
@@ -173,7 +173,8 @@ TEST(Thickness, FindsTheNearestTriangleAsASearchOfAllDoes) {
   for (int top : mesh.sets["top"])
     for (const Facet& f : mesh.surface)
       expected = std::min(expected, std::sqrt(closest_on_triangle(positions[top], positions[f.nodes[0]], positions[f.nodes[1]], positions[f.nodes[2]]).squared));
-  EXPECT_EQ(smallest(Thickness(model_of(mesh)).at(positions)), expected);
+  const Thickness thickness(model_of(mesh));
+  EXPECT_EQ(smallest(thickness.at(positions), thickness.top()), expected);
 }
 
 using Sides = std::pair<std::string, std::string>;

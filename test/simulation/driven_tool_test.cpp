@@ -45,6 +45,33 @@ TEST(DrivenTool, AHolderPressesWithItsForce) {
   }
 }
 
+// A holder on spacers presses the sheet as far as they let it, and with what the sheet then asks for; they bear the rest of its force.
+TEST(DrivenTool, OnSpacersItPressesNoFurther) {
+  const double force = 1e8, stop = 1e-6;
+  OneBody run = held_strip(20, 4, 0, 1.5e-3);
+  drive(holder_of(run), {0, 5e-4}, {Vec3::Zero(), Vec3(0, -force, 0)});
+  holder_of(run).motion->stop_ahead = stop;
+  run.plan.time_step.damping = 5e4;
+  auto sim = run.start();
+  const double start = sim->tools()[1].position.y();
+  std::vector<char> saved;
+  while (sim->step())
+    if (saved.empty() && sim->time() > 1e-3) saved = sim->save();
+  const MaterialConfig m = aluminium();
+  const double asks = stop / kThickness * kLength * m.E() / (1 - m.poissons_ratio * m.poissons_ratio), way = start - sim->tools()[1].position.y();
+  std::printf("  way %.9g of %g m; force on holder %.6g, on table %.6g of %.6g N/m; balance %.1e\n", way, stop, sim->tools()[1].force.y(), sim->tools()[0].force.y(), asks, sim->balance_error());
+  EXPECT_GE(way, stop);
+  EXPECT_LT(way, 1.01 * stop);
+  EXPECT_NEAR(sim->tools()[1].force.y(), asks, 0.02 * asks);
+  EXPECT_NEAR(sim->tools()[0].force.y(), -sim->tools()[1].force.y(), 1e-3 * asks);
+  EXPECT_EQ(sim->contact_status().crossings, 0);
+  EXPECT_TRUE(sim->warnings().empty());
+  auto resumed = run.start(2);
+  resumed->restore(saved);
+  while (resumed->step()) {}
+  for (std::size_t n = 0; n < resumed->positions().size(); ++n) ASSERT_EQ(resumed->positions()[n], sim->positions()[n]) << n;
+}
+
 /// A ram presses the strip by `way` within half a millisecond, and stops under `force`; then it is taken away.
 OneBody stopping_ram(double force, double way) {
   OneBody run = held_strip(20, 2, 0, 5e-4);

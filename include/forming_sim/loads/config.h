@@ -106,6 +106,7 @@ struct MotionConfig {
   double initial_spin_deg_s = 0;    ///< about the axle
   double inertia = 0;               ///< about the axle; 0: of the bodies' mass, as far off as the tool reaches
   double damping = 0;               ///< force
+  double stop_ahead = 0, stop_behind = 0;  ///< force; 0: none
   double spin_damping = 0;          ///< about the axle
   double stop_force = 0;            ///< trajectory, velocity; 0: none
   Vec3 centre = Vec3::Zero();
@@ -134,6 +135,8 @@ struct MotionConfig {
     visit(FORMING_SIM_FIELD(initial_spin_deg_s), Field().unit("deg/s").doc("how fast it turns about the axle at the start"));
     visit(FORMING_SIM_FIELD(inertia), Field().unit("kg m2").at_least(0).computed("the mass of all bodies times the square of the farthest that the tool reaches from the axle").doc("moment of inertia about the axle, plane strain: kg m; at least a thousandth of the default, with what mass scaling adds"));
     visit(FORMING_SIM_FIELD(damping), Field().unit("1/s").at_least(0).when("kind", {"force"}).doc("rate at which the tool loses speed to its guide: a force of damping times mass times velocity (against that of the other end of its spring)"));
+    visit(FORMING_SIM_FIELD(stop_ahead), Field().unit("m").at_least(0).when("kind", {"force"}).computed("none").doc("how far the tool can go along its guide, from its place at the start in the direction of the guide (without one of the largest force), until it comes against a stop: spacers under a blank holder, the end of a gas spring. It stands there, whatever drives it, until it is pushed or drawn back"));
+    visit(FORMING_SIM_FIELD(stop_behind), Field().unit("m").at_least(0).when("kind", {"force"}).computed("none").doc("likewise the other way"));
     visit(FORMING_SIM_FIELD(spin_damping), Field().unit("1/s").at_least(0).doc("rate at which a tool that turns about an axle loses spin to its bearing: a torque of spin_damping times inertia times spin"));
     visit(FORMING_SIM_FIELD(stop_force), Field().unit("N").at_least(0).when("kind", {"trajectory", "velocity"}).computed("it goes its whole way").doc("the tool stops for good where it is when the force against its way (of a tool that only turns: the whole force), the mean over some 50 steps, has reached this; plane strain: N/m; axisymmetric: along the axis, of the whole circle. stages[].until_stopped ends a stage with it. About an axle it turns on"));
     visit(FORMING_SIM_FIELD(centre), Field().unit("m").doc("centre of rotation at the start; it moves with the tool"));

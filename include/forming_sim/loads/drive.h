@@ -12,6 +12,9 @@
 //
 // and where it brakes so hard that this would swing, a > 1, V* = (k F/M)/(2 a),   V = V* + J/(2 a M).
 //
+// Past a stop it stands from the next step on, V = 0 and in contact as if it were infinitely heavy, and loses its momentum to the stop; the V that
+// it would have come to instead tells when it leaves. How far it is past the stop then, no more than its way in a step, stays.
+//
 // V and J depend on each other: contact finds both (contact/driven.h). Taken one after the other, the tool would feed the swings of
 // what it touches, whatever its mass and however short the step.
 #include <algorithm>
@@ -42,19 +45,22 @@ class Drive {
   /// force: over the time of its own; mass above 0; speed: at the start.
   Drive(const ScalarProfile& force, double mass, double damping, double speed) : force_(force), mass_(mass), damping_(damping), speed_(speed), momentum_(speed) {}
   void tie_to(const Spring& spring) { spring_ = spring; }
+  /// Stops at `ahead` and at -`behind` of the way, m; infinite: none.
+  void put_stops(double ahead, double behind) { ahead_ = ahead, behind_ = behind; }
 
   /// Its times count from the time t of the run on.
   void begin(double t) { began_ = t; }
 
   /// V* of a step from t on.
   double free_speed(double t, double kick) const;
-  /// By so much an impulse changes V: 1/(M (1 + a)), braked hard 1/(2 a M).
-  double inverse_mass(double kick) const;
+  /// By so much an impulse changes V: 1/(M (1 + a)), braked hard 1/(2 a M); against a stop 0.
+  double inverse_mass(double kick) const { return against_ == 0 ? free_inverse_mass(kick) : 0; }
   double force(double t) const { return force_.at(t - began_) + spring_.force(t - began_, gone_); }  ///< F and what its spring gives, N; N m
   double mass() const { return mass_; }    ///< M, kg; kg m2
   double gone() const { return gone_; }    ///< from the start, m; rad
   double speed() const { return speed_; }  ///< V of the last step, m/s; rad/s
   bool springs_back() const { return spring_.stiffness > 0; }
+  bool stands() const { return against_ != 0; }  ///< against a stop
   /// The longest step that its spring bears, 2/omega, s; infinite without one.
   double stable_step() const;
   /// Adds `rate` to alpha, 1/s, until it is told another: in settle stages.
@@ -64,11 +70,13 @@ class Drive {
   ~Drive() = default;  ///< what drives is one of the two below
   void take_step(double t, double kick, double dt, double push, double answer);
   template <class Archive> void exchange_motion(Archive& a) {
-    for (double* value : {&gone_, &speed_, &momentum_}) a.number(*value);
+    for (double* value : {&gone_, &speed_, &momentum_, &against_}) a.number(*value);
   }
 
  private:
   double kept(double kick) const { return std::max(0.0, 1 - braking(kick)); }  ///< of V
+  double free_inverse_mass(double kick) const;
+  double unstopped_speed(double t, double kick) const;
   double braking(double kick) const { return 0.5 * (damping_ + settling_) * kick; }  ///< a
 
   ScalarProfile force_;
@@ -76,6 +84,8 @@ class Drive {
   double mass_, damping_, settling_ = 0;
   double began_ = 0;  ///< s
   double gone_ = 0, speed_ = 0;
+  double ahead_ = std::numeric_limits<double>::infinity(), behind_ = ahead_;  ///< m
+  double against_ = 0;  ///< 1: the stop ahead, -1: the one behind, 0: neither
   double momentum_ = 0;  ///< over M: V as J says; speed_ is as near to it as contact searches, and no impulse is lost
 };
 
@@ -91,7 +101,7 @@ class ForceDrive : public Drive {
   Pose placed(Pose told, double way, double speed) const;
   /// The step has been done, dt long, with V = V* + push; answer: J, along the guide, N s.
   void take(double t, double kick, double dt, double push, double answer);
-  /// How far it has gone on along its force since it last pressed on anything, m; 0: it has not pressed yet, or is on a spring.
+  /// How far it has gone on along its force since it last pressed on anything, m; 0: it has not pressed yet, is on a spring, or has come to a stop.
   double fallen(double t) const;
 
   template <class Archive> void exchange(Archive& a) {

@@ -116,7 +116,7 @@ struct FormedConfig {
   template <class Visitor> static void declare(Visitor&& visit) {
     visit(FORMING_SIM_FIELD(url), Field().required().doc("file path (relative to the scene file), file:// or package:// URL of the formed.h5 of a run with output.formed"));
     visit(FORMING_SIM_FIELD(body), Field().computed("the body of the same name, or the only one").doc("which of its bodies"));
-    visit(FORMING_SIM_FIELD(turn_deg), Field().unit("deg").doc("the part is turned by this rotation vector before anything else, as it is put into the next tool; its stresses turn with it"));
+    visit(FORMING_SIM_FIELD(turn_deg), Field().unit("deg").doc("the part is turned by this rotation vector before anything else, as it is put into the next tool; its stresses turn with it. Not in axisymmetric scenes, where a section stays beside its axis: turn the tools over instead"));
     visit(FORMING_SIM_FIELD(turn_centre), Field().unit("m").doc("the point that this turn leaves where it is"));
     visit(FORMING_SIM_FIELD(shift), Field().unit("m").doc("then the part is shifted by this"));
   }

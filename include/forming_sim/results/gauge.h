@@ -14,7 +14,7 @@ namespace forming_sim {
 
 struct Measures {
   Peak plastic_strain;                ///< greatest equivalent plastic strain, now
-  Peak surface_strain;                ///< greatest principal log strain on the surface, but for faces in planes of symmetry, now
+  Peak surface_strain;                ///< greatest principal log strain on the surface, but for faces in planes of symmetry, now; this and the next two of rubber only where there is nothing else
   std::vector<double> thickness_of_nodes, thinning_of_nodes;  ///< results/thickness.h; empty without a sheet
   std::optional<double> thickness;    ///< smallest of the sheets, m
   Peak thinning;                      ///< greatest of the sheets, now
@@ -29,14 +29,14 @@ class Gauge {
   Gauge(const Simulation& simulation, const std::vector<ProbeConfig>& probes);
   const std::vector<Probe>& probes() const { return probes_; }
   const Measures& at(const Simulation& simulation);
-  std::optional<double> initial_thickness() const { return sheets_.initial(); }  ///< smallest of the sheets while they were free of stress, m
+  std::optional<double> initial_thickness() const { return sheets_.initial(top_); }  ///< smallest of the sheets while they were free of stress, m
 
  private:
   std::vector<Probe> probes_;
   std::vector<int> asked_;  ///< elements of the probes, one probe's after the other's
   Thickness sheets_;
   FormingLimits limits_;
-  std::vector<int> top_;  ///< nodes of the sheets
+  std::vector<int> top_;  ///< nodes of the sheets that count
   Measures measures_;
   long step_ = -1;
 };

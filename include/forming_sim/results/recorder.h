@@ -19,12 +19,14 @@ class Recorder : public Observer {
 
  private:
   void look(const Simulation& simulation);
+  void see_formed_angle(const Simulation& simulation);
   void tell_inertia(const Simulation& simulation, const StageConfig& stage);  ///< of the stage that ends
   void tell_sharp_bends(const Simulation& simulation, int stage);             ///< when the last of the form stages ends
   void tell_great_strain(const Simulation& simulation, int stage);
   void tell_short_steps(const Simulation& simulation, int stage);
   void tell_damage(const Simulation& simulation);
   void tell_forming_limit(const Simulation& simulation);
+  void tell_thinning(const Simulation& simulation);
   void tell_once(const std::string& told, const std::string& more);
   const OutputConfig output_;
   Schedule schedule_;

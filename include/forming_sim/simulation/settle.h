@@ -65,6 +65,7 @@ class Settle {
   bool is_quiet() const { return looked_ > quiet_since_; }
   /// Kinetic and releasable energy of the body farthest from rest when they were last looked at, and what it should be below, J.
   double restless() const { return restless_; }
+  std::size_t most_restless() const { return static_cast<std::size_t>(mover_); }  ///< whose: of the bodies, and after them of the tools that at_rest() was told
   double quiet() const { return quiet_; }
   /// For so long they have to be quiet, s.
   double shortest() const {
@@ -75,7 +76,7 @@ class Settle {
   }
 
   template <class Archive> void exchange(Archive& a) {
-    for (double* value : {&fraction_, &quiet_since_, &looked_, &omega_, &restless_, &quiet_}) a.number(*value);
+    for (double* value : {&fraction_, &quiet_since_, &looked_, &omega_, &restless_, &quiet_, &mover_}) a.number(*value);
     a.list(shortest_of_);
     a.list(least_of_);
     a.each(swing_of_, [&](Swing& swing) {
@@ -96,7 +97,7 @@ class Settle {
     bool falls = false;
   };
 
-  double fraction_ = 0, quiet_since_ = 0, looked_ = 0, restless_ = 0, quiet_ = 0;
+  double fraction_ = 0, quiet_since_ = 0, looked_ = 0, restless_ = 0, quiet_ = 0, mover_ = 0;
   double omega_ = 0;               ///< of all together: what damps
   std::vector<double> shortest_of_;  ///< of each body, s
   std::vector<double> least_of_;     ///< of each body, J
