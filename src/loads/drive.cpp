@@ -58,9 +58,10 @@ double Drive::free_inverse_mass(double kick) const { return 1 / (mass_ * (kept(k
 double Drive::stable_step() const { return spring_.stiffness > 0 ? 2 / std::sqrt(spring_.stiffness / mass_) : std::numeric_limits<double>::infinity(); }
 
 void Drive::take_step(double t, double kick, double dt, double push, double answer) {
+  const double unstopped = unstopped_speed(t, kick);  // where it is before the step
   speed_ = free_speed(t, kick) + push;
   gone_ += dt * speed_;
-  momentum_ = unstopped_speed(t, kick) + free_inverse_mass(kick) * answer;
+  momentum_ = unstopped + free_inverse_mass(kick) * answer;
   if (!stands()) against_ = gone_ >= ahead_ ? 1 : gone_ <= -behind_ ? -1 : 0;
   if (momentum_ * against_ >= 0 && stands()) momentum_ = 0;
   else against_ = 0;

