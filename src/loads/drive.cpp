@@ -63,8 +63,8 @@ void Drive::take_step(double t, double kick, double dt, double push, double answ
   gone_ += dt * speed_;
   momentum_ = unstopped + free_inverse_mass(kick) * answer;
   if (!stands()) against_ = gone_ >= ahead_ ? 1 : gone_ <= -behind_ ? -1 : 0;
-  if (momentum_ * against_ >= 0 && stands()) momentum_ = 0;
-  else against_ = 0;
+  if (!(momentum_ * against_ >= 0)) against_ = 0;  // it leaves the stop
+  if (stands()) momentum_ = 0;
 }
 
 ForceDrive::ForceDrive(const MotionConfig& config)

@@ -43,8 +43,9 @@ Peak greatest_surface_strain(const Simulation& simulation) {
   peak.time = simulation.time();
   std::size_t first = 0, greatest = strain.size();
   for (const BodyModel& body : simulation.model().bodies) {
+    const bool formed = is_formed(simulation.model(), body);
     for (std::size_t i = 0; i < body.cut.size(); ++i)
-      if (is_formed(simulation.model(), body) && !body.cut[i] && (greatest == strain.size() || strain[first + i].major > strain[greatest].major)) greatest = first + i;
+      if (formed && !body.cut[i] && (greatest == strain.size() || strain[first + i].major > strain[greatest].major)) greatest = first + i;
     first += body.cut.size();
   }
   if (greatest == strain.size()) return peak;

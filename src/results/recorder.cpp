@@ -6,15 +6,17 @@
 #include "forming_sim/config/words.h"
 #include "forming_sim/mesh/measure.h"
 #include "forming_sim/results/sharp_bend.h"
+#include "forming_sim/simulation/body_of_element.h"
 
 namespace forming_sim {
 
 namespace {
 
+bool forms(const StageConfig& stage) { return stage.kind == "form"; }
+
 /// Whether the stage is the last that forms.
 bool ends_forming(const Simulation& simulation, int stage) {
   const std::vector<StageConfig>& stages = simulation.plan().stages;
-  const auto forms = [](const StageConfig& s) { return s.kind == "form"; };
   return forms(stages[stage]) && std::none_of(stages.begin() + stage + 1, stages.end(), forms);
 }
 
@@ -25,7 +27,7 @@ void Recorder::on_start(const Simulation& simulation) {
   if (record_.surface_strain.element >= 0) return;  // after a resume
   look(simulation);
   const std::vector<StageConfig>& stages = simulation.plan().stages;
-  if (std::none_of(stages.begin(), stages.end(), [](const StageConfig& s) { return s.kind == "form"; })) see_formed_angle(simulation);  // a part comes as it was formed
+  if (std::none_of(stages.begin(), stages.end(), forms)) see_formed_angle(simulation);  // a part comes as it was formed
 }
 
 void Recorder::on_step(const Simulation& simulation) {
@@ -45,7 +47,7 @@ void Recorder::on_stage_end(const Simulation& simulation, int index) {
   tell_short_steps(simulation, index);
   record_.kinetic_peak.levels.clear();
   record_.stages.push_back(ended);
-  if (stage.kind != "form") return;
+  if (!forms(stage)) return;
   const Measures& measures = gauge_.at(simulation);
   record_.surface_strain_formed = measures.surface_strain;
   record_.kinetic_over_internal_formed.reset();
@@ -68,7 +70,7 @@ void Recorder::tell_inertia(const Simulation& simulation, const StageConfig& sta
   constexpr double kMuch = 0.1;
   const Energies& e = simulation.energies();
   const double internal = e.elastic + e.plastic, most = record_.kinetic_peak.at_end(internal, kWellOnItsWay);
-  if (stage.kind != "form" || !(most > kMuch) || e.initial > e.work || e.plastic < e.elastic) return;
+  if (!forms(stage) || !(most > kMuch) || e.initial > e.work || e.plastic < e.elastic) return;
   record_.notes.push_back("in stage " + stage.title() + " the kinetic energy was up to " + three_digits(100 * most) +
                           " % of the internal one when a fifth of this was there or more: unless bodies travel as a whole, inertia takes part in forces and shapes. Slower tools or less time_step.mass_scaling show by how much");
 }
@@ -129,10 +131,9 @@ void Recorder::tell_thinning(const Simulation& simulation) {
   constexpr double kMuch = 0.5;
   const Peak& most = gauge_.at(simulation).thinning;
   if (!(most.value > kMuch)) return;
-  const Model& model = simulation.model();
-  const auto body = std::find_if(model.bodies.begin(), model.bodies.end(), [&](const BodyModel& b) { return most.element < b.first_element + b.element_count; });
-  if (body->material.damage || body->material.forming_limit || body->material.law == "hyperelastic") return;
-  tell_once("body " + body->name + " has thinned by more than half", ": at " + three_digits(most.time) + " s by " + three_digits(100 * most.value) + " % at " + place(most.position) +
+  const BodyModel& body = body_of_element(simulation.model(), most.element);
+  if (body.material.damage || body.material.forming_limit || body.material.law == "hyperelastic") return;
+  tell_once("body " + body.name + " has thinned by more than half", ": at " + three_digits(most.time) + " s by " + three_digits(100 * most.value) + " % at " + place(most.position) +
             ". A sheet that is stretched has necked and torn before that, in a band whose strain depends on the size of the cells; what tools press thin between them, as rolls do, bears it. material.forming_limit or material.damage tell where such a sheet ends");
 }
 

@@ -15,6 +15,7 @@
 #include "forming_sim/results/text_file.h"
 #include "forming_sim/results/unfinished.h"
 #include "forming_sim/results/version.h"
+#include "forming_sim/simulation/body_of_element.h"
 
 namespace forming_sim {
 namespace {
@@ -39,10 +40,7 @@ Json head(const Scene& scene, Code code, const std::string& message) {
 
 Json place(const Peak& peak, const Model& model) {
   if (peak.element < 0) return nullptr;
-  std::string name;
-  for (const BodyModel& body : model.bodies)
-    if (peak.element >= body.first_element && peak.element < body.first_element + body.element_count) name = body.name;
-  return {{"element", peak.element}, {"body", name}, {"position", vector(peak.position)}, {"time_s", number(peak.time)}};
+  return {{"element", peak.element}, {"body", body_of_element(model, peak.element).name}, {"position", vector(peak.position)}, {"time_s", number(peak.time)}};
 }
 
 Json maximum(const Peak& peak, const Model& model) {
@@ -151,18 +149,13 @@ void tell_flat_layers(const ContactStatus& contact, std::vector<std::string>& wa
   warnings.push_back("contact layers were pressed to " + three_digits(contact.min_gap_over_layer) + " of their thickness h0, " + three_digits(contact.layer) + " m, by pressures far above their stiffness: a body that is shut in is too soft by that much room; give contact.stiffness its bulk modulus, or a smaller contact.layer");
 }
 
-std::vector<BodyModel>::const_iterator body_of(const Simulation& simulation, int element) {
-  const std::vector<BodyModel>& bodies = simulation.model().bodies;
-  return std::find_if(bodies.begin(), bodies.end(), [&](const BodyModel& b) { return element < b.first_element + b.element_count; });
-}
-
 /// One-point cells that have lost their shape: what keeps them from turning inside out bears load.
 void tell_pressed_cells(const Simulation& simulation, const Peak& cells, std::vector<std::string>& warnings) {
   if (cells.element < 0) return;
   std::ostringstream text;
   text.precision(3);
   text << "at " << cells.time << " s " << cells.value << " one-point cells had a corner with less than a fifth of its share in the cell, one of them with element " << cells.element << " of body "
-       << body_of(simulation, cells.element)->name << " at (" << cells.position.transpose() << ") m: "
+       << body_of_element(simulation.model(), cells.element).name << " at (" << cells.position.transpose() << ") m: "
        << (simulation.model().axisymmetric ? "such cells fold, and forces can be up to twice too large. " : "what keeps such cells from turning inside out bears load, and forces can be many times too large. ")
        << "Take pattern fine for this body, cells of another shape, finer ones, or give concave corners of tools a radius";
   warnings.push_back(text.str());
@@ -171,7 +164,7 @@ void tell_pressed_cells(const Simulation& simulation, const Peak& cells, std::ve
 /// Corners of tools that cells are too large for.
 void tell_spanned_corner(const Simulation& simulation, const SpannedCorner& spanned, std::vector<std::string>& warnings) {
   if (spanned.peak.element < 0) return;
-  warnings.push_back("at " + three_digits(spanned.peak.time) + " s a face of body " + body_of(simulation, spanned.peak.element)->name + ", " + three_digits(spanned.length) + " m long, spanned a corner of tool " + spanned.tool +
+  warnings.push_back("at " + three_digits(spanned.peak.time) + " s a face of body " + body_of_element(simulation.model(), spanned.peak.element).name + ", " + three_digits(spanned.length) + " m long, spanned a corner of tool " + spanned.tool +
                      " at " + forming_sim::place(spanned.peak.position) + " and stood off it by " + three_digits(100 * spanned.peak.value) +
                      " % of that: metal flows around the corner as if cells had rounded it. Such places bore " + three_digits(100 * spanned.share) + " % of the force of the tool, which is then too large; smaller cells there, or a radius of the tool of about a cell, show by how much");
 }
@@ -180,10 +173,10 @@ void tell_spanned_corner(const Simulation& simulation, const SpannedCorner& span
 void tell_jams(const Simulation& simulation, const Peak& pressed, std::vector<std::string>& warnings) {
   constexpr double kMuch = 0.1;  // of the bulk modulus: 16 GPa in steel
   if (!(pressed.value > kMuch)) return;
-  const auto body = body_of(simulation, pressed.element);
+  const BodyModel& body = body_of_element(simulation.model(), pressed.element);
   std::ostringstream text;
   text.precision(3);
-  text << "at " << pressed.time << " s body " << body->name << " was pressed by " << pressed.value * body->material.K() << " Pa, " << 100 * pressed.value << " % of its bulk modulus, in element "
+  text << "at " << pressed.time << " s body " << body.name << " was pressed by " << pressed.value * body.material.K() << " Pa, " << 100 * pressed.value << " % of its bulk modulus, in element "
        << pressed.element << " at (" << pressed.position.transpose() << ") m: metal that is formed is not, that of a fast impact may be. Look whether it has room to flow to, and whether a concave corner of a tool holds one of its nodes: give such corners a radius, or finer cells there";
   warnings.push_back(text.str());
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "forming_sim/simulation/body_of_element.h"
 #include "simulation/impl.h"
 
 namespace forming_sim {
@@ -64,12 +65,7 @@ StepLimit described(StepLimit limit, const Model& model) {
         limit.reason = "node " + std::to_string(limit.node) + " of body " + body.name;
         break;
       }
-  if (limit.element >= 0)
-    for (const BodyModel& body : model.bodies)
-      if (limit.element < body.first_element + body.element_count) {
-        limit.reason = "element " + std::to_string(limit.element) + " of body " + body.name;
-        break;
-      }
+  if (limit.element >= 0) limit.reason = "element " + std::to_string(limit.element) + " of body " + body_of_element(model, limit.element).name;
   return limit;
 }
 }  // namespace

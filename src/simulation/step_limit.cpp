@@ -7,6 +7,7 @@
 
 #include "forming_sim/config/words.h"
 #include "forming_sim/mesh/measure.h"
+#include "forming_sim/simulation/body_of_element.h"
 #include "forming_sim/simulation/fastest_swing.h"
 #include "simulation/impl.h"
 
@@ -142,11 +143,11 @@ void Simulation::Impl::raise_step() {
 
 void Simulation::Impl::collapse(double stable, int element) const {
   std::ostringstream text;
-  const auto of = std::find_if(model.bodies.begin(), model.bodies.end(), [element](const BodyModel& body) { return element < body.first_element + body.element_count; });
+  const BodyModel& of = body_of_element(model, element);
   Vec3 at = Vec3::Zero();
-  const std::array<int, 4> nodes = of->mesh.simplices()[element - of->first_element];
-  for (int k = 0; k <= model.dimension; ++k) at += vec3(x[of->first_node + nodes[k]]) / (model.dimension + 1);
-  text << "at time " << time << " s the stable step of element " << element << " of body " << of->name << ", at " << place(at) << ", has fallen to " << stable << " s, from " << first_element_dt;
+  const std::array<int, 4> nodes = of.mesh.simplices()[element - of.first_element];
+  for (int k = 0; k <= model.dimension; ++k) at += vec3(x[of.first_node + nodes[k]]) / (model.dimension + 1);
+  text << "at time " << time << " s the stable step of element " << element << " of body " << of.name << ", at " << place(at) << ", has fallen to " << stable << " s, from " << first_element_dt;
   if (stable > 0) {
     const char* what = model.tools.empty() ? "" : "Look whether a tool presses or withdraws through the body there, lower its speed or stroke or time_step.mass_scaling (docs/scene.md). ";
     const char* load = pressures.empty() && dead_loads.empty() ? "" : "A load beyond what the body can bear thins it without end, as a bulge bursts: the last frames tell at which load that began. ";
