@@ -65,6 +65,24 @@ class DrivenTools(SceneRun):
         summary = self.run_scene(data, 'stiff')
         self.assertAlmostEqual(summary['time_step_s']['first'] / (0.9 * 2 * math.sqrt(0.02 / 1e14)), 1, delta=1e-9)
 
+    def test_a_gas_spring_bottoms_on_its_stop_and_comes_back(self):
+        """What goes beyond the stop the block bears between punch and pad, by its stiffness in plane strain."""
+        preload, stop, beyond = 2e4, 4e-4, 1e-5
+        block = {'name': 'block', 'blank': {'shape': 'strip', 'length': 0.004, 'thickness': 0.002, 'cells_along': 4, 'cells_through': 2}, 'material': dict(ALUMINIUM)}
+        punch = {'name': 'punch', 'normal': [0, -1], 'position': [0, 0.002],
+                 'motion': {'kind': 'trajectory', 'times': [0, 4e-4, 8e-4, 1.2e-3], 'positions': [[0, 0], [0, -stop - beyond], [0, -stop - beyond], [0, 0]]}}
+        pad = {'name': 'pad', 'normal': [0, 1],
+               'motion': {'kind': 'force', 'times': [0], 'forces': [[0, preload]], 'guide': [0, 1], 'mass': 0.02, 'damping': 2e4, 'stop_ahead': 0, 'stop_behind': stop}}
+        self.run_scene(scene(block, tools=[punch, pad], duration=1.2e-3, output={'frames': 1, 'history_interval': 1e-6}))
+        rows = self.history()
+        held = [row for row in rows if 6e-4 < float(row['time_s']) < 8e-4]
+        for row in held:
+            self.assertAlmostEqual(float(row['tool_pad_position_y_m']), -stop, delta=2e-7)  # and its way in a step
+        E, nu = ALUMINIUM['youngs_modulus'], ALUMINIUM['poissons_ratio']
+        pressed = numpy.mean([-float(row['tool_pad_force_y_N_per_m']) for row in held])
+        self.assertAlmostEqual(pressed / (E / (1 - nu**2) * beyond / 0.002 * 0.004), 1, delta=0.03)
+        self.assertAlmostEqual(float(rows[-1]['tool_pad_position_y_m']), 0, delta=1e-6)
+
     def test_a_tool_on_a_spring_goes_back_with_its_other_end(self):
         """It presses, is taken back and off the block again, and nothing warns of a tool that fell."""
         block = {'name': 'block', 'blank': {'shape': 'strip', 'length': 0.004, 'thickness': 0.002, 'cells_along': 4, 'cells_through': 2}, 'material': dict(ALUMINIUM),

@@ -34,7 +34,7 @@ template <class T, int D, class Metric> Products<T> products(const Symmetric<T, 
 
 /// end: S as the law of the mean alone has left it.
 template <class T, int D, class Metric>
-[[gnu::always_inline]] inline T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli& moduli, const Plane<T>& strain, const T& share, Plane<T>& ep, T& rise,
+[[gnu::always_inline]] inline T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli& moduli, const Plane<T>& strain, const T& share, const T& outside, Plane<T>& ep, T& rise,
                                                 const PlaneOf<T, D>& at, const Metric& A, const Symmetric<T, D>& end) {
   const Plane<T> before = ep;
   {
@@ -50,10 +50,10 @@ template <class T, int D, class Metric>
   // Newton's step on the root of Q_n + mu, along the flow of the end
   const T resistance = mean.modulus * contract(here.by_S(n), by_S) + T(3) * work(softer, here.by_s(n)) +
                        mean.slope * over * over * (T(4) * n.root * n.root * n.root + T(3) * n.varied * n.varied);
-  T L = share * T(2) * n.root * (n.root - T(1)) / some_resistance(resistance);
-  // S : m/h of the end, which s follows: the edge lies where S will, not where its trial does
+  T L = share * part_of_way(outside, n.root) * T(2) * n.root * (n.root - T(1)) / some_resistance(resistance);
+  // S : m/h of the end, which s follows: it changes its sign where S will, not where its trial does
   const T falls = T(3) * work(softer, there.part);  // per L
-  const auto turned = (to.Sm * (to.Sm - L * falls) < T(0)) & (to.edge > T(0));
+  const auto turned = (to.Sm * (to.Sm - L * falls) < T(0)) & (absolute(L * falls) > to.turn);
   if (any(turned)) L = select(turned, to.Sm / select(turned, falls, T(1)), L);
   repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] -= L * mean.modulus * by_S[i]; });
   ep = {ep.a + T(3) * L * by_s.a, ep.b + T(3) * L * by_s.b, ep.shear + T(3) * L * by_s.shear};

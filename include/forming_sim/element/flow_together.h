@@ -190,9 +190,10 @@ template <class T, int D, bool Ring, class Metric = Isotropic> class FlowTogethe
   }
   /// From there on: the coordinates flow whose share is 1, and what is left returns along the mean. What the variation dissipates.
   [[gnu::always_inline]] T flow_from_trial(const PlaneModuli& moduli, const T* share) {
-    T varied(0);
+    T varied(0), outside(0);
+    repeat<D>([&](auto d) { outside += share[d]; });
     repeat<D>([&](auto d) {
-      if (any(share[d] > T(0))) varied += flow_to_surface<T, D>(mean_, moduli, strain_[d], share[d], ep_[d], rise_[d], at_[d], A_, S_);
+      if (any(share[d] > T(0))) varied += flow_to_surface<T, D>(mean_, moduli, strain_[d], share[d], outside, ep_[d], rise_[d], at_[d], A_, S_);
     });
     flow_of_mean(mean_, A_, S_);
     return varied;

@@ -56,7 +56,7 @@ template <class T> struct Normal {
   T along_S, across, along_s;
   T varied;  ///< d(Q_n + mu)/ds : S
   T Sm;      ///< S : m/h
-  T edge;    ///< |Q_nm| - Q_m/2: above 0 the surface has an edge ahead, where Q_nm changes its sign
+  T turn;    ///< the change of it along which the surface turns where Q_nm changes its sign
 };
 
 /// dev s as what works on strains of the plane: dev s : dev r = work(s, deviatoric(r)).
@@ -139,6 +139,9 @@ template <class T> auto may_be_outside(const T& n2, const T& q2, const T& back, 
   return n2 * m2 > left * left;
 }
 
+/// Q_nm over Q_m by which a step may go beyond Q_nm = 0. The surface turns there over some Q_m, and is an edge where Q_m is 0.
+constexpr double kTurn = 0.01;
+
 template <class T> [[gnu::always_inline]] inline Normal<T> normal(const Products<T>& q, const T& over, const T& back) {
   constexpr double h = kFaceStress;
   const Quadratic<T> Q(q, over, back);
@@ -153,12 +156,19 @@ template <class T> [[gnu::always_inline]] inline Normal<T> normal(const Products
   r.along_S = T(2) * Q.scale - back * (by_S + r.across);
   r.varied = r.along_s * q.Ss + r.across * q.SS;
   r.Sm = Q.Sm;
-  r.edge = absolute(Q.nm) - T(0.5) * Q.m;
+  r.turn = T(kTurn) * Q.m / (T(h) * Q.scale);
   return r;
 }
 
 /// Roots of Q_n + mu from which Newton's step lands near the surface. From farther out it would turn s round.
 constexpr double kNearSurface = 1.5;
+
+/// What share of its way to the surface a coordinate goes where `outside` of them are outside. They go one after the other, and each draws the others
+/// along: two or three that go all the way drive vibrations on, step by step (steady_flow_test). With 3/4 or 1/2 of it the rest is left to the next steps,
+/// little where steps are small; what is far outside goes all of it, since there the step is large, and what it leaves would be.
+template <class T> T part_of_way(const T& outside, const T& root) {
+  return T(1) - T(0.25) * (outside - T(1)) * larger(T(1) - T(1 / (kNearSurface - 1)) * (root - T(1)), T(0));
+}
 
 /// 1 in place of none: cells of a pack that have no stress at all go along with those that flow, and perfect metal does not harden there; the step they would take is 0.
 template <class T> T some_resistance(const T& resistance) { return select(absolute(resistance) > T(1e-300), resistance, T(1)); }
@@ -173,11 +183,11 @@ template <class T, int D>
   repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] *= kept; });
 }
 
-/// One coordinate flows where share is 1: mean, ep and p' (rise) follow; what the variation dissipates per initial volume.
-/// At the edge where the whole cell flows one way and m comes to lie across S, it goes no further; where m is more than that,
-/// the surface is smooth there, and S, however small, is no reason to stop.
+/// One coordinate flows where share is 1, of the `outside` that do: mean, ep and p' (rise) follow; what the variation dissipates per initial volume.
+/// Where the whole cell flows one way it goes no further than to where m comes to lie across S: there the surface has an edge, or turns within less
+/// than the step, and beyond it the normal leads back. Where m is more than that it is smooth, and S, however small, is no reason to stop.
 template <class T, int D>
-[[gnu::always_inline]] inline T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli& moduli, const Plane<T>& strain, const T& share, Plane<T>& ep, T& rise,
+[[gnu::always_inline]] inline T flow_to_surface(MeanFlow<T, D>& mean, const PlaneModuli& moduli, const Plane<T>& strain, const T& share, const T& outside, Plane<T>& ep, T& rise,
                                                 const PlaneOf<T, D>& at, const Isotropic&, const Symmetric<T, D>&) {
   Plane<T> s, dev_s, part;
   Products<T> q;
@@ -201,18 +211,19 @@ template <class T, int D>
   const T& root = n.root;
   const T squared = n.along_S * (n.along_S * q.SS + T(2) * n.across * q.Ss) + n.across * n.across * q.ss;
   const T resistance = mean.modulus * squared + T(3) * work(softer, direction) + mean.slope * over * over * (T(4) * root * root * root + T(3) * n.varied * n.varied);
-  T L = share * T(2) * root * (root - T(1)) / some_resistance(resistance);
+  T L = share * part_of_way(outside, root) * T(2) * root * (root - T(1)) / some_resistance(resistance);
   const T of_S = mean.modulus * n.along_S, of_s = mean.modulus * n.across;  // S becomes (1 - L of_S) S - L of_s dev s
   const T kept = T(1) - L * of_S, lost = L * of_s, three = T(3) * L;
+  const T rises = T(3) * n.varied * over * n.over_root;  // p' per L
   const T after = kept * (q.Ss - three * work(softer, part)) - lost * (q.ss - three * work(softer, dev_s)) -
-                  back * (kept * (kept * q.SS - T(2) * lost * q.Ss) + lost * lost * q.ss);
-  const auto turned = (n.Sm * after < T(0)) & (n.edge > T(0));
+                  (back + mean.slope * over * L * rises) * (kept * (kept * q.SS - T(2) * lost * q.Ss) + lost * lost * q.ss);
+  const auto turned = (n.Sm * after < T(0)) & (absolute(n.Sm - after) > n.turn);
   if (any(turned)) L *= select(turned, n.Sm / select(turned, n.Sm - after, T(1)), T(1));
   const Plane<T> rate{T(3) * L * direction.a, T(3) * L * direction.b, T(3) * L * direction.shear};
   const Symmetric<T, D> deviator = at.deviator(s);
   repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] = (T(1) - L * of_S) * mean.S[i] - L * of_s * deviator[i]; });
   ep = {ep.a + rate.a, ep.b + rate.b, ep.shear + rate.shear};
-  rise += T(3) * L * n.varied * over * n.over_root;
+  rise += L * rises;
   mean.harden(T(2) * L * over * root);
   return T(1.0 / 3) * work(moduli.stress(strain - ep), ep - before);
 }
