@@ -398,7 +398,7 @@ void check_start(double layer, const std::vector<int>& sides, Flush& flush, cons
   if (refused.empty()) return;
   std::ostringstream text;
   text << refused.size() << " pairs of tools and bodies overlap at the start by more than " << 2 * layer
-       << " m: move the tool's position, or where its motion begins, or the body, so that they at most touch.";
+       << " m: move the tool's position, or where its motion begins, or the body, so that they at most touch (arcs of profiles are chords, which lie up to tools[].profile.chord_error aside of them).";
   std::stable_sort(refused.begin(), refused.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   if (refused.size() > 10) text << " The ten deepest:";
   for (size_t i = 0; i < std::min<size_t>(refused.size(), 10); ++i) text << "\n  " << refused[i].second;

@@ -15,12 +15,13 @@ bool has(const Mesh& mesh, const char* set) {
 bool is_standing_wall(const BodyModel& body, bool axisymmetric) {
   constexpr double kStands = 2, kOnSide = 1e-9;
   const Mesh& mesh = body.mesh;
-  if (mesh.dimension != 2 || !has(mesh, "left") || !has(mesh, "right")) return false;
+  if (mesh.dimension != 2 || !has(mesh, "left") || !has(mesh, "right") || !(has(mesh, "bottom") || has(mesh, "top"))) return false;
   const std::vector<Vec3>& X = body.reference();
   Eigen::AlignedBox3d box;
   for (const Vec3& x : X) box.extend(x);
   if (!(box.sizes().y() > kStands * box.sizes().x()) || (axisymmetric && box.min().x() == 0)) return false;
   const auto lie_at = [&](const char* set, int axis, double at) {
+    if (!has(mesh, set)) return true;  // an end that has been trimmed away
     const std::vector<int>& nodes = mesh.sets.at(set);
     return std::all_of(nodes.begin(), nodes.end(), [&](int n) { return std::abs(X[n][axis] - at) <= kOnSide * box.sizes().y(); });
   };
@@ -31,10 +32,8 @@ bool is_standing_wall(const BodyModel& body, bool axisymmetric) {
 
 std::pair<std::string, std::string> sides_of_sheet(const BodyModel& body, bool axisymmetric) {
   const Mesh& mesh = body.mesh;
-  if (has(mesh, "bottom") && has(mesh, "top")) {
-    if (is_standing_wall(body, axisymmetric)) return {"left", "right"};
-    return {"bottom", "top"};
-  }
+  if (is_standing_wall(body, axisymmetric)) return {"left", "right"};
+  if (has(mesh, "bottom") && has(mesh, "top")) return {"bottom", "top"};
   if (has(mesh, "inside") && has(mesh, "outside")) return {"inside", "outside"};
   return {};
 }

@@ -86,7 +86,7 @@ void EndTable::on_end(const Simulation& simulation, Code, const std::string&) {
   for (const BodyModel* body : with_damage(simulation.model()))
     std::printf("damage of %-10s %.4g (%s)\n", body->name.c_str(), *std::max_element(damage.begin() + body->first_element, damage.begin() + body->first_element + body->element_count), body->material.damage->criterion.c_str());
   for (const FormingLimitRow& limit : limits) std::printf("forming limit of %-4s %.4g of it at most, beyond it %.3g %% of the sheet\n", limit.body.c_str(), limit.most, 100 * limit.beyond);
-  if (kinetic) std::printf("kinetic / internal   %.3g at most while forming\n", *kinetic);
+  if (kinetic) std::printf("kinetic / internal   %.3g at most while forming, once 1 %% of the internal energy is there\n", *kinetic);
   std::printf("balance error        %.3g\n", simulation.balance_error());
   std::printf("crossings            %ld\nsmallest gap / layer %.3g\n", contact.crossings, contact.min_gap_over_layer);
   if (contact.explicit_stable_dt > 0) std::printf("stable contact step  %.3g s\n", contact.explicit_stable_dt);

@@ -126,6 +126,7 @@ bool Simulation::step() {
     s.stages.advance(s.time);
     s.place_tools();  // which it may take away
     s.begin_stage();
+    s.tell_flight(energies());
   }
   s.observed += std::chrono::duration<double>(Clock::now() - stepped).count();
   return !s.stages.finished();

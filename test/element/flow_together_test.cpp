@@ -128,5 +128,22 @@ TEST(FlowTogether, AnIdleHalfDoesNoHarm) {
   EXPECT_EQ(own.all(), Cell(3, 4.0).alone().all());
 }
 
+// R(dp) of what has flowed in the step is what the yield stress was raised by, also where three coordinates go part of their way.
+TEST(FlowTogether, TheYieldStressIsRaisedByTheRateOfItsFlow) {
+  for (const char* law : {"power", "cowper_symonds", "johnson_cook"})
+    for (unsigned seed = 1; seed < 40; ++seed)
+      for (double bent : {1.0, 1.5, 2.0}) {
+        Cell cell(seed, bent, law);
+        cell.point.kept = 1 / (1 + 3 * cell.solid.mu * cell.point.dp / mises(cell.point.S));  // as the law returns
+        const HardeningCurve& hardening = cell.solid.layer[0].hardening;
+        const double before = cell.memory[Cell::size], by_law = cell.point.dp > 0 ? rate_factor(hardening.rate, std::log(cell.point.dp)).value : 1;
+        const double sigma = cell.point.yield.value / by_law, slope = cell.point.yield.slope / by_law;
+        cell.alone();
+        const double beyond = cell.memory[Cell::size] - before, dp = cell.point.dp + beyond;
+        if (beyond == 0 || dp <= 0) continue;
+        EXPECT_NEAR(cell.limit / (sigma + slope * beyond), rate_factor(hardening.rate, std::log(dp)).value, 5e-3 * cell.limit / sigma) << law << ", seed " << seed << ", bent " << bent;
+      }
+}
+
 }  // namespace
 }  // namespace forming_sim

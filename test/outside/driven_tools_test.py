@@ -72,7 +72,7 @@ class DrivenTools(SceneRun):
         punch = {'name': 'punch', 'normal': [0, -1], 'position': [0, 0.002],
                  'motion': {'kind': 'trajectory', 'times': [0, 4e-4, 8e-4, 1.2e-3], 'positions': [[0, 0], [0, -stop - beyond], [0, -stop - beyond], [0, 0]]}}
         pad = {'name': 'pad', 'normal': [0, 1],
-               'motion': {'kind': 'force', 'times': [0], 'forces': [[0, preload]], 'guide': [0, 1], 'mass': 0.02, 'damping': 2e4, 'stop_ahead': 0, 'stop_behind': stop}}
+               'motion': {'kind': 'force', 'times': [0], 'forces': [[0, preload]], 'guide': [0, 1], 'mass': 0.02, 'damping': 2e4, 'stop_ahead': 1e-9, 'stop_behind': stop}}
         self.run_scene(scene(block, tools=[punch, pad], duration=1.2e-3, output={'frames': 1, 'history_interval': 1e-6}))
         rows = self.history()
         held = [row for row in rows if 6e-4 < float(row['time_s']) < 8e-4]
@@ -82,6 +82,8 @@ class DrivenTools(SceneRun):
         pressed = numpy.mean([-float(row['tool_pad_force_y_N_per_m']) for row in held])
         self.assertAlmostEqual(pressed / (E / (1 - nu**2) * beyond / 0.002 * 0.004), 1, delta=0.03)
         self.assertAlmostEqual(float(rows[-1]['tool_pad_position_y_m']), 0, delta=1e-6)
+        pad['motion']['stop_ahead'] = 0  # no way is none at all
+        self.assertIn('tools[1].motion.stop_ahead', self.refused(scene(block, tools=[punch, pad])))
 
     def test_a_tool_on_a_spring_goes_back_with_its_other_end(self):
         """It presses, is taken back and off the block again, and nothing warns of a tool that fell."""

@@ -192,6 +192,12 @@ TEST(SheetSides, AreThoseOfTheWall) {
   EXPECT_EQ(of(5, true), Sides("left", "right")) << "a tube";
   EXPECT_EQ(of(0, false), Sides("left", "right")) << "a wall in plane strain";
   EXPECT_EQ(of(0, true), Sides("bottom", "top")) << "a solid bar";
+  for (const char* end : {"bottom", "top"}) {
+    of(5, true);
+    body.mesh.sets.erase(end);
+    EXPECT_EQ(sides_of_sheet(body, true), Sides("left", "right")) << "a tube trimmed at its " << end;
+  }
+  of(5, true);
   body.mesh.sets["left"] = {0, 1};  // not one of its four sides
   EXPECT_EQ(sides_of_sheet(body, false), Sides("bottom", "top"));
   blank.thickness = 1.9;

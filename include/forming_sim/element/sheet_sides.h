@@ -10,7 +10,8 @@
 namespace forming_sim {
 
 /// `bottom` and `top`; where the mesh has not both, `inside` and `outside`, as a tube; of a section that is a rectangle at the start, with its four sides as
-/// sets, twice as high as long and not about the axis, as the wall of a tube, `left` and `right`. Empty names: it is no sheet.
+/// sets (but for an end that has been trimmed away), twice as high as long and not about the axis, as the wall of a tube, `left` and `right`. Empty names:
+/// it is no sheet.
 std::pair<std::string, std::string> sides_of_sheet(const BodyModel& body, bool axisymmetric);
 
 /// Corners of a facet of its surface in the joined numbering; a segment repeats its second one.
