@@ -182,7 +182,7 @@ void Simulation::Impl::tell_fall(int tool) {
   fall_told = true;
   std::ostringstream text;
   text << "tool " << model.tools[tool].name << ", which a force drives, pressed on the bodies no more: at " << time << " s it had gone on by " << fallen
-       << " m from there, and tools do not hold each other. Until then it may have struck them: give it motion.stop_ahead, as spacers do, withdraw it or end its force before the bodies have left it, or guide it by a trajectory";
+       << " m from there, and tools do not hold each other. Until then it may have struck them: give it a motion.stop_ahead above 0, as spacers do, withdraw it or end its force before the bodies have left it, or guide it by a trajectory";
   warnings.push_back(text.str());
 }
 
