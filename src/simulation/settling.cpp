@@ -140,7 +140,7 @@ std::string Simulation::Impl::what_flies() const {
 
 void Simulation::Impl::tell_flight(const Energies& energies) {
   constexpr double kLittle = 0.01;  // of what was put in
-  if (!stages.settling() || energies.kinetic < kLittle * (energies.work + energies.initial)) return;
+  if (!stages.settling() || !plan.gravity.isZero(0) || energies.kinetic < kLittle * (energies.work + energies.initial)) return;
   const std::string flying = what_flies();
   if (!flying.empty()) warnings.push_back(flying + " when stage " + stages.stage().title() + " begins, which brings it to rest: if it is to fly on, let a form stage last that long, and read its speed there");
 }

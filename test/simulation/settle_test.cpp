@@ -248,6 +248,20 @@ TEST(Settle, LetsFallWhatFalls) {
   EXPECT_NEAR(sim->tools()[0].force.y(), -9.81 * mass_of(*sim), .01 * 9.81 * mass_of(*sim));
 }
 
+// What has bounced off is brought to rest in its flight, and its speed is lost: that is told.
+TEST(Settle, TellsOfABodyThatFlies) {
+  for (bool falls : {false, true}) {
+    OneBody run(body_of(generate_blank(strip_of(10e-3, 1e-3, 10, 2)), aluminium()), 1e-5);
+    run.plan.bodies[0].initial_velocity = Vec3(0, 3, 0);
+    if (falls) run.plan.gravity = Vec3(0, -9.81, 0);
+    run.plan.stages.push_back(settle(1e-4));
+    auto sim = run.start();
+    while (sim->step()) {}
+    const bool told = !sim->warnings().empty() && sim->warnings()[0].find("goes as a whole, with 3 m/s when stage settle begins") != std::string::npos;
+    EXPECT_EQ(told, !falls);
+  }
+}
+
 // A long thin strip far away, on which nothing acts, once made a settle stage as long as its own slowest swing.
 TEST(Settle, DoesNotWaitForABodyThatDoesNothing) {
   OneBody alone = loaded(0, 5e-4, 1), beside = alone;
