@@ -173,7 +173,8 @@ struct Simulation::Impl {
   bool still_driven() const;
   /// Of the running stage, which has come to its limit.
   std::string why_unsettled() const;
-  std::string what_flies() const;  ///< a body that goes as a whole, in words; empty: none does
+  /// A body that goes as a whole with a kinetic energy of at least that, J, in words; empty: none does.
+  std::string what_flies(double least) const;
   /// As a settle stage begins: a body that flies off, not falls, with more than a little of the energy is brought to rest by it.
   void tell_flight(const Energies& energies);
   std::string what_moves() const;  ///< a tool or a set that is driven on, in words; empty: none

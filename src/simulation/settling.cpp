@@ -119,7 +119,7 @@ std::string Simulation::Impl::what_moves() const {
   return "";
 }
 
-std::string Simulation::Impl::what_flies() const {
+std::string Simulation::Impl::what_flies(double least) const {
   constexpr double kNearly = 0.95;  // of the kinetic energy: of the first swing of a cantilever .61
   const std::vector<double>& m = elements.nodal_mass();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -133,15 +133,15 @@ std::string Simulation::Impl::what_flies() const {
       kinetic += 0.5 * m[i] * v[i].squaredNorm();
     }
     if (model.axisymmetric) momentum.x() = 0;  // outward
-    if (momentum.squaredNorm() > kNearly * 2 * mass * kinetic) return "body " + body.name + " goes as a whole, with " + three_digits(momentum.norm() / mass) + " m/s";
+    if (kinetic >= least && momentum.squaredNorm() > kNearly * 2 * mass * kinetic) return "body " + body.name + " goes as a whole, with " + three_digits(momentum.norm() / mass) + " m/s";
   }
   return "";
 }
 
 void Simulation::Impl::tell_flight(const Energies& energies) {
   constexpr double kLittle = 0.01;  // of what was put in
-  if (!stages.settling() || !plan.gravity.isZero(0) || energies.kinetic < kLittle * (energies.work + energies.initial)) return;
-  const std::string flying = what_flies();
+  if (!stages.settling() || !plan.gravity.isZero(0) || !what_moves().empty()) return;  // what falls or is driven is meant to move
+  const std::string flying = what_flies(kLittle * (energies.work + energies.initial));
   if (!flying.empty()) warnings.push_back(flying + " when stage " + stages.stage().title() + " begins, which brings it to rest: if it is to fly on, let a form stage last that long, and read its speed there");
 }
 
@@ -158,7 +158,7 @@ std::string Simulation::Impl::why_unsettled() const {
     pressures.add(time, x, loads);
     dead_loads.add(time, loads);
     const bool loaded = std::any_of(loads.begin(), loads.end(), [](const Node& f) { return !f.isZero(0); });
-    const std::string moving = what_moves(), flying = what_flies();
+    const std::string moving = what_moves(), flying = what_flies(0);
     if (!moving.empty()) text << moving << ": end it with a velocity of 0";
     else if (still_driven()) text << "a motion, a pressure or a load still changed: a longer limit lets them come to rest after it";
     else if (!flying.empty()) text << flying << (plan.gravity.isZero(0) ? "" : " under gravity") << ", and nothing stops it: hold it, or lay it on a tool that stays";

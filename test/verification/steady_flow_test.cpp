@@ -1,7 +1,11 @@
 // Bars of one-point cells that are drawn on and on: what their supports' start has set swinging dies, and the flow does not drive it on.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <string>
+#include <vector>
 
 #include "forming_sim/mesh/axis.h"
 #include "support/runs.h"
@@ -9,7 +13,7 @@
 namespace forming_sim {
 namespace {
 
-/// How a bar vibrates that is held and drawn by a speed that rises for `rise`, s, near the largest step that is stable: how far a node's velocity is from the middle of those a
+/// How a bar vibrates that is held and drawn by a speed that rises for `rise`, s, with `time_step.limit: element`: how far a node's velocity is from the middle of those a
 /// step before and after, m/s, root mean square over the second half of the run, of the node where it is most.
 double vibration(const BlankConfig& blank, bool axisymmetric, double duration, std::vector<BoundaryConfig> held, const std::string& end, const Vec3& speed, double rise) {
   MaterialConfig steel;

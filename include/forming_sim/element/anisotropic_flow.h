@@ -52,12 +52,12 @@ template <class T, int D, class Metric>
                        mean.slope * over * over * (T(4) * n.root * n.root * n.root + T(3) * n.varied * n.varied);
   T L = share * part_of_way(outside, n.root) * T(2) * n.root * (n.root - T(1)) / some_resistance(resistance);
   // S : m/h of the end, which s follows: it changes its sign where S will, not where its trial does
-  const T falls = T(3) * work(softer, there.part);  // per L
+  const T rises = T(3) * to.varied * over * to.over_root, falls = T(3) * work(softer, there.part) + mean.slope * over * rises * there.q.SS;  // per L
   const auto turned = (to.Sm * (to.Sm - L * falls) < T(0)) & (absolute(L * falls) > to.turn);
   if (any(turned)) L = select(turned, to.Sm / select(turned, falls, T(1)), L);
   repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] -= L * mean.modulus * by_S[i]; });
   ep = {ep.a + T(3) * L * by_s.a, ep.b + T(3) * L * by_s.b, ep.shear + T(3) * L * by_s.shear};
-  rise += T(3) * L * to.varied * over * to.over_root;
+  rise += L * rises;
   mean.harden(T(2) * L * over * to.root);
   return T(1.0 / 3) * work(moduli.stress(strain - ep), ep - before);
 }

@@ -56,7 +56,7 @@ template <class T> struct Normal {
   T along_S, across, along_s;
   T varied;  ///< d(Q_n + mu)/ds : S
   T Sm;      ///< S : m/h
-  T turn;    ///< the change of it along which the surface turns where Q_nm changes its sign
+  T turn;    ///< the change of it up to which it may change its sign: kTurn
 };
 
 /// dev s as what works on strains of the plane: dev s : dev r = work(s, deviatoric(r)).
@@ -139,7 +139,7 @@ template <class T> auto may_be_outside(const T& n2, const T& q2, const T& back, 
   return n2 * m2 > left * left;
 }
 
-/// Q_nm over Q_m by which a step may go beyond Q_nm = 0. The surface turns there over some Q_m, and is an edge where Q_m is 0.
+/// The change of Q_nm in a step, over Q_m, up to which it may change its sign. The surface turns there over some Q_m, and is an edge where Q_m is 0.
 constexpr double kTurn = 0.01;
 
 template <class T> [[gnu::always_inline]] inline Normal<T> normal(const Products<T>& q, const T& over, const T& back) {
