@@ -61,7 +61,9 @@ TEST(LoadsForceDrive, AStopHoldsItAndLetsItGo) {
     if (stood == 0 && drive.stands()) stood = t;
     if (stood > 0 && left == 0 && !drive.stands()) left = t;
     if (left > 0 && came == 0 && drive.stands()) came = t;
-    if (drive.stands() && t > stood + dt) EXPECT_TRUE(drive.inverse_mass(dt) == 0 && drive.free_speed(t, dt) == 0) << t;
+    if (drive.stands() && t > stood + dt) {
+      EXPECT_TRUE(drive.inverse_mass(dt) == 0 && drive.free_speed(t, dt) == 0) << t;
+    }
   }
   std::printf("  stands at %g s, leaves at %g s, comes to the other stop at %g s; way from %.9g to %.9g m\n", stood, left, came, lowest, highest);
   EXPECT_NEAR(stood, std::sqrt(2 * ahead / 20), 3 * dt);
