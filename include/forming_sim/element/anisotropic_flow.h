@@ -47,17 +47,14 @@ template <class T, int D, class Metric>
   const Normal<T> n = normal(here.q, over, back), to = normal(there.q, over, back);
   const Symmetric<T, D> by_S = there.by_S(to);
   const Plane<T> by_s = there.by_s(to), softer = moduli.stress(by_s);
-  // Newton's step on the root of Q_n + mu, along the flow of the end
-  const T resistance = mean.modulus * contract(here.by_S(n), by_S) + T(3) * work(softer, here.by_s(n)) +
-                       mean.slope * over * over * (T(4) * n.root * n.root * n.root + T(3) * n.varied * n.varied);
-  T L = share * part_of_way(outside, n.root) * T(2) * n.root * (n.root - T(1)) / some_resistance(resistance);
+  T L = step_to_surface(n, mean.modulus * contract(here.by_S(n), by_S) + T(3) * work(softer, here.by_s(n)), mean.slope, over, share, outside);  // along the flow of the end
   // S : m/h of the end, which s follows: it changes its sign where S will, not where its trial does
-  const T rises = T(3) * to.varied * over * to.over_root, falls = T(3) * work(softer, there.part) + mean.slope * over * rises * there.q.SS;  // per L
+  const T falls = T(3) * work(softer, there.part) + mean.slope * over * to.rises * there.q.SS;  // per L
   const auto turned = (to.Sm * (to.Sm - L * falls) < T(0)) & (absolute(L * falls) > to.turn);
   if (any(turned)) L = select(turned, to.Sm / select(turned, falls, T(1)), L);
   repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] -= L * mean.modulus * by_S[i]; });
   ep = {ep.a + T(3) * L * by_s.a, ep.b + T(3) * L * by_s.b, ep.shear + T(3) * L * by_s.shear};
-  rise += L * rises;
+  rise += L * to.rises;
   mean.harden(T(2) * L * over * to.root);
   return T(1.0 / 3) * work(moduli.stress(strain - ep), ep - before);
 }

@@ -39,7 +39,7 @@ template <class T> class RateOfFlow {
 
   const RateLaw& law_;
   T most_, radial_, B_, R_;
-  T dp_, last_;  ///< of the last flow but one, and its R
+  T dp_, last_;  ///< of the flow that was followed last, and its R
 };
 
 }  // namespace forming_sim

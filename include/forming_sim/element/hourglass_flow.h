@@ -52,11 +52,12 @@ template <class T> struct Products {
 /// What one coordinate's surface finds. Its gradients lie between S and dev s:
 /// d(Q_n + mu)/dS = along_S S + across dev s, d(Q_n + mu)/ds = across S + along_s dev s, 1/Pa.
 template <class T> struct Normal {
-  T root, over_root;  ///< sqrt(Q_n + mu), at least 1, and 1 over it
+  T root;  ///< sqrt(Q_n + mu), at least 1
   T along_S, across, along_s;
   T varied;  ///< d(Q_n + mu)/ds : S
+  T rises;   ///< p' per L
   T Sm;      ///< S : m/h
-  T turn;    ///< the change of it up to which it may change its sign: kTurn
+  T turn;    ///< the change of it up to which it may change its sign: kSmoothTurn
 };
 
 /// dev s as what works on strains of the plane: dev s : dev r = work(s, deviatoric(r)).
@@ -140,7 +141,7 @@ template <class T> auto may_be_outside(const T& n2, const T& q2, const T& back, 
 }
 
 /// The change of Q_nm in a step, over Q_m, up to which it may change its sign. The surface turns there over some Q_m, and is an edge where Q_m is 0.
-constexpr double kTurn = 0.01;
+constexpr double kSmoothTurn = 0.01;
 
 template <class T> [[gnu::always_inline]] inline Normal<T> normal(const Products<T>& q, const T& over, const T& back) {
   constexpr double h = kFaceStress;
@@ -149,14 +150,14 @@ template <class T> [[gnu::always_inline]] inline Normal<T> normal(const Products
   Normal<T> r;
   r.root = sqrt(larger(Q.n + T(0.5) * Q.m + mu_root, T(1)));
   const T one = T(1) / (mu_root * r.root), safe = one * r.root;
-  r.over_root = one * mu_root;
   const T by_S = T(h) * Q.scale * Q.nm * safe, by_m = T(h * h) * Q.scale * (T(1) + T(0.5) * Q.m * safe);  // of d mu/dm, by S and by m/h
   r.along_s = by_m;
   r.across = by_S - back * by_m;
   r.along_S = T(2) * Q.scale - back * (by_S + r.across);
   r.varied = r.along_s * q.Ss + r.across * q.SS;
+  r.rises = T(3) * r.varied * over * (one * mu_root);
   r.Sm = Q.Sm;
-  r.turn = T(kTurn) * Q.m / (T(h) * Q.scale);
+  r.turn = T(kSmoothTurn) * Q.m / (T(h) * Q.scale);
   return r;
 }
 
@@ -172,6 +173,13 @@ template <class T> T part_of_way(const T& outside, const T& root) {
 
 /// 1 in place of none: cells of a pack that have no stress at all go along with those that flow, and perfect metal does not harden there; the step they would take is 0.
 template <class T> T some_resistance(const T& resistance) { return select(absolute(resistance) > T(1e-300), resistance, T(1)); }
+
+/// L of a Newton's step on root = sqrt(Q_n + mu), which is of first degree in the stresses: far outside it is the radial return. elastic: by what the stresses along the flow fall
+/// per L; hardening adds to it.
+template <class T> T step_to_surface(const Normal<T>& n, const T& elastic, const T& slope, const T& over, const T& share, const T& outside) {
+  const T resistance = elastic + slope * over * over * (T(4) * n.root * n.root * n.root + T(3) * n.varied * n.varied);
+  return share * part_of_way(outside, n.root) * T(2) * n.root * (n.root - T(1)) / some_resistance(resistance);
+}
 
 /// Where one coordinate is farther outside than that, S and s go back along themselves first, as they would by the radial return.
 template <class T, int D>
@@ -207,24 +215,20 @@ template <class T, int D>
   }
   const Plane<T> direction{n.across * part.a + n.along_s * dev_s.a, n.across * part.b + n.along_s * dev_s.b, n.across * part.shear + n.along_s * dev_s.shear};
   const Plane<T> softer = moduli.stress(direction);
-  // Newton's step on root = sqrt(Q_n + mu), which is of first degree in the stresses: far outside it is the radial return.
-  const T& root = n.root;
   const T squared = n.along_S * (n.along_S * q.SS + T(2) * n.across * q.Ss) + n.across * n.across * q.ss;
-  const T resistance = mean.modulus * squared + T(3) * work(softer, direction) + mean.slope * over * over * (T(4) * root * root * root + T(3) * n.varied * n.varied);
-  T L = share * part_of_way(outside, root) * T(2) * root * (root - T(1)) / some_resistance(resistance);
+  T L = step_to_surface(n, mean.modulus * squared + T(3) * work(softer, direction), mean.slope, over, share, outside);
   const T of_S = mean.modulus * n.along_S, of_s = mean.modulus * n.across;  // S becomes (1 - L of_S) S - L of_s dev s
   const T kept = T(1) - L * of_S, lost = L * of_s, three = T(3) * L;
-  const T rises = T(3) * n.varied * over * n.over_root;  // p' per L
   const T after = kept * (q.Ss - three * work(softer, part)) - lost * (q.ss - three * work(softer, dev_s)) -
-                  (back + mean.slope * over * L * rises) * (kept * (kept * q.SS - T(2) * lost * q.Ss) + lost * lost * q.ss);
+                  (back + mean.slope * over * L * n.rises) * (kept * (kept * q.SS - T(2) * lost * q.Ss) + lost * lost * q.ss);
   const auto turned = (n.Sm * after < T(0)) & (absolute(n.Sm - after) > n.turn);
   if (any(turned)) L *= select(turned, n.Sm / select(turned, n.Sm - after, T(1)), T(1));
   const Plane<T> rate{T(3) * L * direction.a, T(3) * L * direction.b, T(3) * L * direction.shear};
   const Symmetric<T, D> deviator = at.deviator(s);
   repeat<Symmetric<T, D>::size>([&](auto i) { mean.S[i] = (T(1) - L * of_S) * mean.S[i] - L * of_s * deviator[i]; });
   ep = {ep.a + rate.a, ep.b + rate.b, ep.shear + rate.shear};
-  rise += L * rises;
-  mean.harden(T(2) * L * over * root);
+  rise += L * n.rises;
+  mean.harden(T(2) * L * over * n.root);
   return T(1.0 / 3) * work(moduli.stress(strain - ep), ep - before);
 }
 
